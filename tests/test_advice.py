@@ -371,7 +371,7 @@ def test_advise_reads_a_case_and_refuses_flags_beside_it(tmp_path, capsys):
     expected = vt.advise(silicone(100e-6))
     assert found["strain"] == pytest.approx(expected.strain, rel=1e-9, abs=0)
     assert exit_status(["advise", file, "--tabor", "1"]) == 2
-    assert "leave out --tabor" in capsys.readouterr().err
+    assert "remove --tabor" in capsys.readouterr().err
     assert exit_status(["advise"]) == 2
     assert "missing" in capsys.readouterr().err
 
@@ -486,7 +486,7 @@ def test_theory_refuses_what_is_impossible(tmp_path, capsys):
         (["theory", "maugis", "--tabor", "-1"], "--tabor must be positive"),
         (["theory", "greenwood", "--material", "sls"], "--modulus-ratio missing"),
         (["theory", "persson-brener", "--material", "elastic"], "amplification of 1"),
-        (["theory", "jkr", *JKR, "--plot", tmp_path / "none" / "a.png"], "no folder"),
+        (["theory", "jkr", *JKR, "--plot", tmp_path / "none" / "a.png"], "none does not exist"),
     ):
         assert exit_status(arguments) == 2
         out, err = capsys.readouterr()

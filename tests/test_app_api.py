@@ -110,7 +110,7 @@ def test_a_sweep_has_a_row_for_each_case_and_says_why_one_failed(ask):
     assert bad["outputs"] is None and "speed must be positive" in bad["reason"]
     assert found["rows"] == found["answer"]["rows"] and found["answer"]["failed"] == 1
     many = ask.job("sweep", cases=cases * 2)
-    assert many.status_code == 422 and "more than the 3" in many.json()["error"]
+    assert many.status_code == 422 and "exceed the limit of 3" in many.json()["error"]
 
 
 def test_a_job_that_has_no_answer_says_why(ask):
@@ -155,7 +155,7 @@ def test_a_job_beyond_its_time_is_refused_and_the_next_is_served(ask, engine, mo
         patch.setattr(engine, "limits", replace(engine.limits, job_time=0.0))
         found = ask.answer(ask.job("simulate", accuracy=1e-6).json()["id"])
     assert found["state"] == "refused"
-    assert "it took longer than the 0 s that this server gives it" in found["error"]
+    assert "exceeded the time limit of 0 s of this server" in found["error"]
     assert ask.answer(ask.job("simulate", accuracy=0.02).json()["id"])["state"] == "done"
 
 
@@ -210,7 +210,7 @@ def test_a_hundred_jobs_queued_and_cancelled_leave_no_process(ask, engine):
     before = set(engine.processes())
     ids = [ask.job("simulate", accuracy=1e-6).json()["id"] for _ in range(101)]
     full = ask.job("simulate")
-    assert full.status_code == 429 and "101 jobs wait or go on" in full.json()["error"]
+    assert full.status_code == 429 and "101 jobs are waiting or running" in full.json()["error"]
     states = {ask("DELETE", f"/api/jobs/{id}").json()["state"] for id in ids}
     assert states == {"cancelled"}
     # one that did not stop by itself was ended, and another may have taken its place
@@ -225,7 +225,7 @@ def test_what_is_wrong_is_said_in_words_and_not_as_a_failure(ask):
         ({"problem": FIRST, "confidence": 0.42}, "confidence must be one of"),
         ({"problem": FIRST, "acuracy": 1}, "predict has no option 'acuracy'"),
         ({"problem": {"type": "Sphere", "radius": 1.0}}, "got a Sphere"),
-        ({"problem": FIRST | {"sphere": {"radius": "5 kg"}}}, "does not measure the right thing"),
+        ({"problem": FIRST | {"sphere": {"radius": "5 kg"}}}, "has the wrong dimension"),
     ):
         answer = ask("POST", "/api/predict", json=asked)
         assert answer.status_code == 422 and said in answer.json()["error"]

@@ -91,7 +91,7 @@ def test_tables_have_a_bound(tmp_path, capsys):
     table = tmp_path / "table.csv"
     rows = "\n".join(f"{1 + i},{i}" for i in range(10_002))
     table.write_text(f"time_s,displacement_um\n{rows}\n")
-    with pytest.raises(InputError, match="at most 10,001 rows .* got 10,002; leave out rows"):
+    with pytest.raises(InputError, match="at most 10,001 rows .* got 10,002; remove rows"):
         history_from_file(table, 1e-6)
     table.write_text(f"gap_um,traction_kPa\n{rows}\n")
     words = refused(capsys, "--rate", "1", "--law", f"table:{table}")
@@ -199,7 +199,7 @@ def test_in_si_the_number_is_said_as_it_was_given(tmp_path):
     ("tabor", "said"),
     [
         ("1e-300", "--tabor must be at least 1e-06 for a simulation, got 1e-300"),
-        ("1e-6", "--preload 5, at --tabor 1e-06, is"),
+        ("1e-6", "--preload 5 at --tabor 1e-06 gives"),
     ],
 )
 def test_a_tiny_tabor_number_is_not_taken_for_a_large_preload(tabor, said, capsys):

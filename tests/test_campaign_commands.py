@@ -106,9 +106,9 @@ def test_a_run_that_was_stopped_has_another_exit_status(cases, tmp_path, monkeyp
     monkeypatch.setattr("viscotack.campaign.run", killed)
     assert call("run", cases, "--out", tmp_path / "study") == 1
     out, err = capsys.readouterr()
-    assert out == "" and "ended at once; what is stored in" in err and "is safe" in err
+    assert out == "" and "interrupted; the stored rows in" in err and "are safe" in err
     assert call("run", cases, "--out", tmp_path / "study", "--json") == 1
-    assert json.loads(capsys.readouterr().out) == {"stopped": True, "reason": "ended at once"}
+    assert json.loads(capsys.readouterr().out) == {"stopped": True, "reason": "interrupted"}
 
 
 def test_cases_without_a_result_have_an_exit_status(tmp_path, crew, capsys):
@@ -137,7 +137,7 @@ def test_progress_is_told_now_and_then_and_at_once_when_a_run_is_to_stop(
 
     monkeypatch.setattr("viscotack.campaign.run", some)
     assert call("run", cases, "--out", tmp_path / "study") == 1
-    stop = "3 of 4 stored, 0 failed, 1.0 cases/s; finishing the cases in flight"
+    stop = "3 of 4 stored, 0 failed, 1.0 cases/s; finishing the running cases"
     assert capsys.readouterr().err.splitlines() == [stop]
     monkeypatch.setattr("viscotack.app.cli.reading.LINES", -1.0)
     assert call("run", cases, "--out", tmp_path / "study") == 1
@@ -196,12 +196,12 @@ def test_what_is_wrong_is_said_in_a_paragraph(cases, tmp_path, capsys):
     assert "--out is missing" in wrong(capsys, "run", cases)
     assert "no file" in wrong(capsys, "run", tmp_path / "no.csv", "--out", tmp_path / "x")
     assert "until must be" in wrong(capsys, "run", cases, "--out", tmp_path, "--until", "later")
-    assert "those of the folder" in wrong(capsys, "run", "--out", tmp_path, "--accuracy", 1e-3)
-    assert "give the plan" in wrong(capsys, "run", "--out", tmp_path, "--shard", "1/2")
+    assert "stored in the folder" in wrong(capsys, "run", "--out", tmp_path, "--accuracy", 1e-3)
+    assert "needs the plan" in wrong(capsys, "run", "--out", tmp_path, "--shard", "1/2")
     assert "--out is missing" in wrong(capsys, "merge", tmp_path)
     assert "holds no campaign" in wrong(capsys, "status", tmp_path)
     assert "no file" in wrong(capsys, "export", tmp_path / "no", "--csv", tmp_path / "t.csv")
-    assert "say what to write" in wrong(capsys, "export", tmp_path)
+    assert "no output; give" in wrong(capsys, "export", tmp_path)
     assert "ending must be .mat" in wrong(capsys, "export", tmp_path, "--mat", tmp_path / "t.csv")
 
 

@@ -115,7 +115,7 @@ def test_why_a_machine_is_given_nothing_is_said(clock, told, error, words):
     clock[0] += cluster._FIRST - 0.1
     assert crew.room() == 0
     clock[0] += 0.2
-    with pytest.raises(NoWorker, match=f"no worker of tcp://here:8786 may be .*: {words}"):
+    with pytest.raises(NoWorker, match=f"no worker of tcp://here:8786 can run .*: {words}"):
         crew.room()
 
 
@@ -127,7 +127,7 @@ def test_three_machines_are_named_and_the_others_counted(clock):
         client.last(address).end({"viscotack": "0.0"})
     crew.collect(0.0)
     clock[0] += 100.0
-    with pytest.raises(NoWorker, match="a: it is.*b: it is.*c: it is.* and 2 more; workers must"):
+    with pytest.raises(NoWorker, match="a: it is.*b: it is.*c: it is.* and 2 more; workers need"):
         crew.room()
 
 
@@ -261,7 +261,7 @@ class Thread:
         if self.waits >= 0:
             return []
         if self.problem == "none":
-            raise NoWorker("no worker can begin")
+            raise NoWorker("no worker can start")
         return [(0, ANSWER)]
 
     def dismiss(self, *, at_once):
@@ -282,7 +282,7 @@ def test_a_thread_of_a_cluster_keeps_a_process_of_its_own(monkeypatch):
     # other work has another process
     assert do_case(b"other", settings, problem, who) == ANSWER
     assert [one.left for one in Thread.made] == [True, False]
-    assert do_case(b"other", settings, "none", who) == "no worker can begin"
+    assert do_case(b"other", settings, "none", who) == "no worker can start"
     assert do_case(b"other", settings, problem, who) == ANSWER and len(Thread.made) == 3
 
 

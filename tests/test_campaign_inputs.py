@@ -204,7 +204,7 @@ def test_points_whose_numbers_do_not_go_together_are_left_out_and_counted(tmp_pa
     (tmp_path / "plan.toml").write_text(text + '{ log = ["0.5 MPa", "50 MPa"] }\n')
     assert exit_status(["campaign", "plan", tmp_path / "plan.toml"]) == 0
     out = capsys.readouterr().out
-    assert "points are no contacts" in out and "left out, for one: " in out and "modulus" in out
+    assert "points without a contact" in out and "first skipped point: " in out and "modulus" in out
 
 
 @pytest.mark.parametrize(
@@ -216,7 +216,11 @@ def test_points_whose_numbers_do_not_go_together_are_left_out_and_counted(tmp_pa
         (CONE, {"protocol.moves.7.speed": {"log": [1, 2]}}, "at '7' there is 0, 1, 2"),
         (CONE, {"protocol.moves.1": {"log": [1, 2]}}, "is not a number of the problem but"),
         (CONE, {"protocol.moves.2.hold": {"log": [1, 2]}}, "is not a number .* but 'force'"),
-        (CONE, {"protocol.speed": {"log": ["1 um", "2 um"]}}, "protocol.speed: '1 um' does not me"),
+        (
+            CONE,
+            {"protocol.speed": {"log": ["1 um", "2 um"]}},
+            "protocol.speed: '1 um' has the wrong dimension",
+        ),
         (CONE, {"protocol.speed": {"log": ["1", "2"]}}, "protocol.speed: '1' has no unit"),
         (CONE, {"protocol.speed": ["1 um/s"]}, "at least one range|must be a number"),
         (TIP, {"geometry.exponent": {"linear": [1, 2]}}, "another shape with every exponent"),
@@ -228,7 +232,7 @@ def test_points_whose_numbers_do_not_go_together_are_left_out_and_counted(tmp_pa
                 "geometry.at_radius": 1e-4,
                 "geometry.coefficient": {"log": [1, 2]},
             },
-            "say the same; leave out one",
+            "define the same; remove one",
         ),
         (
             PAD,

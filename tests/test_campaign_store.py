@@ -347,7 +347,7 @@ def test_a_full_disk_is_named_and_leaves_the_table_as_it_was(tmp_path, monkeypat
 
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", full)
-        with pytest.raises(OSError, match="no space left for .*make room and run again"):
+        with pytest.raises(OSError, match="no space left for .*free space and repeat"):
             appended(parts, 1, begin=3)
     assert len(files(parts)) == 3 and names(parts) == [f"case {i}" for i in range(3)]
     appended(parts, 1, begin=3)

@@ -132,7 +132,7 @@ def test_a_suspended_worker_is_killed_when_it_gives_no_sign_of_life(clock, began
         suspend(crew.processes()[0])
         assert crew.collect(0.0) == []
         clock.now += 60.1
-        assert answer_of(crew) == Lost("its worker process gave no sign of life for 60 s")
+        assert answer_of(crew) == Lost("its worker process sent no heartbeat for 60 s")
 
 
 def test_a_run_that_was_halted_takes_no_case_for_slow(clock, monkeypatch):
@@ -257,7 +257,7 @@ def test_a_worker_that_cannot_begin_ends_the_run(tmp_path, monkeypatch):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
     monkeypatch.setattr(supervisor, "_program", lambda *_: "import time; time.sleep(60)")
     monkeypatch.setattr(supervisor, "_START", 0.2)
-    with pytest.raises(NoWorker, match="did not begin in 0.2 s"):
+    with pytest.raises(NoWorker, match="did not start within 0.2 s"):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
 
 

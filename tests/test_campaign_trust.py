@@ -48,7 +48,7 @@ def test_no_bit_that_turns_is_read_as_other_data(study):
 
 def test_what_is_as_it_was_written_is_said_so(study, capsys):
     assert exit_status(["campaign", "verify", study]) == 0
-    assert "20 rows in 2" in (out := capsys.readouterr().out) and "all as it was" in out
+    assert "20 rows in 2" in (out := capsys.readouterr().out) and "complete and unchanged" in out
     assert exit_status(["campaign", "verify", study, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["rows"] == 20 and answer["wrong"] == answer["strange"] == []
@@ -65,10 +65,10 @@ def test_what_is_not_as_it_was_written_is_named(study, capsys):
     gone.unlink()
     assert exit_status(["campaign", "verify", study]) == 1
     out = capsys.readouterr().out
-    assert f"wrong: {part} is damaged" in out and "something is wrong" in out
+    assert f"wrong: {part} is damaged" in out and "differences found" in out
     assert f"wrong: {study / 'plan.toml'} is not what was written" in out
     assert f"wrong: {gone} is missing: 1 rows" in out
-    assert f"not of this campaign, and not read: {study / 'results/000001-999999.parquet'}" in out
+    assert f"not part of this campaign, ignored: {study / 'results/000001-999999.parquet'}" in out
 
 
 def test_a_part_that_was_removed_is_noted_and_its_cases_run_again(study, crew):
@@ -177,9 +177,9 @@ def test_a_file_of_ones_own_that_was_edited_is_refused(tmp_path, crew):
     text = 'with = ["my.py"]\n'
     run(plan_of(tmp_path, cases=3, text=text, own=[own]), tmp_path / "c", work=stand_in)
     own.write_text(source + "\n# and more\n")
-    with pytest.raises(InputError, match="edited since, or are others.*my.py"):
+    with pytest.raises(InputError, match="edited or replaced since.*my.py"):
         run(plan_of(tmp_path, cases=4, text=text, own=[own]), tmp_path / "c", work=stand_in)
-    edited_plan = "my.py has been edited since this campaign was planned.*put it back"
+    edited_plan = "my.py has been edited since this campaign was planned.*restore the file"
     shutil.rmtree(tmp_path / "c/results")
     with pytest.raises(InputError, match=edited_plan):
         run(None, tmp_path / "c", own=[own], work=stand_in)
@@ -275,12 +275,12 @@ def test_a_link_in_place_of_the_lock_is_refused_and_its_target_left_alone(tmp_pa
     target.write_text("precious")
     (tmp_path / "c").mkdir()
     (tmp_path / "c/lock").symlink_to(target)
-    with pytest.raises(InputError, match="lock is a link.*remove it"):
+    with pytest.raises(InputError, match="is a link, not a regular file; remove it"):
         run(plan_of(tmp_path), tmp_path / "c")
     assert target.read_text() == "precious"
     (tmp_path / "c/lock").unlink()
     os.mkfifo(tmp_path / "c/lock")
-    with pytest.raises(InputError, match="lock is no file"):
+    with pytest.raises(InputError, match="not a regular file"):
         run(plan_of(tmp_path), tmp_path / "c")
 
 

@@ -148,7 +148,7 @@ def test_every_start_can_be_written(line, start, tmp_path):
         (edited('"5.19 mm"', '"5.19"'), r"\[sphere\] radius: '5.19' has no unit"),
         (
             edited('"5.19 mm"', '"5.19 Pa"'),
-            r"\[sphere\] radius: '5.19 Pa' .* something in m; for example radius = \"5.19 mm\"",
+            r"\[sphere\] radius: '5.19 Pa' .* a quantity in m; for example radius = \"5.19 mm\"",
         ),
         (edited('"5.19 mm"', '"-5.19 mm"'), r"\[sphere\] radius must be positive"),
         (
@@ -238,7 +238,7 @@ def test_a_prony_series_is_read_in_its_own_unit_of_time(text, branches, unit, tm
     [
         ("", "first row must be"),
         ("E,tau\n5,2\n", "first row must be .* got 'E,tau'"),
-        ("modulus_ratio,relaxation_time_kg\n5,2\n", "expected something in s"),
+        ("modulus_ratio,relaxation_time_kg\n5,2\n", "expected a quantity in s"),
         ("modulus_ratio,relaxation_time_s\n", "no branch below the header"),
         ("# x\nmodulus_ratio,relaxation_time_s\n5,2\n5,-2\n", "line 4: time must be positive"),
         ("modulus_ratio,relaxation_time_s\n5,two\n", "line 2: time must be a number in s"),

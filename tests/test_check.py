@@ -542,7 +542,7 @@ MUTANTS: dict[str, tuple[Any, str]] = {
     "not passive": (Active(**SOLID), "passive: the loss modulus is not negative"),
     "another complex modulus": (Shifted(**SOLID), "compliance is the transform of the creep"),
     "not reduced": (Unreduced(**SOLID), "reduced: rubbery modulus 1, time unit 1"),
-    "without a card": (Cardless(**SOLID), "does not say what extra is measured in"),
+    "without a card": (Cardless(**SOLID), "has no card and so no unit"),
     "energy off by a factor": (Factored(WORK, GAP), "derivative of the energy by the gap"),
     "stiffness of the wrong sign": (Wrong(WORK, GAP), "stiffness is the derivative"),
     "strength too large": (Strong(WORK, GAP), "strength is the largest traction"),
@@ -554,9 +554,9 @@ MUTANTS: dict[str, tuple[Any, str]] = {
     "not reciprocal": (Lopsided(1e-4), "reciprocity: compliance is symmetric"),
     "negative energy": (Springy(1e-4), "energy is positive"),
     "units of thickness": (Unmeasured(1e-4), "reduced: influence with lengths in another unit"),
-    "boastful": (Boastful(), "an unknown solid is not covered"),
+    "boastful": (Boastful(), "an unverified solid is not covered"),
     "interval beside the force": (Sure(), "the interval holds the force"),
-    "another answer in SI": (Dimensional(), "same digits as without dimensions"),
+    "another answer in SI": (Dimensional(), "same value as its dimensionless form"),
 }
 
 
@@ -583,7 +583,10 @@ def test_a_broken_noun_fails_in_words_that_name_the_identity(noun, words):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("observable", "words"),
-    [(SI_ONLY, "scale-free: SI changes nothing"), (STEPS, "refinement of steps and nodes")],
+    [
+        (SI_ONLY, "the dimensionless value is the same in SI"),
+        (STEPS, "refinement of steps and nodes"),
+    ],
     ids=["in newtons", "number of steps"],
 )
 def test_a_broken_observable_fails_in_words(observable, words):

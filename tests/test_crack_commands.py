@@ -111,4 +111,4 @@ def test_a_contact_in_si_units_is_printed_in_si_units_and_as_text(capsys):
 def test_a_contact_that_the_theory_does_not_hold_for_is_refused(capsys):
     problem = ["--tabor", 0.5, "--material", "sls", "--modulus-ratio", 0.1]
     assert exit_status(["theory", "crack-contact", *problem, "--preload", 20, "--rate", 1]) == 2
-    assert "zone at the edge is too large" in capsys.readouterr().err
+    assert "cohesive zone is too large" in capsys.readouterr().err

@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from doors import Http, Question, by_command, by_form, by_http, by_python, by_study
+from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
 from viscotack.campaign import Store, read_plan, run
 
 CASE = """

@@ -222,7 +222,7 @@ def test_from_the_files_of_a_rig_to_the_interface(tmp_path, capsys):
     assert exit_status(command) == 0
     assert "work of adhesion" in capsys.readouterr().out
     assert exit_status([*command, "--work-of-adhesion", "152 mJ/m2"]) == 2
-    assert "go together" in capsys.readouterr().err
+    assert "belong together" in capsys.readouterr().err
 
 
 @pytest.mark.slow

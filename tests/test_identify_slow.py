@@ -169,4 +169,4 @@ def test_the_command_prints_the_result_of_the_function(tmp_path, capsys):
     assert exit_status([*arguments, "--cycle", "2"]) == 2
     assert "--cycle must be 1 to 1" in capsys.readouterr().err
     assert exit_status([*arguments, "--contact-modulus", "2 MPa"]) == 2
-    assert "go together" in capsys.readouterr().err
+    assert "belong together" in capsys.readouterr().err

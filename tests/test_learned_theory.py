@@ -133,7 +133,7 @@ def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
         alone = vt.crack_contact(case).pull_off_force
         assert found.pull_off_force == pytest.approx(alone, rel=1e-5, abs=0)
     assert isinstance(together[2], vt.OutOfRange)
-    with pytest.raises(vt.InputError, match="share solid, law and shape"):
+    with pytest.raises(vt.InputError, match="need the same material, traction law and shape"):
         crack_contacts([cases[0].groups(), problem(exponent=1.0).groups()])
     assert crack_contacts([]) == []
 

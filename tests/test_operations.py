@@ -13,7 +13,7 @@ import pytest
 
 import tack_files
 import viscotack.operations
-from doors import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
+from front_ends import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
 from stated import PUNCH, SPHERE
 from viscotack.app import cli
 from viscotack.app.api import application
@@ -274,10 +274,10 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
     for other in ("lens_1_um_s.csv", "asked.toml"):
         study.write_text(asked + f'csv = "{other}"\n')
         status, _, words = run(["study", study])
-        assert status == 2 and "is the file that is read" in words
+        assert status == 2 and "is an input file" in words
     study.write_text('operation = "simulate"\nproblem = "lens.toml"\n[write]\ncsv = "lens.toml"')
     status, _, words = run(["study", study])
-    assert status == 2 and "is the file that is read" in words
+    assert status == 2 and "is an input file" in words
     assert (folder / "lens_1_um_s.csv").read_bytes() == before
 
 
@@ -296,7 +296,7 @@ def test_every_operation_is_known_to_every_door_or_refused_in_words(http):
             for place in ("/api", "/api/jobs"):
                 answer = http(f"{place}/{path}", json={})
                 assert answer.status_code == 422
-                assert answer.json()["error"].endswith(f"not answered over HTTP: {reason}")
+                assert answer.json()["error"].endswith(f"not available over HTTP: {reason}")
         else:
             assert {f"/api/{path}", f"/api/jobs/{path}"} <= posts
         command = [*word.split(), "case"] if word == "simulate" else word.split()
@@ -399,16 +399,16 @@ def test_what_is_declared_wrongly_is_found_when_it_is_read():
 
 
 def test_a_misspelt_option_is_refused_with_the_nearest_name(folder):
-    with pytest.raises(InputError, match="no option 'radious'; perhaps radius is meant"):
+    with pytest.raises(InputError, match="no option 'radious'; did you mean radius"):
         ask("identify rates", files=LENS, material="pdms-10-1", radious="5 mm")
 
 
 def test_an_operation_that_does_not_exist_is_refused_with_those_that_do():
-    with pytest.raises(InputError, match="there is no operation 'predikt'; there are advise"):
+    with pytest.raises(InputError, match="unknown operation 'predikt'; known are advise"):
         ask("predikt")
 
 
 def test_the_words_of_a_budget_are_those_of_predict():
     usual = inspect.signature(viscotack.predict).parameters["budget"].default
     (budget,) = (o for o in options(operation("predict")) if o.name == "budget")
-    assert budget.words.endswith(f" Else {usual:g} s.") and budget.default is None
+    assert budget.words.endswith(f" Default: {usual:g} s.") and budget.default is None

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from doors import run
+from front_ends import run
 from stated import SPHERE
 from viscotack.app.cli import application
 from viscotack.app.engine.jobs import harmless_name
@@ -62,7 +62,7 @@ def test_a_case_of_a_punch_that_was_sent_reads_no_file_beside_those_sent(
 @pytest.mark.parametrize("word", ["forecast", "report"])
 def test_a_study_that_forecasts_from_itself_is_refused(sent, word):
     study = f'operation = "{word}"\nstudy = "study.toml"\n'
-    with pytest.raises(InputError, match="a forecast starts from a study of identify rates"):
+    with pytest.raises(InputError, match="a forecast needs a study of identify rates"):
         sent(word, {"study": "study.toml"}, {"study.toml": study})
 
 
@@ -174,7 +174,7 @@ def study(lab, text):
 )
 def test_a_study_never_writes_over_what_it_reads(lab, text, name):
     status, words = study(lab, text)
-    assert status == 2 and "is the file that is read" in words
+    assert status == 2 and "is an input file" in words
     assert not (lab / name).read_text().startswith(("file,", "time,"))
 
 
@@ -199,8 +199,8 @@ def test_a_study_of_a_report_says_where_the_page_goes(lab):
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        (["--corner", "-"], "--corner -: a picture is not text"),
-        (["--corner", "corner.txt"], "its ending must be one of"),
+        (["--corner", "-"], "--corner -: a picture is binary"),
+        (["--corner", "corner.txt"], "the file name must end in one of"),
     ],
 )
 def test_every_picture_is_refused_before_the_work(flags, words):
@@ -221,7 +221,7 @@ def test_no_output_takes_the_place_of_a_file_among_words(read, tmp_path, monkeyp
     if read[0] == "--with":
         flags += ["--material", "elastic"]
     status, _, err = run(["simulate", "sphere", *flags, *read])
-    assert status == 2 and "is the file that is read" in err
+    assert status == 2 and "is an input file" in err
 
 
 LONG = "[material]\nmodel = 'prony'\n" + "# a branch\n" * 100

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from doors import Http, run
+from front_ends import Http, run
 from viscotack.operations import ask, operations
 from viscotack.operations.declare.options import options
 

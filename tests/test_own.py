@@ -296,7 +296,7 @@ def test_a_constant_without_a_card_is_named_on_the_way_to_si():
 
     groups = vt.Groups(3.0, Bare(rubbery_modulus=1.0, poisson_ratio=0.0), vt.AtDepth(1.0), 1.0)
     scales = dict(radius=1e-3, contact_modulus=1e6, time_unit=1.0, poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):
+    with pytest.raises(ValueError, match="Bare.extra has no card and so no unit"):
         groups.in_si(**scales, work_of_adhesion=0.05)
 
 
@@ -316,7 +316,7 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
         with pytest.raises(ValueError, match="'Poor' is not a law, material, shape or body"):
             known((poor,))
     bare = type("Bare", (MORSE,), {"word": "bare", "__annotations__": {"extra": float}})
-    with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):
+    with pytest.raises(ValueError, match="Bare.extra has no card and so no unit"):
         known((dataclass(frozen=True)(bare),))
 
 
@@ -345,7 +345,7 @@ def test_a_file_that_ends_the_program_is_refused(tmp_path):
 
 def test_an_unknown_name_raises_an_error_with_its_source(case_file):
     done = CliRunner().invoke(application(), ["simulate", "case", str(case_file)])
-    assert done.exit_code == 2 and "one of your own comes --with FILE.py" in done.stderr
+    assert done.exit_code == 2 and "give a user-defined one with --with FILE.py" in done.stderr
 
 
 def test_a_geometry_that_is_not_reduced_is_refused():

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 import viscotack as vt
-from doors import Http, Question, by_command, by_form, by_http, by_python, by_study
+from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
 from viscotack.app.cli import application
 from viscotack.app.engine.overview import quick
 from viscotack.campaign import Store, read_plan, run

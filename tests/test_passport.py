@@ -205,7 +205,7 @@ def test_flags_may_name_a_passport(tmp_path):
     assert solid.tau0 == pdms.material.tau0
     assert solid.poisson_ratio == 0.5
     for flag, value in (("exponent", 0.3), ("tau0", "1 s"), ("modulus-ratio", 0.1)):
-        with pytest.raises(ValueError, match=f"states the whole material; leave out --{flag}"):
+        with pytest.raises(ValueError, match=f"defines the whole material; remove --{flag}"):
             questions.stated(questions.SPHERE, flags | scales | {flag: value})
 
 

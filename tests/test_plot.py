@@ -95,7 +95,7 @@ def test_rates_are_drawn_in_millinewton_beside_the_elastic_value():
     assert curve(axes).get_markerfacecolor() == "none"
     (elastic,) = [line for line in axes.lines if "elastic" in line.get_label()]
     np.testing.assert_allclose(elastic.get_ydata(), 3.9)
-    assert elastic.get_label() == "elastic, infinitely slow: 3.9 mN"
+    assert elastic.get_label() == "elastic (slow limit): 3.9 mN"
     assert axes.get_xscale() == "log"
     assert axes.get_xlabel() == "retraction speed [µm/s]"
     assert axes.get_ylabel() == "pull-off force [mN]"
@@ -136,7 +136,7 @@ def test_the_style_is_readable_from_the_back_of_a_room():
 def test_an_unknown_format_is_refused_before_the_work():
     check_format("figure.PNG")
     with pytest.raises(
-        ValueError, match=r"cannot draw to 'figure.docx': its ending must be one of"
+        ValueError, match=r"cannot draw to 'figure.docx': the file name must end in one of"
     ):
         check_format("figure.docx")
     with pytest.raises(ValueError, match="cannot draw to 'figure'"):
@@ -151,12 +151,12 @@ def test_energy_picture_shows_where_the_work_went():
     result = solve(groups, accuracy=8e-3, estimate_error=False)
     left, right = draw_energy(result).axes
     labels = [text.get_text() for text in left.get_legend().get_texts()]
-    assert labels[:4] == ["work of the drive", "interface", "elastic energy", "heat in the solid"]
+    assert labels[:4] == ["drive work", "interface", "elastic energy", "heat in the solid"]
     curves = {line.get_label(): line.get_ydata()[-1] for line in left.get_lines()}
-    work = curves.pop("work of the drive")
+    work = curves.pop("drive work")
     assert sum(curves.values()) == pytest.approx(work, abs=5e-3 * abs(curves["interface"]))
     assert "retardation time" in right.get_xlabel()
-    with pytest.raises(ValueError, match="keeps no energies"):
+    with pytest.raises(ValueError, match="contains no energies"):
         draw_energy(jkr_result())
 
 

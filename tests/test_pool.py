@@ -153,7 +153,7 @@ def test_a_crash_costs_its_own_task_only_and_the_process_is_replaced(began):
     ("prepare", "words"),
     [
         ("refuse", "^this file is no noun$"),
-        ("fail", "^no worker can begin: KeyError: 'a fault of the program'$"),
+        ("fail", "^no worker can start: KeyError: 'a fault of the program'$"),
     ],
 )
 def test_a_pool_whose_workers_cannot_prepare_says_why(prepare, words):

@@ -226,25 +226,25 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
     for words, arguments in (
         ("--csv answers.csv", [cases]),
         ("leave out --compare", [cases, *out, "--compare"]),
-        ("leave out --tabor", [cases, *out, "--tabor", "1"]),
+        ("remove --tabor", [cases, *out, "--tabor", "1"]),
         ("has the inputs tabor, modulus_ratio, exponent, rate", [other, *out]),
         ("line 2: 4 values for 5 columns", [ragged, *out]),
         ("has the columns why already", [again, *out]),
         ("there is no file", [tmp_path / "none.csv", *out]),
-        ("no folder", [cases, "--csv", tmp_path / "none" / "out.csv"]),
+        ("none does not exist", [cases, "--csv", tmp_path / "none" / "out.csv"]),
         ("--curve writes the curve", [lens, *out]),
-        ("states the whole problem; leave out --rate", [lens, *RATE]),
+        ("defines the whole problem; remove --rate", [lens, *RATE]),
         ("give one file", [lens, lens]),
         ("for 'sphere', 'punch', a file CASE.toml or a table CASES.csv, got 'cone'", ["cone"]),
         ("--size, --thickness, --cohesion and --modulus-ratio missing", ["punch", *RATE]),
-        ("a punch is not asked --tabor, --radius", [*PUNCH, "--tabor", "1", "--radius", "1 mm"]),
-        ("a sphere is not asked --size", [*SPHERE, *RATE, "--size", "1"]),
+        ("a punch has no option --tabor, --radius", [*PUNCH, "--tabor", "1", "--radius", "1 mm"]),
+        ("a sphere has no option --size", [*SPHERE, *RATE, "--size", "1"]),
         ("rate is 1e+09 h0/tau0, and 0.001 to", [*PUNCH, "--rate", "1e9"]),
         ("--rate missing", SPHERE),
         ("the machine has a stiffness of 2", [*SPHERE, *RATE, "--stiffness", "2"]),
         ("confidence must be one of 0.5", [*SPHERE, *RATE, "--confidence", "90"]),
         ("confidence must be one of 0.5", [*SPHERE, "--rate", "1e17", "--confidence", "0.85"]),
-        ("its ending must be one of", [*SPHERE, *RATE, "--plot", tmp_path / "a.xyz"]),
+        ("the file name must end in one of", [*SPHERE, *RATE, "--plot", tmp_path / "a.xyz"]),
         ("--rate must be finite", [*SPHERE, "--rate", "inf"]),
     ):
         assert words in wrong(capsys, *arguments), words
@@ -261,7 +261,7 @@ def test_a_table_is_refused_before_anything_is_predicted(tmp_path, monkeypatch, 
     out = tmp_path / "out.csv"
     assert "has the columns why already" in wrong(capsys, again, "--csv", out)
     for same in (cases, tmp_path / "." / "cases.CSV", link):
-        assert "is the file that is read" in wrong(capsys, cases, "--csv", same)
+        assert "is an input file" in wrong(capsys, cases, "--csv", same)
     assert cases.read_text() == text and not out.exists()
 
 

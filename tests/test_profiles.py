@@ -10,7 +10,7 @@ import pytest
 from scipy.special import struve
 
 import viscotack as vt
-from doors import Http, Question, by_command, by_form, by_http, by_python, by_study, run
+from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study, run
 from viscotack.bem import jumps
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.mesh import Mesh
@@ -230,7 +230,7 @@ def test_steep_waves_are_beyond_small_strain(tmp_path):
     path = tmp_path / "case.toml"
     keys = 'radius = "5 mm"\namplitude = "6 um"\nwavelength = "50 um"'
     path.write_text(CASE.format(table="wavy-sphere", keys=keys).replace('"2 um"', '"20 um"'))
-    with pytest.raises(vt.InputError, match="beyond small strain"):
+    with pytest.raises(vt.InputError, match="exceeds small strain"):
         vt.read_case(path)
 
 

@@ -97,8 +97,8 @@ def test_numbers_alone_are_dimensionless_and_a_punch_bears_a_stress():
         ("hold breath 2 s", "cannot parse .*; write hold drive|depth|force TIME"),
         ("dwell 60", "'dwell 60': '60' has no unit"),
         ("dwell -60 s", "'dwell -60 s': duration must be positive"),
-        ("approach 10 um to 1 mN", "'10 um' does not measure the right thing"),
-        ("approach 10 um/s to 5 s", "'5 s' does not measure the right thing; expected .* in m"),
+        ("approach 10 um to 1 mN", "'10 um' has the wrong dimension"),
+        ("approach 10 um/s to 5 s", "'5 s' has the wrong dimension; expected .* in m"),
     ],
 )
 def test_words_that_are_no_move_are_refused_with_the_cure(words, said):
@@ -169,13 +169,13 @@ def test_a_history_is_a_table_of_time_and_displacement(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("time_s,depth_um\n0,1\n1,2\n", "one column must be displacement with its unit"),
-        ("time_s,displacement_N\n0,1\n1,2\n", "the name of the column displacement: '1 N' does"),
+        ("time_s,depth_um\n0,1\n1,2\n", "no column displacement with its unit"),
+        ("time_s,displacement_N\n0,1\n1,2\n", "unit of column displacement: '1 N' has"),
         ("time_s,displacement_um\n0,1\n", "a history needs at least two rows"),
         ("time_s,displacement_um\n0,1\n0,2\n", "ascending times"),
         ("time_s,displacement_um\n0,1\n1,two\n", "line 3: displacement must be a number in um"),
-        ("time_s,displacement_um\n0,1\n1\n", "line 3: 1 entries, and the header has 2"),
-        ("time_s,displacement_um\n", "there are no rows below the header"),
+        ("time_s,displacement_um\n0,1\n1\n", "line 3: 1 entries, but the header has 2"),
+        ("time_s,displacement_um\n", "no rows below the header"),
     ],
 )
 def test_a_wrong_history_is_refused_with_file_and_line(text, said, tmp_path):
@@ -254,7 +254,7 @@ def test_a_wrong_law_is_refused_with_its_key(interface, said, tmp_path):
         ("glue", "the law must be one of lennard-jones, dugdale"),
         ("exponential", "write exponential:DECAY, got 'exponential'"),
         ("lennard-jones:3", "write lennard-jones, got"),
-        ("exponential:soft", "decay must be a pure number"),
+        ("exponential:soft", "decay must be a dimensionless number"),
         ("table", "needs a file: table:FILE.csv"),
     ],
 )

@@ -176,7 +176,7 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
     [
         ('base = "bonded"', "", "[layer] base is missing"),
         ('base = "bonded"', 'base = "glued"', "must be one of frictionless, bonded, got 'glued'"),
-        ('"50 um"', '"50 kg"', "[layer] thickness: '50 kg' does not measure the right thing"),
+        ('"50 um"', '"50 kg"', "[layer] thickness: '50 kg' has the wrong dimension"),
         ("preload_stress", "preload_radius", "needs exactly one of preload_depth, preload_stress"),
         ('[layer]\nthickness = "50 um"\nbase = "bonded"\n', "", "the table [layer] is missing"),
         ("[punch]", "[sphere]", "[sphere] radius is missing"),
@@ -189,9 +189,9 @@ def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, 
 
 
 def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
-    assert "states a punch" in wrong(["simulate", "sphere", case_file], capsys)
-    assert "states a punch" in wrong(["advise", case_file], capsys)
-    assert "leave out --size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
+    assert "contains a punch" in wrong(["simulate", "sphere", case_file], capsys)
+    assert "contains a punch" in wrong(["advise", case_file], capsys)
+    assert "remove --size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
 
 
 def test_words_tell_what_is_at_hand(capsys):
@@ -254,7 +254,7 @@ def test_theory_draws_its_map(capsys, tmp_path):
     [
         (["--thickness", "1 mm", "--stress", "1 kPa"], "not both"),
         (["--stress", "30 kPa"], "--speed missing"),
-        (["--stress", "30 m", "--speed", "1 mm/s"], "--stress: '30 m' does not measure"),
+        (["--stress", "30 m", "--speed", "1 mm/s"], "--stress: '30 m' has the wrong dimension"),
         (["--stress", "60 kPa", "--speed", "1 mm/s"], "below the strength"),
     ],
 )
@@ -267,7 +267,7 @@ def test_an_elastic_pad_has_an_answer_and_no_map(capsys, tmp_path):
     answer = asked([*pad, "--thickness", "200 um", "--speed", "1 mm/s"], capsys)
     assert answer["pull_off_stress_Pa"] == pytest.approx(answer["slowest_pull_off_stress_Pa"])
     assert answer["crack_speed_at_pull_off_m_per_s"] is None
-    assert "no map" in wrong([*pad, "--plot", tmp_path / "map.png"], capsys)
+    assert "no regime map" in wrong([*pad, "--plot", tmp_path / "map.png"], capsys)
 
 
 def test_help_is_for_strangers(capsys):

@@ -154,7 +154,7 @@ def test_a_damaged_or_foreign_file_is_named_as_such(damage, tmp_path):
 @pytest.mark.parametrize(
     ("damage", "reason"),
     [
-        (table, "it is not an archive"),
+        (table, "it is not a NumPy archive"),
         (other_header, "its header is not that of a viscotack result"),
     ],
 )

@@ -48,7 +48,7 @@ def bounded():
     ],
 )
 def test_numbers_in_the_text_of_a_unit_are_no_powers(words):
-    with pytest.raises(InputError, match="powers|not known"):
+    with pytest.raises(InputError, match="exponents|unknown unit"):
         parse(words, "m")
 
 
@@ -73,19 +73,19 @@ def test_units_are_written_as_before(words, unit, value):
 def test_a_unit_that_would_never_end_is_refused_wherever_it_is_read(tmp_path):
     plan = tmp_path / "plan.toml"
     plan.write_text('[settings]\ntime_limit = "5 9^9^9^9 s"\n[[grid]]\ntabor = 1\n')
-    with pytest.raises(InputError, match="time_limit: .*powers of numbers"):
+    with pytest.raises(InputError, match="time_limit: .*exponents in a unit must be plain numbers"):
         read_plan(plan)
 
 
 TOML = {
-    "brackets": ("a = " + "[" * 100_000, "brackets in brackets"),
-    "tables": ("a = " + "{b=" * 50_000, "brackets in brackets"),
-    "digits": ("a = " + "9" * 5_000, "a number that cannot be read"),
-    "dotted": (".".join(["a"] * 200_000) + " = 1", "line 1: a name of more than 50 parts"),
-    "header": ("b = 1\n[" + ".".join(["a"] * 30_000) + "]", "line 2: a name of more than 50"),
-    "quoted": ("x = {" + ".".join(['"a"'] * 30_000) + " = 1}", "a name of more than 50 parts"),
-    "spaced": (" . ".join(["a"] * 30_000) + " = 1", "a name of more than 50 parts"),
-    "long": ("a = 1 #" + "x" * 10_000_001, "more than the 10,000,000"),
+    "brackets": ("a = " + "[" * 100_000, "too many nested brackets"),
+    "tables": ("a = " + "{b=" * 50_000, "too many nested brackets"),
+    "digits": ("a = " + "9" * 5_000, "invalid number"),
+    "dotted": (".".join(["a"] * 200_000) + " = 1", "line 1: dotted key of more than 50 parts"),
+    "header": ("b = 1\n[" + ".".join(["a"] * 30_000) + "]", "line 2: dotted key of more than 50"),
+    "quoted": ("x = {" + ".".join(['"a"'] * 30_000) + " = 1}", "dotted key of more than 50 parts"),
+    "spaced": (" . ".join(["a"] * 30_000) + " = 1", "dotted key of more than 50 parts"),
+    "long": ("a = 1 #" + "x" * 10_000_001, "more than the limit of 10,000,000"),
     "word": ("x" * 1_000_000, "not a TOML file, line 1"),
 }
 
@@ -157,11 +157,11 @@ def bomb(path, size):
 @pytest.mark.parametrize(
     ("arrays", "words"),
     [
-        ({"fields/gap": declared((10**12,))}, "says that it has 8000000000000 bytes"),
-        ({"fields/gap": declared((10**6, 10**6))}, "says that it has 8000000000000 bytes"),
+        ({"fields/gap": declared((10**12,))}, "declares 8000000000000 bytes"),
+        ({"fields/gap": declared((10**6, 10**6))}, "declares 8000000000000 bytes"),
         ({"fields/gap": declared((-1, 5))}, "says that it has|damaged"),
-        ({"malware": np.ones(3)}, r"does not belong: \['malware'\]"),
-        ({"fields/": np.ones(3)}, "does not belong"),
+        ({"malware": np.ones(3)}, r"unexpected array: \['malware'\]"),
+        ({"fields/": np.ones(3)}, "unexpected array"),
         ({"time": b"no array"}, "damaged"),
         ({"header": np.array("[" * 100_000)}, "damaged"),
         ({"header": np.array('{"format": 1}')}, "not that of a viscotack result"),
@@ -176,9 +176,9 @@ def test_a_result_that_is_none_is_refused(tmp_path, arrays, words):
 def test_a_small_file_that_unpacks_to_much_is_refused(tmp_path):
     path = bomb(tmp_path / "bomb.npz", 1_100_000_000)
     assert path.stat().st_size < 6e6
-    with pytest.raises(InputError, match="unpacked it would have 1100 MB, more than the 1000 MB"):
+    with pytest.raises(InputError, match="1100 MB when unpacked, more than the limit of 1000 MB"):
         load(path)
-    with pytest.raises(InputError, match="more than the 50 MB"):
+    with pytest.raises(InputError, match="more than the limit of 50 MB"):
         load_surrogate(path)
 
 

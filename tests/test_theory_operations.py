@@ -123,7 +123,7 @@ def test_what_a_passport_states_is_not_stated_beside_it(name, passport):
     _, file = passport
     given = PAD | ASKED | {"material": str(file)}
     assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
-    with pytest.raises(InputError, match=f"states the whole material; leave out {name}$"):
+    with pytest.raises(InputError, match=f"defines the whole material; remove {name}$"):
         ask("theory punch", **given, **{name: STANDARD[name]})
 
 
@@ -135,7 +135,9 @@ def test_a_time_is_refused_where_the_material_has_none_to_be_stated(
     (tmp_path / "branches.csv").write_text(FILES["branches.csv"])
     given = PAD | ASKED | {"contact_modulus": "1 MPa", "material": material}
     assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
-    with pytest.raises(InputError, match="tau0 is not needed, the unit of time is s; leave it out"):
+    with pytest.raises(
+        InputError, match="tau0 is not needed because the time unit is s; remove it"
+    ):
         ask("theory punch", **given, tau0="1 ms")
 
 

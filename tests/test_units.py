@@ -37,14 +37,14 @@ def test_text_with_a_unit_becomes_si(text, unit, value):
     ("text", "unit", "words"),
     [
         ("5.19", "m", "no unit; write for example '5.19 m'"),
-        ("5.19 kg", "m", "does not measure the right thing; expected something in m"),
-        ("5.19 mmm", "m", "unit 'mmm' is not known"),
+        ("5.19 kg", "m", "has the wrong dimension; expected a quantity in m"),
+        ("5.19 mmm", "m", "unknown unit 'mmm'"),
         ("5,19 mm", "m", "decimal point"),
         ("five mm", "m", "not a number and a unit"),
         ("", "m", "not a number and a unit"),
         ("nan m", "m", "not a number and a unit"),
         ("1e999 m", "m", "must be finite"),
-        ("3 m", "1", "expected something in 1"),
+        ("3 m", "1", "expected a quantity in 1"),
         (math.nan, "m", "must be finite"),
         (True, "m", "expected a quantity"),
         (None, "m", "expected a quantity"),
@@ -85,7 +85,7 @@ def test_text_in_place_of_a_number_is_told_how_to_be_read():
 
 @pytest.mark.parametrize("text", ["5 ?m", "5 @m", "5 m!", "5 'm'"])
 def test_marks_that_are_no_part_of_a_unit_are_refused(text):
-    with pytest.raises(ValueError, match="is not known"):
+    with pytest.raises(ValueError, match="unknown unit"):
         parse(text, "m")
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
-from doors import Http
+from front_ends import Http
 from stated import PUNCH, SPHERE
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_verdict

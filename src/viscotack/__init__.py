@@ -1,7 +1,7 @@
-"""viscotack: how hard must one pull a soft, sticky, rate-dependent contact.
+"""viscotack: predict and simulate the detachment of soft, viscoelastic, adhesive contacts.
 
-The public names, in the order in which data flow. A name is imported when it is first used, so
-that ``import viscotack`` costs nothing.
+The public names are listed in the order in which data flow. Each is imported on first use, so
+``import viscotack`` imports no other library.
 """
 
 from importlib import import_module
@@ -117,7 +117,7 @@ if TYPE_CHECKING:
     from .traction import Tabulated as Tabulated
     from .units import parse as parse
 
-# Room -> the public names it has, in the order in which data flow.
+# Module -> its public names, in the order in which data flow.
 _NAMES = {
     "units": ("parse",),
     "errors": ("InputError", "OutOfRange"),

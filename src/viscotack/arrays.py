@@ -1,4 +1,4 @@
-"""The type of arrays of numbers, for all modules."""
+"""Type alias for arrays of floating-point numbers, used by all modules."""
 
 import numpy as np
 import numpy.typing as npt

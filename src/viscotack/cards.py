@@ -1,12 +1,12 @@
-"""Cards: what a number that a user can set is called, measured in, and allowed to be.
+"""Cards: symbol, unit, description and range of each number that a user can set.
 
-A noun (a solid, a law, a shape, a start) is a frozen dataclass, and the annotation of each of its
-numbers carries a card::
+A noun (material, traction law, shape, body, start or protocol) is a frozen dataclass. The type
+annotation of each of its numbers contains a card::
 
     radius: Annotated[float, Quantity("m", "R", "radius of the sphere", above=0, example="5.19 mm")]
 
-Flags, keys of files, columns of campaigns, the JSON schema and the tables of the docs are read from
-the cards and restate nothing. :func:`conform` holds the numbers of a noun to them.
+Command-line options, keys of files, columns of campaigns, the JSON schema and the tables of the
+docs are generated from the cards. :func:`conform` checks the numbers of a noun against them.
 """
 
 import types
@@ -21,25 +21,33 @@ from viscotack.units import as_given, finite
 
 @dataclass(frozen=True)
 class Quantity:
-    """The card of a number.
+    """Card of a number: unit, symbol, description and range.
 
     Attributes
     ----------
     unit : str
-        SI unit; "1" for a pure number.
+        SI unit; "1" for a dimensionless number.
     symbol : str
-        As formulas write it.
+        Symbol used in formulas.
     words : str
-        What it is, without its unit.
+        Description, without the unit.
     above, least, most : float or None
-        Open lower bound, lower and upper bound; None for none.
+        Open lower bound, closed lower bound and closed upper bound; None for no bound.
     example : str
-        As a file or a flag may state it.
+        Example value as text with its unit, as in a file or a command-line option.
     measure : str
-        For what a machine does: "depth", "force", "radius", "speed", "time" or "stiffness". The
-        geometry says what that is measured in, a force in N or a stress in Pa.
+        Kind of quantity that the machine controls: "depth", "force", "radius", "speed", "time" or
+        "stiffness". The geometry determines its unit, for example N for a sphere and Pa for a
+        punch.
     advice : str
-        What to do about a number out of range.
+        Advice that is appended to the error message for a number out of range.
+
+    Examples
+    --------
+    >>> Quantity("m", "R", "radius of the sphere", above=0).checked("radius", -0.005)
+    Traceback (most recent call last):
+    ...
+    viscotack.errors.InputError: radius must be positive, got -0.005 m
     """
 
     unit: str
@@ -53,7 +61,7 @@ class Quantity:
     advice: str = ""
 
     def checked(self, name: str, value: Any, unit: str | None = None) -> float:
-        """Return a value as a float within the range, or say what is wrong with it."""
+        """Convert a value to float and check it; InputError if it is out of range."""
         unit = self.unit if unit is None else unit
         number = finite(name, value, unit)
         low = self.above is not None and not number > self.above
@@ -68,11 +76,11 @@ class Quantity:
 
     def __post_init__(self) -> None:
         if self.above is not None and self.least is not None:
-            raise InputError("a card has an open lower bound, above, or a closed one, least")
+            raise InputError("a card has either `above` (open bound) or `least` (closed), not both")
 
     @property
     def range(self) -> str:
-        """The range in words that follow "must"."""
+        """Range as text that completes a sentence with "must"."""
         above, least, most = self.above, self.least, self.most
         if above is not None and most is not None:
             return f"lie in ({above:g}, {most:g}]"
@@ -84,11 +92,11 @@ class Quantity:
 
     @property
     def bounded(self) -> bool:
-        """Whether there is a range."""
+        """Whether the card has a lower or an upper bound."""
         return not (self.above is None and self.least is None and self.most is None)
 
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """Add to the JSON schema of the number what the card says."""
+        """Add unit, description and range of the card to the JSON schema of the number."""
         schema = handler(core)
         schema |= {"description": self.words, "unit": self.unit, "symbol": self.symbol}
         bounds = {
@@ -102,12 +110,12 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Pairs:
-    """The card of a list of pairs of numbers.
+    """Card of a list of pairs of numbers.
 
     Attributes
     ----------
     units : tuple of str
-        SI units of the first and the second of a pair.
+        SI units of the first and the second number of a pair.
     symbol, words, example : str
         As for a `Quantity`.
     """
@@ -118,7 +126,7 @@ class Pairs:
     example: str = ""
 
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """Add to the JSON schema of the list what the card says."""
+        """Add units and description of the card to the JSON schema of the list."""
         return handler(core) | {
             "description": self.words,
             "units": list(self.units),
@@ -128,7 +136,7 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Field:
-    """A number of a noun: its name, its card, its default, and whether None will do."""
+    """A number of a noun: its name, card and default, and whether it may be None."""
 
     name: str
     card: Any
@@ -137,13 +145,13 @@ class Field:
 
     @property
     def needed(self) -> bool:
-        """Whether it must be given."""
+        """Whether the number has no default."""
         return self.default is MISSING
 
 
 @lru_cache(maxsize=256)
 def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
-    """Return the fields of a noun that have a card, by name, in their order.
+    """Return the fields of a noun that have a card, by name, in order of definition.
 
     Examples
     --------
@@ -163,7 +171,7 @@ def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
 
 
 def card_of(annotation: Any) -> Quantity:
-    """Return the card of an annotated number that belongs to no noun, such as a ratio of two."""
+    """Return the card of an annotated number that is not a field, such as a modulus ratio."""
     return _card(annotation, Quantity)
 
 
@@ -176,12 +184,12 @@ def _card(hint: Any, kind: type) -> Any:
 
 
 def conform(noun: Any) -> None:
-    """Make floats of the numbers of a noun, within the ranges of their cards; for __post_init__.
+    """Convert the numbers of a noun to float and check their ranges; called in __post_init__.
 
     Raises
     ------
     ValueError
-        If a number is none, or out of its range; with its unit.
+        If a value is not a number, or is out of range. The message contains the unit.
     """
     for field in cards(type(noun)).values():
         value = getattr(noun, field.name)
@@ -195,10 +203,10 @@ def conform(noun: Any) -> None:
 
 
 def check_carded(noun: type) -> None:
-    """Refuse a class of which a field has no card."""
+    """Raise InputError if a field of a class has no card."""
     bare = [f.name for f in fields(noun) if f.name not in {*cards(noun), *cards(noun, Pairs)}]
     if bare:
         raise InputError(
-            f"{noun.__name__} does not say what {', '.join(bare)} is measured in; give the "
-            "field a card: Annotated[float, Quantity(...)]"
+            f"{noun.__name__}.{', '.join(bare)} has no card and so no unit; annotate the field: "
+            "Annotated[float, Quantity(...)]"
         )

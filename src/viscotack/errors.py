@@ -1,20 +1,20 @@
-"""Wrong input, told apart from defects of the package."""
+"""Exceptions for invalid input, as opposed to defects of the package."""
 
-# Said of numbers with which arithmetic fails: 1e300 squared, or over nothing.
+# Message for numbers that overflow or divide by zero, such as 1e300 squared.
 TOO_LARGE = "a number is too large or too small to compute with; check its unit"
 
 
 class InputError(ValueError):
-    """Bad input, said so that whoever gave it can mend it: what was wrong, given, and to be done.
+    """Invalid input: the message states the problem, the value with its unit, and a remedy.
 
-    Whatever else escapes from the package, other than an error of the operating system or of a
-    missing library, is a defect of it.
+    Any other exception raised by the package, except an error of the operating system or a
+    missing library, is a defect.
     """
 
 
 class NotInstalled(InputError, ModuleNotFoundError):
-    """A library that comes with an extra is missing; says which one and how to install it."""
+    """An optional library is missing; the message contains the command that installs it."""
 
 
 class OutOfRange(InputError):
-    """A problem that a theory, or what was learned, does not answer; says what is out of range."""
+    """A problem outside the range of a theory or surrogate; the message names the quantity."""

@@ -1,6 +1,6 @@
-"""Names of an earlier version: found for one release, with a DeprecationWarning.
+"""Earlier names of functions and attributes, kept for one release with a DeprecationWarning.
 
-docs/migration.md lists them.
+docs/migration.md lists all of them.
 """
 
 import warnings
@@ -12,16 +12,21 @@ from typing import Any
 def earlier_names(
     module: str, names: Mapping[str, str], otherwise: Callable[[str], Any] | None = None
 ) -> Callable[[str], Any]:
-    """Make the ``__getattr__`` of a module some of whose names are found elsewhere now.
+    """Create the ``__getattr__`` of a module from which names were moved or renamed.
 
     Parameters
     ----------
     module : str
-        Its ``__name__``.
+        ``__name__`` of the module.
     names : mapping
-        Old name -> the dotted path of the new one.
+        Old name -> dotted path of the new object.
     otherwise : callable, optional
-        Finds other names; without it they raise an AttributeError.
+        Lookup for all other names; without it they raise an AttributeError.
+
+    Returns
+    -------
+    callable
+        The function to assign to ``__getattr__``.
     """
 
     def found(name: str) -> Any:
@@ -37,7 +42,7 @@ def earlier_names(
 
 
 class Renamed:
-    """An attribute of a class under its earlier name.
+    """Descriptor for an attribute of a class under its earlier name.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Words with units: text such as "5.19 mm" becomes a number in SI, and a number text for people.
 
-Everything behind this boundary is a plain float in SI. The unit library is imported by the first
-call of :func:`parse`, never by ``import viscotack`` and never inside a loop.
+All other modules use plain floats in SI. The unit library is imported by the first call of
+:func:`parse`, not by ``import viscotack``.
 """
 
 import math
@@ -12,11 +12,10 @@ from typing import Any
 from viscotack.errors import InputError
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
-# "J/m2" and "J/m^2" are how people write it; the unit library wants "J/m**2".
-# The unit library passes over other marks, and would read "5 ?m" as metres.
+# Users write "J/m2" or "J/m^2"; the unit library needs "J/m**2".
+# The unit library ignores other characters and would read "5 ?m" as metres.
 _UNIT_MARKS = re.compile(r"[A-Za-zµμ°Ω%0-9 .·⋅*/^()⁻¹²³-]*")
-# A power of a number says nothing that a number does not, and 9^9^9^9 is never done. Nor is a unit
-# as long as that.
+# Powers of numbers are rejected because 9^9^9^9 would never finish; so are very long units.
 _POWER_OF_NUMBER = re.compile(r"[\d¹²³]\s*(\^|\*\*|⁻)|\d\s*[¹²³]")
 _LONGEST = 60
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ])\^?(-?\d+)")
@@ -63,15 +62,15 @@ def _registry() -> Any:
 
 
 def parse(value: str | float, unit: str) -> float:
-    """Return a quantity as a number in the given SI unit.
+    """Convert a quantity with its unit to a number in a given SI unit.
 
     Parameters
     ----------
     value : str or float
-        Text such as ``"5.19 mm"``, or a number, which is taken to be in `unit` already. Text
-        without a unit is refused unless `unit` is ``"1"``.
+        Text such as ``"5.19 mm"``, or a number that is already in `unit`. Text without a unit is
+        rejected unless `unit` is ``"1"``.
     unit : str
-        SI unit of the answer, such as ``"m"``, ``"J/m^2"`` or ``"1"`` for a pure number.
+        SI unit of the result, such as ``"m"``, ``"J/m^2"`` or ``"1"`` for a dimensionless number.
 
     Returns
     -------
@@ -81,7 +80,7 @@ def parse(value: str | float, unit: str) -> float:
     Raises
     ------
     ValueError
-        If the text is not a number and a unit, the unit is unknown or measures something else, or
+        If the text is not a number with a unit, the unit is unknown or has another dimension, or
         the number is not finite.
 
     Examples
@@ -109,7 +108,7 @@ def parse(value: str | float, unit: str) -> float:
     return finite(repr(value), number, unit)
 
 
-# a page asks for the same words at every move of a slider, and each costs a millisecond
+# cached because the page parses the same text at every move of a slider, 1 ms each time
 @lru_cache(maxsize=4096)
 def _converted(text: str, number: float, words: str, unit: str) -> float:
     import pint
@@ -117,30 +116,30 @@ def _converted(text: str, number: float, words: str, unit: str) -> float:
     registry = _registry()
     if len(words) > _LONGEST or _POWER_OF_NUMBER.search(words):
         raise InputError(
-            f"{text!r:.80}: a unit is written with numbers as its powers only, such as 'kg m^-1 "
-            f"s^-2', and not with powers of numbers; expected something in {unit}"
+            f"{text!r:.80}: the exponents in a unit must be plain numbers, such as 'kg m^-1 "
+            f"s^-2'; expected a quantity in {unit}"
         )
     if _UNIT_MARKS.fullmatch(words) is None:
-        raise InputError(f"{text!r}: the unit {words!r} is not known; expected something in {unit}")
+        raise InputError(f"{text!r}: unknown unit {words!r}; expected a quantity in {unit}")
     try:
         quantity = registry.Quantity(number, registry.parse_units(_EXPONENT.sub(r"**\1", words)))
         target = registry.parse_units("" if unit == "1" else _EXPONENT.sub(r"**\1", unit))
         converted = float(quantity.to(target).magnitude)
     except pint.DimensionalityError:
         raise InputError(
-            f"{text!r} does not measure the right thing; expected something in {unit}"
+            f"{text!r} has the wrong dimension; expected a quantity in {unit}"
         ) from None
     except Exception:
-        # The unit library raises a dozen kinds of error for words it cannot read.
+        # The unit library raises a dozen kinds of exception for text that it cannot parse.
         raise InputError(
-            f"{text!r}: the unit {words!r} is not known; expected something in {unit}"
+            f"{text!r}: unknown unit {words!r}; expected a quantity in {unit}"
         ) from None
-    # "18.76 ms" and "0.01876 s" are one quantity: without the rounding of the factor.
+    # "18.76 ms" and "0.01876 s" must give the same float, without rounding of the factor.
     return number if converted == number else float(f"{converted:.15g}")
 
 
 def finite(name: str, value: Any, unit: str) -> float:
-    """Return a value as a finite float, or say which quantity is not one."""
+    """Convert a value to a finite float; InputError with name and unit otherwise."""
     words = "" if unit == "1" else f" {unit}"
     try:
         # Adding zero turns -0.0 into 0.0: equal objects then have equal records.
@@ -149,7 +148,7 @@ def finite(name: str, value: Any, unit: str) -> float:
         cure = (
             f"; viscotack.parse({value!r}, {unit!r}) reads text" if isinstance(value, str) else ""
         )
-        of = "a pure number" if unit == "1" else f"a number in {unit}"
+        of = "a dimensionless number" if unit == "1" else f"a number in {unit}"
         raise InputError(f"{name} must be {of}, got {value!r}{cure}") from None
     if not math.isfinite(number):
         raise InputError(f"{name} must be finite, got {number}{words}")
@@ -157,7 +156,7 @@ def finite(name: str, value: Any, unit: str) -> float:
 
 
 def positive(name: str, value: Any, unit: str) -> float:
-    """Return a value as a positive finite float, or say which quantity is not one."""
+    """Convert a value to a positive finite float; InputError with name and unit otherwise."""
     number = finite(name, value, unit)
     if number <= 0:
         raise InputError(f"{name} must be positive, got {as_given(number, unit)}")

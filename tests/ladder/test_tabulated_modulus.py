@@ -236,7 +236,7 @@ def test_greenwood_of_a_table_keeps_shapes_rises_and_refuses_what_leaves_it():
     assert one == pytest.approx((low[1, 7], high[1, 7]), rel=1e-12, abs=0)
     ends = tabulated_modulus.greenwood_speed_range(modulus=table)
     for speed in (0.99 * ends[0], 1.01 * ends[1]):
-        with pytest.raises(ValueError, match="zone lengths a second.*measure a wider range"):
+        with pytest.raises(ValueError, match="zone lengths per second.*measure a wider range"):
             tabulated_modulus.greenwood_amplification(speed, modulus=table)
 
 
@@ -277,8 +277,8 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_the_columns(tmp_path)
     [
         ("_Hz", "", "first row must name frequency, storage and loss with their units"),
         ("loss_kPa", "phase_rad", "first row must name"),
-        ("loss_kPa", "loss_kg", "the column loss_kg: .* something in Pa"),
-        ("_Hz", "_m", "the column frequency_m: .* something in 1/s"),
+        ("loss_kPa", "loss_kg", "column loss_kg: .* a quantity in Pa"),
+        ("_Hz", "_m", "column frequency_m: .* a quantity in 1/s"),
         ("1,1.1,200", "1,1.1", "line 5: a row must be 3 numbers .* got '1,1.1'; remove rows"),
         ("1,1.1,200", "1,,200", "line 5: a row must be 3 numbers"),
         ("1,1.1,200", "1,nan,200", "line 5: a row must be 3 numbers"),

@@ -1,1 +1,1 @@
-"""The commands of the command line: words in, words and pictures out. No physics."""
+"""Command line, HTTP API and web page. No physics."""

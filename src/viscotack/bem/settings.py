@@ -54,7 +54,12 @@ class Settings:
     mode_tolerance : float
         Error of the compliance that the retardation modes may have, relative.
     most_steps : int
-        Bound on the steps of a run.
+        Largest number of steps of a run.
+
+    Examples
+    --------
+    >>> Settings.for_accuracy(0.01).accuracy
+    0.01
     """
 
     accuracy: float

@@ -1,4 +1,4 @@
-"""Campaigns: many problems, what to run, where it is kept, and running it here or on a cluster."""
+"""Campaigns: plan, run and store many simulations, on this machine or on a cluster."""
 
 from viscotack.files.lock import FolderInUse
 from viscotack.pool import NoWorker

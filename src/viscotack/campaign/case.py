@@ -1,7 +1,7 @@
-"""One case: solve it within its limits, and say in one row what came out. Runs in the workers.
+"""One case of a campaign: solve it within its limits and return a row. Runs in the workers.
 
-A row has the numbers of ``viscotack.summary``, key points of the curve and a resampled trajectory:
-everything that a table of the campaign needs, and a thousandth of the result.
+A row contains the numbers of ``viscotack.summary``, key points of the curve and a resampled
+trajectory, about a thousandth of the size of a result.
 """
 
 import json
@@ -40,24 +40,29 @@ _COST = ("steps", "nodes", "modes", "newton_iterations")
 
 @dataclass(frozen=True)
 class CaseSettings:
-    """How a case is solved, and how much it may take.
+    """Accuracy, end and limits of the cases of a campaign.
 
     Attributes
     ----------
     accuracy : float
-        Wanted relative error of the pull-off force.
+        Required relative error of the pull-off force.
     until : {"pull-off", "detached"}
-        How far to pull; to full separation takes about twice the time, and the work of separation
-        is known only then.
+        End of the simulation. Full separation ("detached") takes about twice the time and is
+        needed for the work of separation.
     time_limit : float
-        Longest time of a case [s]; one that takes longer is a failure. What does not end by itself
-        is ended with its process some seconds later.
+        Time limit of a case [s]; a longer case is a failure. If it does not end by itself, its
+        process is killed some seconds later.
     memory_limit : float
-        Most memory of a case [bytes], beside what its worker has at rest; only on Linux.
+        Memory limit of a case [bytes], in addition to the idle worker; on Linux only.
     own : tuple of str
-        Python files with laws, materials, shapes and observables of the user's own.
+        Python files with user-defined laws, materials, shapes and observables.
     own_sha256 : tuple of str
-        Their hashes when the campaign was planned; () where they were not kept.
+        Their hashes when the campaign was planned; () if they were not stored.
+
+    Examples
+    --------
+    >>> CaseSettings(accuracy=0.01, time_limit=60.0).until
+    'pull-off'
     """
 
     accuracy: Accuracy = DEFAULT_ACCURACY
@@ -81,7 +86,7 @@ class CaseSettings:
             object.__setattr__(self, name, tuple(str(word) for word in getattr(self, name)))
 
     def nouns(self) -> tuple[Any, ...]:
-        """Return what the user's own files define; OwnChanged where one has been edited since."""
+        """Return the user-defined classes; OwnChanged if a file was edited since the planning."""
         return nouns_of(self.own, self.own_sha256)
 
 
@@ -90,7 +95,7 @@ Work = Callable[[Any, CaseSettings], dict[str, Any]]
 
 @dataclass(frozen=True)
 class Answer:
-    """What a worker sends back: a row, or why there is none.
+    """Answer of a worker: a row, or the reason of a failure.
 
     Attributes
     ----------
@@ -116,15 +121,15 @@ class Answer:
 
 @dataclass(frozen=True)
 class Lost:
-    """A case that has not come back.
+    """A case without an answer, because its worker was lost.
 
     Attributes
     ----------
     reason : str
-        What became of its worker.
+        How the worker was lost.
     blame : bool
-        Whether the case may be the cause: a process that did this case and no other has ended.
-        False where a machine of a cluster left with all that was on it.
+        Whether the case may be the cause, because its process ran no other case. False if a whole
+        machine of a cluster was lost.
     """
 
     reason: str
@@ -136,9 +141,9 @@ class Unsolved(Exception):
 
 
 def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
-    """Do the work of one case; an error is an answer too.
+    """Run one case; exceptions become failures.
 
-    Limits are those of the work itself, and of who supervises this process.
+    Limits are enforced by the work itself and by the supervisor of this process.
 
     Parameters
     ----------
@@ -170,7 +175,19 @@ def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
 
 
 def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
-    """Solve a problem and return its row.
+    """Solve a problem and return its row in a campaign.
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        The problem.
+    settings : CaseSettings
+        Accuracy, end and limits.
+
+    Returns
+    -------
+    dict
+        Numbers of the summary, key points of the curve and the trajectory, by column.
 
     Raises
     ------
@@ -178,6 +195,14 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
         If the simulation stopped before its end.
     ValueError
         If the problem has no relaxed start, or its result no pull-off.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> row = measure(Groups(1.0, solid, AtDepth(5.0), rate=1.0), CaseSettings(accuracy=0.02))
+    >>> f"{row['pull_off_force']:.2f}"
+    '1.12'
     """
     # a trajectory begins at the start that the row states
     result = solve(

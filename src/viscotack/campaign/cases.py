@@ -1,4 +1,4 @@
-"""Many cases in little room, and how they stand: a million are some sixty megabytes."""
+"""Memory-efficient list of cases and their state: about 60 MB for a million cases."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,8 +8,8 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-# How many cases are gathered before they are put into arrays: those of so many numbers the system
-# takes back when they have been joined.
+# Number of cases collected before conversion to arrays; arrays of this size are returned to the
+# system after joining.
 _BLOCK = 20_000
 
 # Failures that another run may not meet: it tries their cases again.
@@ -143,7 +143,7 @@ class Standing:
 
     @classmethod
     def of(cls, count: int) -> "Standing":
-        """Return that of so many cases of which none was tried."""
+        """Return the state of a number of untried cases."""
         return cls(*(np.zeros(count, bool) for _ in range(3)))
 
     def note_results(self, places: npt.NDArray[np.int64]) -> None:

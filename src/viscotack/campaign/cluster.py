@@ -1,8 +1,8 @@
-"""A Dask cluster: each of its threads keeps a worker process of its own, under its supervisor.
+"""Dask cluster: each of its threads supervises one worker process.
 
-Cases are given to one machine each, and to none that has not said what program it runs. So limits
-bind there as they do here, a case can end its own process only, and what leaves with a machine is
-known.
+A case is sent to one Dask worker only, after that worker has reported its program versions. Limits
+are therefore enforced as on one machine, a case can only crash its own process, and the cases lost
+with a machine are known.
 """
 
 import threading
@@ -41,7 +41,7 @@ _WHO = "__import__('importlib').import_module('viscotack.campaign.identity').ide
 
 @dataclass(frozen=True)
 class Security:
-    """Certificates with which all that goes over the wires is encrypted, and who may ask is known.
+    """TLS certificates for an encrypted and authenticated connection; used by :func:`run`.
 
     Attributes
     ----------
@@ -55,12 +55,12 @@ class Security:
 
 
 class Gone(ConnectionError):
-    """The cluster's scheduler cannot be reached any more."""
+    """The connection to the scheduler was lost."""
 
 
 @dataclass
 class _Machine:
-    """A worker of the cluster: what is known of it."""
+    """State of a worker of the cluster."""
 
     threads: int
     probe: Any
@@ -96,7 +96,7 @@ class DaskCrew:
         return sum(max(0, self._free(machine)) for machine in self._machines.values())
 
     def hand(self, number: int, problem: str) -> None:
-        """Give a case to the machine that has most room."""
+        """Submit a case to the least-loaded worker."""
         address, machine = max(self._machines.items(), key=lambda item: self._free(item[1]))
         future = self._client.submit(
             do_case,
@@ -114,7 +114,7 @@ class DaskCrew:
         future.add_done_callback(lambda done: self._landed.put(("case", number, done)))
 
     def collect(self, seconds: float) -> list[tuple[int, Answer | Lost]]:
-        """Return what has come back, and what was lost with machines that left."""
+        """Return the answers that arrived, and the cases lost with their machines."""
         self._list()
         found: list[tuple[int, Answer | Lost]] = list(self._lost)
         self._lost.clear()
@@ -205,7 +205,7 @@ class DaskCrew:
         if any(machine.fit for machine in self._machines.values()):
             self._seen = now
         elif now - self._seen > self._patience():
-            raise NoWorker(self._nobody())
+            raise NoWorker(self._no_worker())
 
     def _patience(self) -> float:
         """Return how long to go on without a worker that is fit [s]."""
@@ -214,7 +214,7 @@ class DaskCrew:
         is_asked = any(not machine.unfit for machine in self._machines.values())
         return _ANSWER if is_asked else _FIRST
 
-    def _nobody(self) -> str:
+    def _no_worker(self) -> str:
         """Return words for why there is no worker."""
         scheduler = self._client.scheduler.address
         if not self._machines:
@@ -229,13 +229,13 @@ class DaskCrew:
         ]
         more = f" and {len(whys) - 3} more" if len(whys) > 3 else ""
         return (
-            f"no worker of {scheduler} may be given a case: {'; '.join(whys[:3])}{more}; "
-            "workers must have this version of viscotack, and of what it stands on"
+            f"no worker of {scheduler} can run a case: {'; '.join(whys[:3])}{more}; "
+            "workers need the same versions of viscotack and its dependencies"
         )
 
 
 def _fetched(future: Any) -> Any:
-    """Return what a future holds, an error too; None where that is gone: it lies where it was."""
+    """Return the result or exception of a future; None if it was lost with its worker."""
     from distributed import CancelledError
 
     try:
@@ -332,7 +332,7 @@ def security_of(ca: Path | None, cert: Path | None, key: Path | None) -> Securit
     if ca is None and cert is None and key is None:
         return None
     if ca is None or cert is None or key is None:
-        raise InputError("TLS needs three files: the authority, a certificate and its key")
+        raise InputError("TLS needs three files: CA certificate, certificate and key")
     for path in (ca, cert, key):
         read_bytes(path, LARGEST_TEXT)  # there is no such file: said now, and not by a library
     return Security(ca, cert, key)

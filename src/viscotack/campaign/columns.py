@@ -1,4 +1,4 @@
-"""Which numbers state a case: the columns of a plan, by kind, and the problem that they make.
+"""Kinds of cases: the columns of a plan that define a case, and the problem built from them.
 
 A kind is a row of numbers with names. ``"sphere"`` has those of ``viscotack simulate sphere``
 (power law), ``"profile"`` those of a cone or power-law tip, ``"solid"`` those of a sphere on one of
@@ -204,7 +204,7 @@ def kind_of_columns(names: set[str]) -> str:
         f"{kind.name}: {', '.join([*kind.columns, ' or '.join(kind.choices)])}"
         for kind in KINDS.values()
     )
-    raise InputError(f"its columns ({', '.join(sorted(names))}) are of no kind; known are {known}")
+    raise InputError(f"unknown columns ({', '.join(sorted(names))}); known kinds are {known}")
 
 
 def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kind:

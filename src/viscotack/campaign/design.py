@@ -60,8 +60,8 @@ def fill(
     cases : int
         How many points to begin with.
     method : {"sobol", "latin-hypercube"}
-        A Sobol sequence goes on beyond `cases` for as long as it is asked, and its first points do
-        not depend on their number, so a plan can be extended. A Latin hypercube has `cases` points.
+        A Sobol sequence can be extended beyond `cases`, because its first points do not depend on
+        their number. A Latin hypercube has exactly `cases` points.
     seed : int
         Of the scrambling.
     """
@@ -81,8 +81,8 @@ def check_number(cases: int) -> None:
     """Refuse more cases than a plan may have."""
     if cases > _MOST:
         raise InputError(
-            f"a plan has at most {_MOST} cases, and this is one of {cases:.3g}; make several of "
-            "it, with folders of their own"
+            f"a plan has at most {_MOST} cases, got {cases:.3g}; split it into several plans with "
+            "separate folders"
         )
 
 
@@ -149,7 +149,7 @@ def _steps(name: str, given: Any) -> list[float]:
 
 
 def _mapping(name: str, given: Any) -> Any:
-    """Return what turns a place in [0, 1) into a value of the input."""
+    """Return the function that maps [0, 1) to values of the input."""
     if not isinstance(given, Mapping):
         (fixed,) = _numbers(name, [given])
         return lambda _: fixed

@@ -1,4 +1,4 @@
-"""Tables of a campaign for other programs: CSV, Parquet and MATLAB."""
+"""Export of campaign tables to CSV, Parquet and MATLAB files."""
 
 import csv
 import io
@@ -24,7 +24,7 @@ _ROWS = 1000
 
 
 def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
-    """Write a table of a store to a file, whole or not at all.
+    """Write a table of a store to a file, complete or not at all.
 
     Parameters
     ----------
@@ -40,7 +40,16 @@ def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
     Raises
     ------
     ValueError
-        If the ending is another, the table is empty, or too large for MATLAB.
+        If the ending is unknown, the table is empty, or it is too large for MATLAB.
+
+    Examples
+    --------
+    >>> import io
+    >>> import pyarrow
+    >>> file = io.BytesIO()
+    >>> export(pyarrow.table({"name": ["a"], "pull_off_force": [0.5]}), file)
+    >>> file.getvalue().decode().split()
+    ['name,pull_off_force', 'a,0.5']
     """
     suffix = Path(path).suffix if isinstance(path, str | os.PathLike) else ".csv"
     if suffix not in _WRITERS:

@@ -1,7 +1,7 @@
-"""Which program a process runs: its versions, a hash of its source, and files of the user's own.
+"""Versions and source hash of the running program, and hashes of user-defined files.
 
-Rows of two programs must not lie in one table unseen: every worker says what it is before it is
-given a case, and files of the user's own are read as they were when the campaign was planned.
+A table must not mix rows of different program versions. Each worker therefore reports its versions
+before it receives a case, and user-defined files must be unchanged since the planning.
 """
 
 import hashlib
@@ -23,8 +23,8 @@ from viscotack.version import __version__
 _PYTHON = ".".join(platform.python_version_tuple()[:2])
 _PACKAGE = Path(__file__).parents[1]
 _EDITED = (
-    "{} has been edited since this campaign was planned, and its rows would not be of one kind; "
-    "put it back as it was, or give another --out"
+    "{} has been edited since this campaign was planned, so new rows would not be comparable; "
+    "restore the file, or give another --out"
 )
 
 
@@ -72,7 +72,7 @@ def words(who: dict[str, str]) -> str:
 
 
 class OwnChanged(InputError):
-    """A file of the user's own is not what it was when the campaign was planned."""
+    """A user-defined file was edited after the campaign was planned."""
 
 
 def digest(path: str | Path) -> str:
@@ -120,19 +120,19 @@ def permitted(
 
 
 def nouns_of(paths: tuple[str, ...], known: tuple[str, ...]) -> tuple[Any, ...]:
-    """Return what files of the user's own define.
+    """Return the classes in user-defined files.
 
     Parameters
     ----------
     paths : tuple of str
         The files.
     known : tuple of str
-        Their hashes when the campaign was planned; () for a campaign that kept none.
+        Their hashes when the campaign was planned; () if none were stored.
 
     Raises
     ------
     OwnChanged
-        If a file has another content now.
+        If a file was edited.
     """
     for path, before in zip(paths, known, strict=bool(known)):
         if digest(path) != before:

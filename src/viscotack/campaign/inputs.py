@@ -28,18 +28,18 @@ _NU, _NU_OF_BASE = "material.poisson_ratio", "body.base.poisson_ratio"
 
 @dataclass(frozen=True)
 class Input:
-    """A number of a problem.
+    """A number of a problem that a plan can set; returned by :func:`inputs_of`.
 
     Attributes
     ----------
     path : str
-        Its place in the record, ``protocol.moves.0.duration``.
+        Path in the record, ``protocol.moves.0.duration``.
     value : float or None
-        What it is; None where it is left out.
+        Current value; None if not set.
     unit : str
-        What it is measured in.
+        Unit of the value.
     card : Quantity
-        What it is, and where it ends.
+        Description and range.
     """
 
     path: str
@@ -49,7 +49,17 @@ class Input:
 
 
 def inputs_of(problem: Any) -> dict[str, Input]:
-    """Return the numbers of a problem that a plan may set, by their paths.
+    """Return the numbers of a problem that a plan can set, by path.
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        The problem.
+
+    Returns
+    -------
+    dict of str to Input
+        Path of a number, such as ``protocol.speed`` -> its value, unit and card.
 
     Examples
     --------
@@ -100,7 +110,7 @@ def _parts(value: Any, units: Mapping[str, str], path: str) -> Iterator[Input]:
 
 
 def check_paths(problem: Any, paths: Iterable[str]) -> None:
-    """Refuse paths that are no numbers of a problem, and those that say less than they seem to.
+    """Raise InputError for paths that are not numbers of a problem, or that contradict others.
 
     Raises
     ------
@@ -113,7 +123,7 @@ def check_paths(problem: Any, paths: Iterable[str]) -> None:
     if _is_tip(record) and len(missing := {_HEIGHT, _AT_RADIUS} - paths) == 1:
         raise InputError(f"{_HEIGHT} and {_AT_RADIUS} go together; add {missing.pop()}")
     if _is_tip(record) and _HEIGHT in paths and _COEFFICIENT in paths:
-        raise InputError(f"{_COEFFICIENT} and {_HEIGHT} say the same; leave out one")
+        raise InputError(f"{_COEFFICIENT} and {_HEIGHT} define the same; remove one")
 
 
 def check_exponent(problem: Any, paths: Iterable[str]) -> None:
@@ -131,8 +141,8 @@ def replaced(
 ) -> dict[str, Any]:
     """Return a record with numbers at these paths in place of its own.
 
-    A bonded layer goes on having the Poisson ratio of its material, a tip that has a height at a
-    radius has the coefficient that follows, and a reduced one of another exponent is reduced.
+    A bonded layer keeps the Poisson ratio of its material. For a tip with a height at a radius the
+    coefficient is recomputed, and a reduced tip with another exponent is reduced again.
     """
     changed = copy.deepcopy(dict(record))
     numbers = map(float, values.values())

@@ -53,7 +53,7 @@ def _filled(path: Path, text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 class Listed:
-    """The rows of a CSV file of numbers, each with its line; read anew each time."""
+    """The rows of a CSV file of numbers with line numbers; read again at each iteration."""
 
     def __init__(self, path: Path, text: str) -> None:
         self.path, self._text = path, text
@@ -73,6 +73,6 @@ def renamed(values: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in values.items():
         new = upgraded_path(name)
         if new in found:
-            raise InputError(f"{new} is stated twice, also as {name}; leave out one")
+            raise InputError(f"{new} is given twice, also as {name}; remove one")
         found[new] = value
     return found

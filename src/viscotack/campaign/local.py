@@ -50,7 +50,7 @@ class LocalCrew:
         self._pool.hand(number, f"{__name__}:solve_case", problem, self._limits)
 
     def collect(self, seconds: float) -> list[tuple[int, Answer | Lost]]:
-        """Return what has come back; limits are enforced meanwhile."""
+        """Return the answers that arrived; enforce limits meanwhile."""
         return [(number, _answer(event)) for number, event in self._pool.collect(seconds)]
 
 

@@ -3,10 +3,9 @@
 A part holds the rows ``000007-000007.parquet`` of one append. When 32 parts of equal span have come
 together they are merged into one, so that 1e5 appends leave about a hundred files.
 
-The ledger says which parts there are, with the hash and the number of rows of each: nothing else in
-the directory is ever read or removed. It is kept by somebody else, durably, and is told *before* a
-part appears that it is coming, and before old parts go that the merged one is there. So at any
-instant ledger and files together say the same:
+The ledger lists the parts with hash and number of rows; no other file in the directory is read or
+removed. The caller stores the ledger durably. It is updated *before* a part is written, and before
+merged parts are removed, so that ledger and files are consistent at any instant:
 
 ============================  ==========================================================
 ledger                        files
@@ -180,7 +179,7 @@ class Parts:
         return missing
 
     def strangers(self) -> list[Path]:
-        """Return what is in the directory and in no ledger; it is not read, nor ever removed."""
+        """Return files that are not in the ledger; they are neither read nor removed."""
         ledger = self._ledger()
         known = {part.name for part in (*ledger.kept, *ledger.replaced)}
         known |= {ledger.coming.name} if ledger.coming else set()
@@ -219,7 +218,7 @@ class Parts:
         self._merge()
 
     def _write(self, content: Any, rows: int, span: tuple[int, int], ledger: Ledger) -> Part:
-        """Write a part that the ledger is told of before."""
+        """Write a part after recording it in the ledger."""
         part = Part(_name(span), hashlib.sha256(content).hexdigest(), rows)
         self.folder.mkdir(parents=True, exist_ok=True)
         self._note(replace(ledger, coming=part))

@@ -1,4 +1,4 @@
-"""A plan: which cases to run and how, from a TOML file or a bare CSV file."""
+"""Plans of campaigns: cases and settings, from a TOML file or a CSV file."""
 
 import json
 import os
@@ -31,7 +31,7 @@ _Read = tuple[dict[str, Any], list[tuple[str, Any]]]
 
 @dataclass(frozen=True)
 class Plan:
-    """Cases to run, in the order of the file, each once.
+    """Cases and settings of a campaign, without repetitions; returned by :func:`read_plan`.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class Plan:
 def read_plan(
     path: str | os.PathLike[str], *, own: Iterable[str | os.PathLike[str]] = (), **changed: Any
 ) -> Plan:
-    """Return the plan in a file.
+    r"""Read a plan from a file.
 
     Parameters
     ----------
@@ -94,9 +94,25 @@ def read_plan(
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
-        If a key, a column or a number is wrong; with its place.
+        If a key, a column or a number is wrong. The message contains its place.
+
+    Returns
+    -------
+    Plan
+        The cases and settings.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder, "cases.csv")
+    ...     text = "tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.5,5,10\n"
+    ...     _ = file.write_text(text)
+    ...     plan = read_plan(file, accuracy=0.02)
+    >>> len(plan.cases), plan.settings.accuracy
+    (1, 0.02)
     """
     path = Path(path)
     changed = {name: value for name, value in changed.items() if value is not None}
@@ -146,7 +162,7 @@ def space_filling(
     seed: int = 0,
     settings: CaseSettings | None = None,
 ) -> Plan:
-    """Return a plan of points that fill ranges of any numbers of a problem evenly.
+    """Plan cases that evenly fill ranges of numbers of a problem.
 
     Parameters
     ----------
@@ -158,7 +174,12 @@ def space_filling(
     cases, method, seed
         As in a ``[[fill]]`` of a file.
     settings : CaseSettings, optional
-        How cases are solved; those with files of the user's own, where the problem has any.
+        Accuracy, end and limits of the cases, and files with user-defined classes.
+
+    Returns
+    -------
+    Plan
+        The cases and settings.
 
     Raises
     ------
@@ -193,10 +214,35 @@ def space_filling(
 def every_combination(
     problem: Any, over: Mapping[str, Any], *, settings: CaseSettings | None = None
 ) -> Plan:
-    """Return a plan of every combination of values of any numbers of a problem.
+    """Plan every combination of values of numbers of a problem.
 
-    Parameters and errors are those of :func:`space_filling`; values are a number, a list, or a
-    range with a count, ``{"log": ["1 um/s", "1 mm/s"], "count": 7}``.
+    Parameters
+    ----------
+    problem : Problem or Groups
+        The problem; numbers that are not varied keep their values.
+    over : mapping
+        Path of a number -> a number, a list, or a range with a count, ``{"log": ["1 um/s", "1
+        mm/s"], "count": 7}``.
+    settings : CaseSettings, optional
+        Accuracy, end and limits of the cases.
+
+    Returns
+    -------
+    Plan
+        The cases and settings.
+
+    Raises
+    ------
+    ValueError
+        If a path is not a number of the problem or no combination is a contact.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> len(every_combination(base, {"tabor": [1, 2], "start.depth": [1, 2, 3]}).cases)
+    6
     """
     return _of_problem(problem, "grid", dict(over), settings)
 
@@ -240,7 +286,7 @@ def _planned(
 def restored_kind(
     name: str, base: dict[str, Any] | None, columns: Iterable[str], also: tuple[Any, ...] = ()
 ) -> Kind:
-    """Return the kind of a stored plan, whose problem has these nouns of the user's own."""
+    """Return the kind of a stored plan, whose problem uses these user-defined classes."""
     if base is not None:
         return kind_of_problem(from_dict(base, also), set(columns), also)
     if name not in KINDS:

@@ -1,4 +1,4 @@
-"""Run a plan into a folder: what is missing, the longest first, and store it as it comes."""
+"""Run the missing cases of a plan, longest first, and store the results as they arrive."""
 
 import signal
 import threading
@@ -27,23 +27,23 @@ from .local import local
 from .plan import Plan
 from .store import Store
 
-# So many cases are stored at once, however short the time since the last ones were.
+# Number of waiting cases that are stored immediately.
 _PART = 1000
-# When so many cases have ended so, and none was solved, something is wrong with the program.
+# Number of crashed cases, without any solved one, after which the run stops.
 _CRASHES = 20
 # Longest wait for a case to come back before the clock is looked at [s].
 _LOOK = 0.25
-# With so many of its own processes a case may die, the last time alone; with so many machines.
+# Number of processes, and of machines, that a case may lose; the last attempt runs alone.
 _LIVES, _DEPARTURES = 3, 20
 
 
 class AllCrashed(RuntimeError):
-    """The first cases have all crashed, so that the rest was not tried."""
+    """All of the first cases crashed, so the run was stopped."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a run is; `done` and `failed` are stored durably.
+    """Progress of a run, returned by :func:`run`; `done` and `failed` are stored durably.
 
     Attributes
     ----------
@@ -89,12 +89,12 @@ def run(
     work: Work = measure,
     report: Callable[[Progress], None] | None = None,
 ) -> Progress:
-    """Run the cases of a plan that are not in the folder yet.
+    """Run the cases of a plan that have no result in the folder yet.
 
     Parameters
     ----------
     plan : Plan or None
-        What to run; None goes on with the plan in the folder.
+        The plan; None resumes the plan in the folder.
     folder : path
         Where the campaign is kept; made if missing.
     own : iterable of path
@@ -130,6 +130,18 @@ def run(
         If the first cases all crash: a fault of the program, or of its installation.
     ValueError
         If the folder holds a campaign of another kind or accuracy.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> from viscotack.campaign import CaseSettings, every_combination
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> plan = every_combination(base, {"tabor": 1.0}, settings=CaseSettings(accuracy=0.02))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     run(plan, folder).done
+    1
     """
     folder = Path(folder)
     if workers < 1:
@@ -154,7 +166,7 @@ def run(
         if not this.left():
             return this.progress()
         settings = this.plan.settings
-        settings.nouns()  # refuses files of the user's own that have been edited
+        settings.nouns()  # rejects user-defined files that have been edited
         number = store.note_run(scheduler=scheduler, workers=workers, to_run=this.left())
         count = min(workers, this.left())
         hired = (
@@ -189,7 +201,7 @@ class Crew(Protocol):
     """Workers that take cases by number, here or on a cluster, and bring back answers or a loss."""
 
     def room(self) -> int:
-        """Return how many more cases may be handed in now; NoWorker if there will be none."""
+        """Return how many more cases may be submitted; NoWorker if there is no worker."""
         ...
 
     def hand(self, number: int, problem: str) -> None:
@@ -197,7 +209,7 @@ class Crew(Protocol):
         ...
 
     def collect(self, seconds: float) -> list[tuple[int, Answer | Lost]]:
-        """Return what has come back, after waiting so long at most for something to come [s]."""
+        """Return the answers that arrived, after waiting at most the given time [s]."""
         ...
 
     def workers(self) -> int:
@@ -206,7 +218,7 @@ class Crew(Protocol):
 
 
 class _Run:
-    """One run: what is to do, what is under way, and what waits to be stored.
+    """State of one run: cases to do, running cases, and rows to store.
 
     Cases are numbers here, their places in the plan.
     """
@@ -243,7 +255,7 @@ class _Run:
         self.workers, self.asked = 1, threading.Event()
 
     def left(self) -> int:
-        """Return how many cases nobody has been given yet."""
+        """Count the cases that have not been submitted yet."""
         return len(self.todo) - self.next + len(self.again) + len(self.suspects)
 
     def go(self, crew: Crew) -> Progress:

@@ -1,4 +1,4 @@
-"""One plan in many folders: shards for the job arrays of a batch system, and one folder of all.
+"""Shards of a plan for the job arrays of a batch system, and merging of their folders.
 
 Shard k of n has every n-th case from the k-th on, so that all take about as long. A shard is a
 campaign like any other; nothing is shared while they run.
@@ -30,12 +30,34 @@ _PART = 10_000
 
 
 def shard_of(plan: Plan, shard: str) -> Plan:
-    """Return a part of a plan, such as shard "3/20", the third of twenty.
+    """Select a shard of a plan.
+
+    Parameters
+    ----------
+    plan : Plan
+        The whole plan.
+    shard : str
+        Number of the shard and of shards, "3/20".
+
+    Returns
+    -------
+    Plan
+        Every n-th case of the plan.
 
     Raises
     ------
     ValueError
-        If there is no such shard, or no case is left for it.
+        If there is no such shard, or it has no cases.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> from viscotack.campaign import every_combination
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> plan = every_combination(base, {"tabor": [1, 2, 3, 4]})
+    >>> len(shard_of(plan, "1/2").cases)
+    2
     """
     number, count = _numbers(shard)
     if count > len(plan.cases):
@@ -44,7 +66,7 @@ def shard_of(plan: Plan, shard: str) -> Plan:
 
 
 def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]) -> Store:
-    """Return one campaign of several, in the order of the plan that they are shards of.
+    """Merge several campaigns into one folder.
 
     Parameters
     ----------
@@ -52,13 +74,34 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
         Campaigns of the same kind, settings and program; each is verified before. Cases that are in
         several are taken from the first.
     out : path
-        Where to; must not hold a campaign yet. A merge that was killed goes on when it is called
-        again with the same folders.
+        Folder of the merged campaign, new or empty. An interrupted merge resumes when it is
+        called again with the same folders.
 
     Raises
     ------
     ValueError
-        If one is damaged, or they differ in more than their cases.
+        If a folder is damaged, or the campaigns differ in kind, settings or program.
+
+    Returns
+    -------
+    Store
+        The merged campaign.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> from viscotack.campaign import every_combination
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> plan = every_combination(base, {"tabor": [1, 2]})
+    >>> with tempfile.TemporaryDirectory() as out:
+    ...     parts = [f"{out}/{k}" for k in (1, 2)]
+    ...     for k, part in enumerate(parts, 1):
+    ...         Path(part).mkdir()
+    ...         _ = Store.create(part, shard_of(plan, f"{k}/2"))
+    ...     len(merge(parts, f"{out}/all").plan().cases)
+    2
     """
     stores = [Store(folder) for folder in folders]
     if not stores:
@@ -72,7 +115,7 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
     cases = _together(stores)
     out.mkdir(parents=True, exist_ok=True)
     with locked(out) as hold:
-        _check_free(out, names)  # nobody has begun meanwhile
+        _check_free(out, names)  # no other merge started meanwhile
         store = Store.merged(out, stores, cases, hold, names)
         store.tidy()
         runs = [
@@ -98,7 +141,7 @@ def _check_free(out: Path, names: list[str]) -> None:
 
 
 def _copy(stores: Sequence[Store], out: Store) -> None:
-    """Copy the rows of campaigns, each case once; a failure only where nobody has a result."""
+    """Copy the rows of campaigns, each case once; failures only for cases without a result."""
     known = [
         names_of(parts.tables(["name"])) for one in (out, *stores) for parts in one.parts().values()
     ]

@@ -1,4 +1,4 @@
-"""What a campaign keeps, in one folder: plan, settings, provenance, results and failures.
+"""Storage of a campaign in a folder: plan, settings, provenance, results and failures.
 
 ::
 
@@ -49,7 +49,7 @@ _PHYSICAL = ("accuracy", "until")
 
 
 class Store:
-    """A campaign's folder.
+    """Folder of a campaign; :func:`run` writes it.
 
     Parameters
     ----------
@@ -439,6 +439,6 @@ def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) ->
     if before and before != now:
         files = ", ".join(new["settings"]["own"]) or "none"
         raise InputError(
-            f"{folder} holds cases with files of your own that have been edited since, or are "
-            f"others (now {files}); put them back as they were, or give another --out"
+            f"{folder} holds cases with user-defined files that have been edited or replaced "
+            f"since (now {files}); restore the files, or give another --out"
         )

@@ -1,4 +1,4 @@
-"""Whether a campaign's folder is what was written: every file, every row, once and as planned."""
+"""Integrity check of the folder of a campaign."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,16 +16,16 @@ from .store import Store, hash_of
 
 @dataclass(frozen=True)
 class Verdict:
-    """What was looked at, and what is wrong.
+    """Outcome of :func:`verify`.
 
     Attributes
     ----------
     files, rows : int
-        How many were read.
+        Number of checked files and rows.
     wrong : tuple of str
-        A sentence for each thing that is not as it was written; () if all is.
+        A sentence for each difference; () if there is none.
     strange : tuple of str
-        Files that are none of the campaign's: they are never read, and nothing removes them.
+        Files that do not belong to the campaign; they are neither read nor removed.
     """
 
     files: int
@@ -35,10 +35,31 @@ class Verdict:
 
 
 def verify(store: Store) -> Verdict:
-    """Return whether a campaign's folder is what was written.
+    """Check that the folder of a campaign is complete and unchanged.
 
-    All files are read and compared with the hashes in the provenance, whose own seal was checked
-    when the store was opened; of each row the name and the inputs with those of the plan.
+    All files are compared with the hashes in the provenance (whose own hash is checked when the
+    store is opened), and the name and inputs of each row with the plan.
+
+    Parameters
+    ----------
+    store : Store
+        The folder.
+
+    Returns
+    -------
+    Verdict
+        Number of files and rows, and the differences.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> from viscotack.campaign import Store, every_combination
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     verify(Store.create(folder, every_combination(base, {"tabor": [1, 2]}))).wrong
+    ()
     """
     wrong = list(store.lost())
     if store.merging:

@@ -1,7 +1,7 @@
-"""Conformance: does a law, solid, shape, body, observable or tier keep what the package relies on.
+"""Conformance checks for traction laws, materials, shapes, bodies, observables and tiers.
 
-One function for each kind of noun, for those of the package and for one's own alike. Each gives a
-:class:`Report` of findings in words; ``raise_if_failed()`` makes an error of them.
+Each function checks one kind of object, whether it belongs to the package or is user-defined. It
+returns a :class:`Report` of findings; ``raise_if_failed()`` raises an error if any check failed.
 """
 
 from .bodies import check_body

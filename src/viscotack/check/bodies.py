@@ -1,9 +1,9 @@
-r"""What the body under the indenter must satisfy: reciprocity, a positive energy, units, limits.
+r"""Conformance checks for the body under the indenter: reciprocity, energy, units, limits.
 
 The compliance of a body, the displacement of node i under a unit force on node j for E* = 1, is
-symmetric (Betti) and positive definite. What is stiff beside the forces across the gap lets go like
-a rigid body, whatever it is: a sphere with :math:`2 \pi R \Delta\gamma_0` (Derjaguin), a punch with
-the strength of the interface.
+symmetric (Betti) and positive definite. If the body is stiff compared with the forces across the
+gap, it detaches like a rigid one: a sphere at :math:`2 \pi R \Delta\gamma_0` (Derjaguin), a punch
+at the strength of the interface.
 """
 
 from collections.abc import Iterator
@@ -24,27 +24,32 @@ from viscotack.result.observables import pull_off_force, pull_off_stress
 from viscotack.theory.elastic import indenter
 from viscotack.traction import LennardJones
 
-from . import doors, simulated, tiers
+from . import round_trips, simulated, tiers
 from .findings import Finding, Report, holds, report, rises, same
 
-# What collocation may be off from its symmetric part, and hats from a point of a node.
+# Tolerances for the asymmetry of collocation, and for hat functions against point loads.
 _DISCRETE = 0.05
 _SYMMETRIES = ("revolution", "plane")
 _WORK = 0.05
 
 
 def check_body(body: Any, *, size: float = 1e-4, thorough: bool = True) -> Report:
-    """Check a body against what the package relies on.
+    """Check the properties of a body on which the package relies.
 
     Parameters
     ----------
     body : Body
-        In SI, of the package or of one's own. One with a ``base`` has its transfer function checked
-        as well.
+        A body in SI, from the package or user-defined. If it has a ``base``, its transfer function
+        is checked as well.
     size : float
-        A contact radius, or half width of a punch, about which it is checked [m].
+        Contact radius, or half width of a punch, of the checked contacts [m].
     thorough : bool
-        Whether to simulate contacts and to plan a campaign too: seconds.
+        Whether also to simulate contacts and plan a campaign, which takes seconds.
+
+    Returns
+    -------
+    Report
+        The findings.
 
     Examples
     --------
@@ -75,7 +80,7 @@ def _compliance(body: Any, size: float) -> Iterator[Finding]:
         B = np.asarray(body.influence(nodes, symmetry)) / hat_areas(nodes, symmetry)
         yield holds("compliance is finite", bool(np.all(np.isfinite(B))), "numbers", "inf or nan")
         even = (B + B.T) / 2
-        # the hat at the axis is half a cone, and the last is cut off
+        # the hat function at the axis is half a cone, and the last one is cut off
         off = float(np.max(np.abs((B - B.T)[2:-1, 2:-1])) / np.max(np.abs(even)))
         name = "reciprocity: compliance is symmetric"
         yield holds(name, off < _DISCRETE, f"< {_DISCRETE}", off)
@@ -124,7 +129,7 @@ def _transfer(body: Any, size: float) -> Iterator[Finding]:
     thin, factor = 2 * kappa[0] / t[0], base.foundation
     name = "a thin layer is a foundation: transfer tends to c t/2"
     yield same(name, thin, factor, rtol=1e-3, atol=1e-3)
-    # a bonded incompressible layer bulges, and kappa passes 1 by little
+    # a bonded incompressible layer bulges, so that kappa slightly exceeds 1
     yield holds(
         "transfer is positive and at most 1",
         bool(np.all((kappa > 0) & (kappa < 1.2))),
@@ -136,11 +141,11 @@ def _transfer(body: Any, size: float) -> Iterator[Finding]:
 
 def _record(body: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a record."""
-    return doors.through_record(body)
+    return round_trips.through_record(body)
 
 
 def _tables(body: Any, size: float) -> dict[str, Any]:
-    numbers = doors.numbers_of(body)
+    numbers = round_trips.numbers_of(body)
     material: dict[str, Any] = {"model": "elastic", "rubbery_modulus": "1 MPa"}
     nu = getattr(body, "poisson_ratio", None)
     if isinstance(body, Layer):
@@ -153,11 +158,11 @@ def _tables(body: Any, size: float) -> dict[str, Any]:
 
 def _case_file(body: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    yield doors.through_case_file(body, "body", _tables(body, size))
+    yield round_trips.through_case_file(body, "body", _tables(body, size))
 
 
 def _tiers(body: Any, size: float) -> Iterator[Finding]:
-    """Check that tiers refuse the body in words, but the simulation and those that list it."""
+    """Check that every tier either lists the body or rejects it with a reason."""
     if type(body) in BODIES.values():
         return
     for tier in TIERS:
@@ -173,7 +178,7 @@ def _campaign(body: Any, size: float) -> Iterator[Finding]:
     """Check a plan of a campaign."""
     if isinstance(body, HalfSpace):
         return iter(())
-    return doors.through_campaign(body, _tables(body, size))
+    return round_trips.through_campaign(body, _tables(body, size))
 
 
 def _contact(body: Any, size: float) -> Iterator[Finding]:
@@ -185,11 +190,11 @@ def _contact(body: Any, size: float) -> Iterator[Finding]:
         residual = result.energy_residual
         closes = residual is not None and abs(residual) < 0.01
         yield holds("simulation: the energy audit closes", closes, "below 0.01", residual)
-        yield from simulated.saved(problem, doors.classes_of(body))
+        yield from simulated.saved(problem, round_trips.classes_of(body))
 
 
 def _stiff(body: Any, size: float) -> Iterator[tuple[Problem, Any, str]]:
-    """Yield contacts so stiff that they let go like rigid ones: problem, pull-off over that, name.
+    """Yield contacts stiff enough to detach like rigid ones: problem, pull-off over that, name.
 
     A pressure like the strength on an area like the contact moves the surface by a hundredth of the
     range h_0 of the forces, where they begin without a depth.
@@ -207,8 +212,8 @@ def _stiff(body: Any, size: float) -> Iterator[tuple[Problem, Any, str]]:
         test = Retraction(AtDepth(0.0), 1e-6)
         problem = Problem(solid, law, shape, test, body)
         if sphere:
-            name = "simulation: a stiff body lets a sphere go with 2 pi R dg"
+            name = "simulation: pull-off of a sphere from a stiff body is 2 pi R dg"
             yield problem, lambda result: pull_off_force(result) * 0.75, name
         else:
-            name = "simulation: a stiff body lets a punch go with the strength"
+            name = "simulation: pull-off of a punch from a stiff body is the strength"
             yield problem, pull_off_stress, name

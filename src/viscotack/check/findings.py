@@ -1,4 +1,4 @@
-"""What a check found: one line for each identity, limit, bound or door."""
+"""Findings of the conformance checks: one for each identity, limit, bound or round trip."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from viscotack.errors import InputError
 
 
 class CheckFailed(InputError):
-    """A noun does not satisfy what the package relies on."""
+    """An object fails a conformance check."""
 
 
 @dataclass(frozen=True)
@@ -21,11 +21,16 @@ class Finding:
     Attributes
     ----------
     name : str
-        The identity, limit, bound or door that was checked.
+        The identity, limit, bound or round trip that was checked.
     expected, found : str
-        In words or numbers, SI unless stated.
+        Expected and found value, as text; numbers in SI unless stated.
     passed : bool
-        Whether the noun satisfies it.
+        Whether the object satisfies the check.
+
+    Examples
+    --------
+    >>> print(Finding("energy far apart is 0", "0", "0.1", passed=False))
+    FAIL energy far apart is 0: expected 0, found 0.1
     """
 
     name: str
@@ -42,12 +47,12 @@ class Finding:
 
 @dataclass(frozen=True)
 class Report:
-    """All findings for one noun.
+    """All findings for one object; returned by :func:`check_material` and its siblings.
 
     Attributes
     ----------
     noun : str
-        What was checked.
+        Representation of the checked object.
     findings : tuple of Finding
         In the order of the checks.
     """
@@ -57,7 +62,7 @@ class Report:
 
     @property
     def failures(self) -> tuple[Finding, ...]:
-        """The findings that did not pass."""
+        """Findings of failed checks."""
         return tuple(finding for finding in self.findings if not finding.passed)
 
     @property
@@ -66,7 +71,7 @@ class Report:
         return not self.failures
 
     def raise_if_failed(self) -> "Report":
-        """Raise `CheckFailed` with all failures in words, or give back the report."""
+        """Return the report, or raise `CheckFailed` with all failures if there are any."""
         if self.failures:
             raise CheckFailed(str(self))
         return self
@@ -81,7 +86,7 @@ Check = Callable[..., Iterator[Finding]]
 
 
 def report(noun: Any, checks: tuple[Check, ...], *arguments: Any) -> Report:
-    """Run checks on a noun; an exception in one is a finding and ends that check alone."""
+    """Run checks on an object; an exception becomes a failed finding and ends that check only."""
     found: list[Finding] = []
     for check in checks:
         try:
@@ -98,11 +103,11 @@ def report(noun: Any, checks: tuple[Check, ...], *arguments: Any) -> Report:
 def same(
     name: str, found: npt.ArrayLike, expected: npt.ArrayLike, *, rtol: float, atol: float = 0.0
 ) -> Finding:
-    """Compare numbers; the finding shows the pair that is farthest off."""
+    """Compare arrays; the finding shows the pair with the largest deviation."""
     x, y = np.broadcast_arrays(np.asarray(found), np.asarray(expected))
     allowed = atol + rtol * np.abs(y)
     with np.errstate(invalid="ignore"):
-        # equal infinities differ by nan
+        # the difference of equal infinities is nan
         off = np.where(x == y, 0.0, np.abs(x - y) - allowed)
     off = np.where(np.isnan(off), np.inf, off)
     worst = np.unravel_index(np.argmax(off), off.shape)
@@ -110,19 +115,20 @@ def same(
 
 
 def holds(name: str, truth: Any, expected: Any, found: Any) -> Finding:
-    """State a condition; `found` is shown where it does not hold."""
+    """Record a condition; the finding shows `found` if it does not hold."""
     return Finding(name, f"{expected}", f"{found}", bool(truth))
 
 
 def rises(name: str, values: npt.ArrayLike, *, slack: float = 1e-12) -> Finding:
-    """State that values never fall by more than rounding."""
+    """Check that values never decrease by more than round-off."""
     v = np.asarray(values, dtype=float)
     fall = float(np.max(-np.diff(v), initial=0.0))
     largest = float(np.max(np.abs(v), initial=0.0))
     within = fall <= slack * largest and bool(np.all(np.isfinite(v)))
-    return Finding(name, "no fall", f"a fall of {fall:.4g} among values to {largest:.4g}", within)
+    found = f"a decrease of {fall:.4g} in values up to {largest:.4g}"
+    return Finding(name, "no decrease", found, within)
 
 
 def refused(error: Exception) -> bool:
-    """Return whether an exception is a refusal in words and no defect."""
+    """Whether an exception is a rejection of the input with a reason, not a defect."""
     return isinstance(error, InputError) and len(str(error).split()) >= 3

@@ -1,9 +1,9 @@
-r"""What a traction law must satisfy.
+r"""Conformance checks for traction laws.
 
-With the energy :math:`\varphi` of unit area at a gap h: :math:`\sigma = d\varphi/dh`, tension
+With the energy :math:`\varphi` per unit area at a gap h: :math:`\sigma = d\varphi/dh`, tension
 positive; :math:`\varphi(h_0) = -\Delta\gamma_0`, :math:`\varphi(\infty) = 0`; the stiffness is
-:math:`d\sigma/dh`. Derivatives are checked as integrals between neighbouring gaps, so that corners
-of the traction and leaps of the stiffness do no harm.
+:math:`d\sigma/dh`. Derivatives are checked as integrals between neighbouring gaps, because the
+traction may have kinks and the stiffness discontinuities.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,24 +20,29 @@ from viscotack.protocol import AtForce
 from viscotack.result.observables import pull_off_force
 from viscotack.traction import Tabulated, effective_range, grows, softening
 
-from . import doors, simulated
+from . import round_trips, simulated
 from .findings import Finding, Report, holds, report, same
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
-# Of the effective range: a contact near JKR, and one near Bradley's rigid sphere.
+# Tabor numbers for the effective range: a contact near JKR, and one near Bradley's rigid sphere.
 _JKR, _BRADLEY = 5.0, 0.05
 
 
 def check_law(law: Any, *, thorough: bool = True) -> Report:
-    """Check a traction law against every identity, limit and bound that the package relies on.
+    """Check the identities, limits and bounds of a traction law on which the package relies.
 
     Parameters
     ----------
     law : Traction
-        In SI, of the package or of one's own. Of a law that grows with the opening speed the law
-        at rest is checked.
+        A law in SI, from the package or user-defined. For a law that grows with the opening speed
+        the law at rest is checked.
     thorough : bool
-        Whether to simulate contacts too, near the limits of JKR and of Bradley: seconds.
+        Whether also to simulate contacts near the JKR and Bradley limits, which takes seconds.
+
+    Returns
+    -------
+    Report
+        The findings.
 
     Examples
     --------
@@ -45,7 +50,16 @@ def check_law(law: Any, *, thorough: bool = True) -> Report:
     >>> check_law(LennardJones(0.05, 1e-9), thorough=False).passed
     True
     """
-    checks = (_constants, _identities, _far, _peak, _units, doors.through_record, _case_file, _flag)
+    checks = (
+        _constants,
+        _identities,
+        _far,
+        _peak,
+        _units,
+        round_trips.through_record,
+        _case_file,
+        _flag,
+    )
     return report(law, checks + ((_campaign, _contacts) if thorough else ()))
 
 
@@ -54,7 +68,7 @@ def _at_rest(law: Any) -> Any:
 
 
 def _gaps(law: Any) -> npt.NDArray[np.float64]:
-    """Return gaps from pressed to far, finer where the law may change at once."""
+    """Gaps from compressed to far apart, finer where the law may be discontinuous."""
     reach = effective_range(law)
     beyond = np.concatenate([np.linspace(0, 4, 1600), np.geomspace(4, 1e3, 300)[1:]])
     return law.equilibrium_gap * np.concatenate([np.linspace(0.6, 0.999, 200), 1 + reach * beyond])
@@ -73,7 +87,7 @@ def _constants(law: Any) -> Iterator[Finding]:
         yield holds(f"{name} is positive", 0 < value < np.inf, "> 0", value)
     fall = softening(_at_rest(law))
     yield holds("the tension falls beyond its peak", 0 < fall < np.inf, "a fall", fall)
-    if not isinstance(_at_rest(law), Tabulated):  # which has a table of points
+    if not isinstance(_at_rest(law), Tabulated):  # a tabulated law has points, no cards
         check_carded(type(_at_rest(law)))
 
 
@@ -144,28 +158,30 @@ def _units(law: Any) -> Iterator[Finding]:
         atol = 1e-9 * float(np.max(np.abs(expected)))
         yield same(f"units: {name} of the reduced law", found, expected, rtol=1e-9, atol=atol)
     found = np.shape(law.traction(np.full((2, 3), 1.2 * h0)))
-    yield holds("traction: shape of the answer", found == (2, 3), (2, 3), found)
+    yield holds("traction: shape of the returned array", found == (2, 3), (2, 3), found)
 
 
 def _tables(law: Any) -> dict[str, Any]:
     if not grows(law):
-        return {"interface": {"law": law.word} | doors.numbers_of(law)}
-    # the base is reduced: of its numbers only those without a unit are its own
-    pure = {name: x for name, x in doors.numbers_of(law.base).items() if not isinstance(x, str)}
+        return {"interface": {"law": law.word} | round_trips.numbers_of(law)}
+    # the base case is reduced: only dimensionless numbers of the law are kept
+    pure = {
+        name: x for name, x in round_trips.numbers_of(law.base).items() if not isinstance(x, str)
+    }
     words = {"law": law.word, "base": law.base.word}
-    return {"interface": pure | doors.numbers_of(law) | words}
+    return {"interface": pure | round_trips.numbers_of(law) | words}
 
 
 def _case_file(law: Any) -> Iterator[Finding]:
     """Check the round trip through a case file."""
     if not isinstance(_at_rest(law), Tabulated):  # a table of points is a file of its own
-        yield doors.through_case_file(law, "traction", _tables(law))
+        yield round_trips.through_case_file(law, "traction", _tables(law))
 
 
 def _campaign(law: Any) -> Iterator[Finding]:
     """Check a plan of a campaign."""
     if not isinstance(_at_rest(law), Tabulated):
-        yield from doors.through_campaign(law, _tables(law))
+        yield from round_trips.through_campaign(law, _tables(law))
 
 
 def _flag(law: Any) -> Iterator[Finding]:
@@ -174,9 +190,9 @@ def _flag(law: Any) -> Iterator[Finding]:
         return
     r = law.reduced()
     scales = {"work_of_adhesion", "equilibrium_gap"}
-    rest = [repr(x) for name, x in doors.numbers_of(r).items() if name not in scales]
+    rest = [repr(x) for name, x in round_trips.numbers_of(r).items() if name not in scales]
     words = f"{law.word}:{','.join(rest)}" if rest else law.word
-    yield doors.through_flags(r, "traction", {"law": words})
+    yield round_trips.through_flags(r, "traction", {"law": words})
 
 
 def _contacts(law: Any) -> Iterator[Finding]:
@@ -187,9 +203,10 @@ def _contacts(law: Any) -> Iterator[Finding]:
     groups = Groups(_JKR * reach, solid, AtForce(0.0), 1.0, law)
     force = pull_off_force(simulated.run(groups))
     yield holds(
-        "simulation: a short range pulls like JKR", 0.97 <= force <= 1.06, "1 to 1.06", force
+        "simulation: pull-off at short range is near JKR", 0.97 <= force <= 1.06, "1 to 1.06", force
     )
     groups = replace(groups, tabor=_BRADLEY * reach, start=AtForce(-0.5))
     force = pull_off_force(simulated.run(groups))
-    yield holds("simulation: a long range pulls like Bradley", 1.27 <= force <= 1.35, "4/3", force)
-    yield from simulated.saved(groups, doors.classes_of(law))
+    name = "simulation: pull-off at long range is near Bradley"
+    yield holds(name, 1.27 <= force <= 1.35, "4/3", force)
+    yield from simulated.saved(groups, round_trips.classes_of(law))

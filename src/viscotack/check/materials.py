@@ -1,9 +1,9 @@
-r"""What a linear viscoelastic solid must satisfy.
+r"""Conformance checks for linear viscoelastic materials.
 
-With the relaxation modulus R and the creep compliance C: R from the glassy to the rubbery modulus,
-never rising; C from 1/glassy to 1/rubbery, never falling; R(t) C(t) <= 1; E*(w) C*(w) = 1 with
-both losses not negative (Christensen, Theory of Viscoelasticity, 2nd ed. (1982), chapter 1 and 4);
-and C a sum of exponentials with positive weights, within the stated error.
+The relaxation modulus R falls monotonically from the glassy to the rubbery modulus, and the creep
+compliance C rises monotonically from 1/glassy to 1/rubbery; R(t) C(t) <= 1; E*(w) C*(w) = 1, both
+with non-negative loss (Christensen, Theory of Viscoelasticity, 2nd ed. (1982), chapters 1 and 4).
+C is a sum of exponentials with positive weights within the stated error.
 """
 
 import tempfile
@@ -26,22 +26,27 @@ from viscotack.problem import Groups
 from viscotack.protocol import AtForce
 from viscotack.traction import LennardJones
 
-from . import doors, simulated
+from . import round_trips, simulated
 from .findings import Finding, Report, holds, report, rises, same
 
 _TOLERANCES = (1e-2, 1e-4, 1e-7)
 
 
 def check_material(material: Any, *, thorough: bool = True) -> Report:
-    """Check a solid against every identity, limit and bound that the package relies on.
+    """Check the identities, limits and bounds of a material on which the package relies.
 
     Parameters
     ----------
     material : Material
-        In SI, of the package or of one's own; any numbers that its cards allow.
+        A material in SI, from the package or user-defined, with any numbers allowed by its cards.
     thorough : bool
-        Whether to simulate contacts and to evaluate the theories too: seconds to a minute. Without
-        it the checks of the formulas and of the ways in take a fraction of a second.
+        Whether also to simulate contacts and evaluate the theories, which takes seconds to a
+        minute. Without it the checks of formulas and round trips take a fraction of a second.
+
+    Returns
+    -------
+    Report
+        The findings.
 
     Examples
     --------
@@ -54,8 +59,8 @@ def check_material(material: Any, *, thorough: bool = True) -> Report:
     """
     checks = (
         _constants, _limits, _elastic_limit, _shapes_of_answers, _in_time, _in_frequency, _modes,
-        _finest_modes, _transforms, _reduced, _units, doors.through_record, _case_file, _flags,
-        _campaign, _passport,
+        _finest_modes, _transforms, _reduced, _units, round_trips.through_record, _case_file,
+        _flags, _campaign, _passport,
     )  # fmt: skip
     return report(material, checks + ((_contacts, _theories) if thorough else ()))
 
@@ -99,12 +104,13 @@ def _elastic_limit(m: Any) -> Iterator[Finding]:
 
 
 def _shapes_of_answers(m: Any) -> Iterator[Finding]:
-    """Check that answers have the shape of their argument."""
+    """Check that returned arrays have the shape of the argument."""
     t = m.time_unit * np.array([[0.1, 1.0, 10.0], [0.2, 2.0, 20.0]])
     for name in ("creep", "relaxation", "complex_modulus", "complex_compliance"):
         function = getattr(m, name)
         found = np.shape(function(t)), np.shape(function(m.time_unit))
-        yield holds(f"{name}: shape of the answer", found == (t.shape, ()), (t.shape, ()), found)
+        expected = (t.shape, ())
+        yield holds(f"{name}: shape of the returned array", found == expected, expected, found)
 
 
 def _in_time(m: Any) -> Iterator[Finding]:
@@ -123,7 +129,7 @@ def _in_frequency(m: Any) -> Iterator[Finding]:
     E = np.asarray(m.complex_modulus(w), dtype=complex)
     C = np.asarray(m.complex_compliance(w), dtype=complex)
     yield same("modulus times compliance is 1", E * C, 1.0, rtol=1e-8)
-    # the elastic limit: a loss of rounding of the storage is none
+    # in the elastic limit the loss may be negative by round-off of the storage modulus
     loss = float(np.min(np.imag(E) / np.real(E)))
     yield holds("passive: the loss modulus is not negative", loss >= -1e-14, "E'' >= 0", loss)
     loss = float(np.min(-np.imag(C) / np.real(C)))
@@ -153,10 +159,10 @@ def _modes(m: Any) -> Iterator[Finding]:
 
 
 def _finest_modes(m: Any) -> Iterator[Finding]:
-    """Check modes as close as theories of cracks ask for."""
+    """Check modes at the tolerance that crack theories use."""
     unit, k = m.time_unit, m.modulus_ratio
     modes = m.retardation_modes(shortest=1e-13 * unit, longest=1e9 * unit, tolerance=1e-14 * k)
-    name = "modes where theories of cracks ask for 1e-14 k: stated error"
+    name = "modes at the tolerance 1e-14 k of crack theories: stated error"
     yield holds(name, modes.error <= FINEST, f"<= {FINEST:g}", modes.error)
 
 
@@ -167,7 +173,7 @@ def _transforms(m: Any) -> Iterator[Finding]:
     modes = m.retardation_modes(shortest=1e-14 * unit, longest=1e14 * unit, tolerance=tolerance)
     weights, times = np.array(modes.weights), np.array(modes.times)
     if not times.size:
-        return  # an elastic solid: its limits are all there is
+        return  # for an elastic solid the limits are sufficient
     w = np.geomspace(1e-6, 1e6, 61) / unit
     expected = (modes.instantaneous + voigt(w[:, None] * times) @ weights) / E0
     found = m.complex_compliance(w)
@@ -180,7 +186,7 @@ def _transforms(m: Any) -> Iterator[Finding]:
 
 
 def _reduced(m: Any) -> Iterator[Finding]:
-    """Check the reduced twin."""
+    """Check the dimensionless form."""
     r, t = m.reduced(), np.geomspace(1e-6, 1e6, 49)
     numbers = (r.rubbery_modulus, r.time_unit, r.poisson_ratio)
     yield same(
@@ -192,7 +198,7 @@ def _reduced(m: Any) -> Iterator[Finding]:
 
 
 def _units(m: Any) -> Iterator[Finding]:
-    """Check other units of modulus and time by the cards."""
+    """Check the conversion to other units of modulus and time by the cards."""
     t, w = _times(m, 6), 1 / _times(m, 6)
     other = scaled(m, modulus=3.0, time=7.0)
     found = 3.0 * np.asarray(other.creep(7.0 * t))
@@ -207,17 +213,17 @@ def _units(m: Any) -> Iterator[Finding]:
 
 
 def _tables(m: Any) -> dict[str, Any]:
-    return {"material": {"model": m.word} | doors.numbers_of(m)}
+    return {"material": {"model": m.word} | round_trips.numbers_of(m)}
 
 
 def _case_file(m: Any) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    yield doors.through_case_file(m, "material", _tables(m))
+    yield round_trips.through_case_file(m, "material", _tables(m))
 
 
 def _campaign(m: Any) -> Iterator[Finding]:
     """Check a plan of a campaign."""
-    return doors.through_campaign(m, _tables(m))
+    return round_trips.through_campaign(m, _tables(m))
 
 
 def _flags(m: Any) -> Iterator[Finding]:
@@ -230,11 +236,11 @@ def _flags(m: Any) -> Iterator[Finding]:
         flags["modulus-ratio"] = r.modulus_ratio
     if "exponent" in named:
         flags["exponent"], stated = r.exponent, stated | {"exponent"}
-    rest = [repr(x) for name, x in doors.numbers_of(r).items() if name not in stated]
+    rest = [repr(x) for name, x in round_trips.numbers_of(r).items() if name not in stated]
     if any("[" in text or "'" in text for text in rest):
-        return  # lists and numbers with units come by files alone
+        return  # lists and numbers with units are given in files only
     flags["material"] = ":".join([m.word, ",".join(rest)]) if rest else m.word
-    yield doors.through_flags(r, "material", flags)
+    yield round_trips.through_flags(r, "material", flags)
 
 
 def _passport(m: Any) -> Iterator[Finding]:
@@ -243,7 +249,7 @@ def _passport(m: Any) -> Iterator[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "passport.toml"
         write_passport(passport, path)
-        back = read_passport(path, also=doors.classes_of(m))
+        back = read_passport(path, also=round_trips.classes_of(m))
     yield holds("passport: written and read back", back == passport, repr(m), repr(back.material))
 
 
@@ -256,10 +262,10 @@ def _contacts(m: Any) -> Iterator[Finding]:
     groups = _groups(m, 1.0, 3.0)
     yield from simulated.between_limits(groups)
     yield from simulated.in_si(groups, modulus=m.rubbery_modulus, poisson_ratio=m.poisson_ratio)
-    yield from simulated.saved(groups, doors.classes_of(m))
+    yield from simulated.saved(groups, round_trips.classes_of(m))
 
 
 def _theories(m: Any) -> Iterator[Finding]:
-    """Check that theories and predictions answer or refuse in words."""
+    """Check that theories and predictions return a value or a reason."""
     for tabor in (0.5, 3.0, 30.0):
         yield from simulated.answered(_groups(m, tabor, 30.0))

@@ -1,4 +1,4 @@
-"""What a number of a result must satisfy: units and mesh change nothing."""
+"""Conformance checks for observables of a result: independence of units and mesh."""
 
 import tempfile
 from collections.abc import Iterator
@@ -21,26 +21,39 @@ _MEASURES = {"force", "depth", "radius", "speed", "work", "time", "1"}
 
 
 def check_observable(observable: Any, *, refinement: float = 0.05) -> Report:
-    """Check a number of a result: units, refinement, files.
+    """Check an observable of a result: independence of units, refinement and saving.
 
     Parameters
     ----------
     observable : Observable
-        Of one's own, or of the package by ``Observable``-like name, words, measure and function.
+        User-defined, or from the package: name, description, measure and function.
     refinement : float
-        By which part of itself it may change where steps and nodes are five times as accurate.
+        Largest relative change allowed when the accuracy of steps and mesh is five times better.
+
+    Returns
+    -------
+    Report
+        The findings.
 
     Notes
     -----
-    Some seconds: four simulations of a standard solid at the Tabor number 1.
+    Runs four simulations of a standard solid at a Tabor number of 1, which takes some seconds.
+
+    Examples
+    --------
+    >>> from viscotack import Observable, pull_off_force
+    >>> pull = Observable("pull", "pull-off force", "force", pull_off_force)
+    >>> check_observable(pull).passed
+    True
     """
     return report(observable, (_labels, _answers), refinement)
 
 
 def _labels(observable: Any, refinement: float) -> Iterator[Finding]:
-    """Check name, words and measure."""
+    """Check name, description and measure."""
     yield holds("name is an identifier", observable.name.isidentifier(), "a name", observable.name)
-    yield holds("words say what it is", bool(observable.words.strip()), "words", observable.words)
+    described = bool(observable.words.strip())
+    yield holds("description is not empty", described, "words", observable.words)
     known_measure = observable.measure in _MEASURES
     yield holds("measure is a known one", known_measure, sorted(_MEASURES), observable.measure)
 
@@ -51,7 +64,7 @@ def _case() -> Groups:
 
 
 def _answers(observable: Any, refinement: float) -> Iterator[Finding]:
-    """Check the number of a simulation."""
+    """Check the value for a simulation."""
     groups = _case()
     problem = groups.in_si(
         radius=2e-3, contact_modulus=3e6, work_of_adhesion=0.03, time_unit=0.7, poisson_ratio=0.4
@@ -61,19 +74,19 @@ def _answers(observable: Any, refinement: float) -> Iterator[Finding]:
         value = float(observable.function(coarse))
     except ValueError as error:
         yield holds(
-            "a number that is not reached is refused in words", refused(error), "words", error
+            "a missing value raises an error with a reason", refused(error), "a reason", error
         )
         return
     yield holds("the number is finite", np.isfinite(value), "a number", value)
     value_in_si = float(observable.function(simulated.run(problem)))
-    name = "scale-free: SI changes nothing of the dimensionless number"
+    name = "the dimensionless value is the same in SI"
     yield same(name, value_in_si, value, rtol=1e-6, atol=1e-9)
     fine = float(observable.function(simulated.run(groups, accuracy=simulated.ACCURACY / 5)))
     yield same("refinement of steps and nodes", value, fine, rtol=refinement, atol=1e-6)
     with tempfile.TemporaryDirectory() as folder:
         save(coarse, Path(folder) / "run.npz")
         again = float(observable.function(load(Path(folder) / "run.npz")))
-    yield same("a saved result has the same number", again, value, rtol=1e-12)
+    yield same("a saved result has the same value", again, value, rtol=1e-12)
     if known((observable,)).observables:
         told = summary(coarse, also=(observable,))
-        yield same("summary has it by its name", told[observable.name], value, rtol=1e-12)
+        yield same("the summary contains it", told[observable.name], value, rtol=1e-12)

@@ -1,4 +1,4 @@
-"""What an indenter of revolution must satisfy: its slope, its units, JKR's contact with it."""
+"""Conformance checks for indenters of revolution: profile, units, contact with JKR theory."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -14,21 +14,26 @@ from viscotack.result.observables import pull_off_force
 from viscotack.theory.elastic import indenter
 from viscotack.traction import LennardJones
 
-from . import doors, simulated
+from . import round_trips, simulated
 from .findings import Finding, Report, holds, report, rises, same
 
 
 def check_shape(shape: Any, *, size: float = 1e-4, thorough: bool = True) -> Report:
-    """Check an indenter of revolution against what the package relies on.
+    """Check the properties of an indenter of revolution on which the package relies.
 
     Parameters
     ----------
     shape : Shape
-        In SI, of the package or of one's own.
+        A shape in SI, from the package or user-defined.
     size : float
-        A contact radius [m] about which it is checked, from a thousandth to ten times it.
+        Contact radius [m]; the profile is checked from a thousandth to ten times this radius.
     thorough : bool
-        Whether to simulate a contact and to plan a campaign too: seconds.
+        Whether also to simulate a contact and plan a campaign, which takes seconds.
+
+    Returns
+    -------
+    Report
+        The findings.
 
     Examples
     --------
@@ -65,7 +70,7 @@ def _profile(shape: Any, size: float) -> Iterator[Finding]:
     atol = (1e-9 if np.isinf(detail(shape)) else 1e-8) * largest
     yield same(name, climbed, np.diff(shape.gap(r)), rtol=1e-4, atol=atol)
     found = np.shape(shape.gap(np.full((2, 3), size)))
-    yield holds("gap: shape of the answer", found == (2, 3), (2, 3), found)
+    yield holds("gap: shape of the returned array", found == (2, 3), (2, 3), found)
 
 
 def _units(shape: Any, size: float) -> Iterator[Finding]:
@@ -103,13 +108,13 @@ def _theory(shape: Any, size: float) -> Iterator[Finding]:
 
 def _record(shape: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a record."""
-    return doors.through_record(shape)
+    return round_trips.through_record(shape)
 
 
 def _tables(shape: Any, size: float) -> dict[str, Any]:
-    numbers = doors.numbers_of(shape)
+    numbers = round_trips.numbers_of(shape)
     if isinstance(shape, PowerLawProfile):
-        # stated by its height at a radius, for the unit of its coefficient changes with q
+        # given by its height at a radius, because the unit of the coefficient depends on q
         height = float(np.asarray(shape.gap(size)))
         stated = {"height": f"{height!r} m", "at_radius": f"{size!r} m"}
         numbers = {"exponent": shape.exponent} | stated
@@ -120,12 +125,12 @@ def _tables(shape: Any, size: float) -> dict[str, Any]:
 
 def _case_file(shape: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    yield doors.through_case_file(shape, "geometry", _tables(shape, size))
+    yield round_trips.through_case_file(shape, "geometry", _tables(shape, size))
 
 
 def _campaign(shape: Any, size: float) -> Iterator[Finding]:
     """Check a plan of a campaign."""
-    return doors.through_campaign(shape, _tables(shape, size))
+    return round_trips.through_campaign(shape, _tables(shape, size))
 
 
 def _contact(shape: Any, size: float) -> Iterator[Finding]:
@@ -136,7 +141,7 @@ def _contact(shape: Any, size: float) -> Iterator[Finding]:
     a = size * np.geomspace(0.01, 3, 3000)
     pulled = -float(np.min(indenter.force(a, **theory)))
     at = float(a[np.argmin(indenter.force(a, **theory))])
-    # a range so short that JKR holds to a few parts in a hundred, and that nodes can follow
+    # a range so short that JKR holds within a few per cent, and that the mesh can resolve
     adhesion, part, radius = work / modulus, 0.03, at
     if np.isfinite(detail(shape)):
         part, radius = 0.1, equivalent_radius(shape, adhesion)
@@ -146,9 +151,9 @@ def _contact(shape: Any, size: float) -> Iterator[Finding]:
     result = simulated.run(problem)
     found = pull_off_force(result) * problem.scales().force
     yield holds(
-        "simulation: a short range pulls like JKR for the shape",
+        "simulation: pull-off at short range is near JKR for the shape",
         0.93 < found / pulled < 1.1,
         f"{pulled:.4g} N within 0.93 to 1.1",
         f"{found:.4g} N",
     )
-    yield from simulated.saved(problem, doors.classes_of(shape))
+    yield from simulated.saved(problem, round_trips.classes_of(shape))

@@ -1,4 +1,4 @@
-"""Checks that run the simulation, or evaluate the predictions, for a problem with a noun in it."""
+"""Checks that simulate a problem, or evaluate predictions of it."""
 
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -17,17 +17,17 @@ from viscotack.theory import lennard_jones
 from .findings import Finding, holds, refused, same
 
 ACCURACY = 1e-2
-# Of the force: what bounds between laws of equal work and strength may differ by.
+# Tolerance of the force bounds, which differ between laws of equal work and strength.
 _SLACK = 0.03
 
 
 def run(problem: Any, *, accuracy: float = ACCURACY) -> Result:
-    """Return a simulation to the pull-off, without an estimate of its error."""
+    """Simulate a problem to pull-off, without an error estimate."""
     return solve(problem, until="pull-off", accuracy=accuracy, estimate_error=False)
 
 
 def bounds(groups: Groups) -> tuple[float, float]:
-    """Return the forces of the slowest and the fastest pull-off [1.5 pi R dg0], with slack."""
+    """Return the forces of the slowest and fastest pull-off [1.5 pi R dg0], with a tolerance."""
     mu, k = groups.effective_tabor, groups.modulus_ratio
     slow = float(np.asarray(lennard_jones.pull_off_ratio(mu)))
     fast = float(np.asarray(lennard_jones.pull_off_ratio(mu * k ** (1 / 3)))) / k
@@ -35,7 +35,7 @@ def bounds(groups: Groups) -> tuple[float, float]:
 
 
 def between_limits(groups: Groups) -> Iterator[Finding]:
-    """State that the simulated force lies between the slowest and the fastest pull-off."""
+    """Check that the simulated force lies between the slow and the fast limit."""
     result = run(groups)
     force, (low, high) = pull_off_force(result), bounds(groups)
     name = "simulation: pull-off between the slow and the fast limit"
@@ -47,7 +47,7 @@ def between_limits(groups: Groups) -> Iterator[Finding]:
 
 
 def in_si(groups: Groups, *, modulus: float, poisson_ratio: float) -> Iterator[Finding]:
-    """State that a problem in SI has the dimensionless force."""
+    """Check that a problem in SI has the same dimensionless force."""
     problem = groups.in_si(
         radius=2e-3,
         contact_modulus=modulus / (1 - poisson_ratio**2),
@@ -56,11 +56,11 @@ def in_si(groups: Groups, *, modulus: float, poisson_ratio: float) -> Iterator[F
         poisson_ratio=poisson_ratio,
     )
     found, expected = (pull_off_force(run(p)) for p in (problem, groups))
-    yield same("simulation: SI changes nothing", found, expected, rtol=1e-6)
+    yield same("simulation: the force is the same in SI", found, expected, rtol=1e-6)
 
 
 def saved(problem: Any, also: Iterable[type]) -> Iterator[Finding]:
-    """State that a result is saved and loaded."""
+    """Check that a result is unchanged after saving and loading."""
     result, also = run(problem), tuple(also)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "run.npz"
@@ -71,9 +71,9 @@ def saved(problem: Any, also: Iterable[type]) -> Iterator[Finding]:
 
 
 def answered(groups: Groups) -> Iterator[Finding]:
-    """State that predictions answer within their limits or refuse in words."""
+    """Check that predictions lie within their limits or return a reason."""
     low, high = bounds(groups)
-    where = f"at the Tabor number {groups.tabor:g}"
+    where = f"at a Tabor number of {groups.tabor:g}"
     try:
         found = predict(groups)
         force, (least, most) = found.pull_off_force, found.interval
@@ -81,7 +81,7 @@ def answered(groups: Groups) -> Iterator[Finding]:
         words = f"{force:.4g} in {least:.4g} to {most:.4g} by {found.method}"
     except Exception as error:
         holds_it, words = refused(error), f"{type(error).__name__}: {error}"
-    yield holds(f"predict {where}", holds_it, f"{low:.4g} to {high:.4g}, or words", words)
+    yield holds(f"predict {where}", holds_it, f"{low:.4g} to {high:.4g}, or a reason", words)
     try:
         best = advise(groups).estimates
         forces = [e.pull_off_force for e in best if e.applies and e.pull_off_force is not None]
@@ -89,4 +89,4 @@ def answered(groups: Groups) -> Iterator[Finding]:
         holds_it, words = not wrong, f"{wrong}"
     except Exception as error:
         holds_it, words = refused(error), f"{type(error).__name__}: {error}"
-    yield holds(f"advise {where}", holds_it, f"{low:.4g} to {high:.4g}, or words", words)
+    yield holds(f"advise {where}", holds_it, f"{low:.4g} to {high:.4g}, or a reason", words)

@@ -1,4 +1,4 @@
-"""What a tier of answers must satisfy: it answers what it lists, with an interval, and no more."""
+"""Conformance checks for tiers: they answer the problems that they list, and reject all others."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -20,14 +20,16 @@ from .findings import Finding, Report, holds, refused, report, same
 
 
 class Tier(Protocol):
-    """One way to an answer: a theory, a surrogate, a simulation.
+    """Method of prediction: a theory, a surrogate or the simulation.
+
+    Check an implementation with :func:`check_tier`.
 
     Attributes
     ----------
     name : str
-        What predictions call it.
+        Name used in predictions.
     cost : float
-        Time of an answer [s], order of magnitude.
+        Time of one evaluation [s], order of magnitude.
     """
 
     @property
@@ -36,38 +38,38 @@ class Tier(Protocol):
     def cost(self) -> float: ...  # noqa: D102
 
     def covers(self, problem: Any) -> str:
-        """Give the reason why a problem is not covered, "" if it is."""
+        """Reason why a problem is not covered, or "" if it is."""
         ...
 
     def answer(self, problem: Any, *, confidence: float = 0.9) -> Prediction:
-        """Predict the pull-off force of a problem that is covered."""
+        """Predict the pull-off force of a covered problem."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class UnknownSolid(StandardSolid):
-    """A solid that no tier was verified for."""
+    """A material for which no tier was verified."""
 
     word: ClassVar[str] = "unknown-solid"
 
 
 @dataclass(frozen=True)
 class UnknownLaw(LennardJones):
-    """A law that no tier was verified for."""
+    """A traction law for which no tier was verified."""
 
     word: ClassVar[str] = "unknown-law"
 
 
 @dataclass(frozen=True)
 class UnknownShape(Sphere):
-    """A shape that no tier was verified for."""
+    """A shape for which no tier was verified."""
 
     word: ClassVar[str] = "unknown-shape"
 
 
 @dataclass(frozen=True)
 class UnknownBody(HalfSpace):
-    """A body that no tier was verified for."""
+    """A body for which no tier was verified."""
 
     word: ClassVar[str] = "unknown-body"
     symmetries: ClassVar[tuple[str, ...]] = ("revolution", "plane")
@@ -77,11 +79,11 @@ _SOLID = {"rubbery_modulus": 1.0, "glassy_modulus": 10.0, "tau0": 1.0, "poisson_
 
 
 def problems() -> tuple[Groups, ...]:
-    """Return spheres over the range of the tiers, Tabor numbers, solids and rates; and a punch."""
+    """Test problems: spheres over the Tabor numbers, materials and rates of tiers; a punch."""
     solids = (StandardSolid(**_SOLID), RetardationPowerLaw(**_SOLID, exponent=0.6))
     soft = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     elastic = tuple(Groups(tabor, soft, AtForce(1.0), 1.0) for tabor in (0.2, 1.5, 8.0))
-    # a heavy start, from which a fast pull finds the solid glassy
+    # a large preload, from which a fast retraction meets the glassy solid
     fast = Groups(1.5, solids[0], AtForce(300.0), 1e7)
     punch = Groups(
         None,
@@ -106,20 +108,31 @@ def check_tier(
     takes: Iterable[str] = (),
     digits: float = 1e-9,
 ) -> Report:
-    """Check a tier: what it covers, what it answers, and that it refuses all else in words.
+    """Check that a tier answers covered problems with an interval and rejects all others.
 
     Parameters
     ----------
     tier : Tier
-        With ``name``, ``cost``, ``covers(problem)`` and ``answer(problem, confidence=)``.
+        Object with ``name``, ``cost``, ``covers(problem)`` and ``answer(problem, confidence=)``.
     cases : iterable of Problem or Groups
-        Asked beside those of this module.
+        Problems that are tested in addition to those of this module.
     takes : iterable of str
-        Kinds of nouns, of "solid", "law", "shape" and "body", of which it answers any: those that
-        it compares by their functions, as the simulation does, and not by their class.
+        Those of "solid", "law", "shape" and "body" of which the tier accepts any object, because
+        it evaluates their functions, as the simulation does.
     digits : float
-        Relative agreement of a problem in SI with the same one without dimensions. A simulation
-        chooses steps by comparisons that rounding may turn: 1e-4.
+        Required relative agreement between a problem in SI and its dimensionless form. Use 1e-4
+        for a simulation, whose steps depend on round-off.
+
+    Returns
+    -------
+    Report
+        The findings.
+
+    Examples
+    --------
+    >>> from viscotack.forecast.tiers import TIERS
+    >>> check_tier(TIERS[0]).passed
+    True
     """
     return report(
         tier, (_labels, _answers, _units, _unknown), (*problems(), *cases), frozenset(takes), digits
@@ -137,10 +150,10 @@ def _covered(tier: Any, cases: Any) -> list[Any]:
 
 
 def _answers(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
-    """Check answers of the tier."""
+    """Check the predictions of the tier."""
     reasons = [tier.covers(case) for case in cases]
     words = all(isinstance(r, str) and (r == "" or len(r.split()) >= 2) for r in reasons)
-    yield holds("covers says '' or the reason in words", words, "'' or a reason", reasons)
+    yield holds("covers returns '' or a reason", words, "'' or a reason", reasons)
     answered = any(_answered(tier, case) for case in _covered(tier, cases))
     yield holds("answers one of the cases", answered, "one case or more", "none")
     for case, reason in zip(cases, reasons, strict=True):
@@ -149,15 +162,15 @@ def _answers(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Findi
         if reason == "":
             yield from _answer(tier, case, where)
         else:
-            yield _refusal(tier, case, f"{where} is not covered: answer refuses in words")
+            yield _refusal(tier, case, f"{where} is not covered: answer raises a reason")
 
 
 def _answer(tier: Any, case: Any, where: str) -> Iterator[Finding]:
     try:
         found = tier.answer(case)
     except OutOfRange as error:
-        # a condition that shows in the answer alone; it is a refusal like that of `covers`
-        yield holds(f"{where}: answers or refuses in words", refused(error), "words", error)
+        # a limit that is known only after evaluation; a rejection like that of `covers`
+        yield holds(f"{where}: returns a value or a reason", refused(error), "a reason", error)
         return
     force = found.pull_off_force
     yield holds(
@@ -168,11 +181,9 @@ def _answer(tier: Any, case: Any, where: str) -> Iterator[Finding]:
         f"{where}: the interval holds the force", low <= force <= high, found.interval, force
     )
     band = found.band in (MEASURED, NOT_MEASURED)
-    yield holds(
-        f"{where}: band says whether it was measured", band, (MEASURED, NOT_MEASURED), found.band
-    )
-    yield holds(f"{where}: method says who answers", bool(found.method), "a name", found.method)
-    yield holds(f"{where}: why says it in words", len(found.why.split()) > 2, "words", found.why)
+    yield holds(f"{where}: band is a known word", band, (MEASURED, NOT_MEASURED), found.band)
+    yield holds(f"{where}: method is not empty", bool(found.method), "a name", found.method)
+    yield holds(f"{where}: why is a reason", len(found.why.split()) > 2, "words", found.why)
     sphere = isinstance(case, Groups) and not case.in_plane_strain
     if sphere and case.effective_tabor < 100:
         least, most = simulated.bounds(case)
@@ -205,7 +216,7 @@ def _refusal(tier: Any, case: Any, name: str) -> Finding:
 
 
 def _units(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
-    """Check that the same problem in SI has the same answer."""
+    """Check that the same problem in SI has the same prediction."""
     groups = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
     for case in [case for case in groups if _answered(tier, case)][:2]:
         problem = case.in_si(
@@ -216,10 +227,11 @@ def _units(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding
             poisson_ratio=0.5,
         )
         reason = tier.covers(problem)
-        yield holds("a problem in SI is covered as without dimensions", reason == "", "''", reason)
+        name = "a problem in SI is covered like its dimensionless form"
+        yield holds(name, reason == "", "''", reason)
         found, expected = tier.answer(problem).pull_off_force, tier.answer(case).pull_off_force
         yield same(
-            "a problem in SI has the same digits as without dimensions",
+            "a problem in SI has the same value as its dimensionless form",
             found,
             expected,
             rtol=digits,
@@ -227,7 +239,7 @@ def _units(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding
 
 
 def _unknown(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
-    """Check that nouns beyond the list are refused."""
+    """Check that unverified materials, laws, shapes and bodies are rejected."""
     covered = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
     if not covered:
         return
@@ -243,6 +255,6 @@ def _unknown(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Findi
         if noun in takes:
             continue
         reason = tier.covers(stranger)
-        name = f"an unknown {noun} is not covered: the list is one of what was verified"
+        name = f"an unverified {noun} is not covered"
         yield holds(name, reason != "", "a reason", "covered")
-        yield _refusal(tier, stranger, f"an unknown {noun} is refused by answer")
+        yield _refusal(tier, stranger, f"an unverified {noun} is rejected by answer")

@@ -125,7 +125,7 @@ def load(name: str) -> Any:
 
 
 def metadata(name: str) -> dict[str, Any]:
-    """Return what the file says of the set as a whole: units, errors, plan, licence, versions.
+    """Read the metadata of a data set: units, errors, plan, licence, versions.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def checksum(content: bytes) -> str:
 
 
 def _facts(schema: Any) -> dict[str, Any]:
-    """Return what a file says of the set, with the names that columns have now."""
+    """Read the metadata in a file, with the current names of columns."""
     facts = json.loads(schema.metadata[METADATA_KEY])
     columns = {upgraded_output(name): words for name, words in facts["columns"].items()}
     return facts | {"columns": columns}

@@ -1,1 +1,1 @@
-"""Files: written whole or not at all, tables of quantities, and one writer at a time."""
+"""Files: atomic writes, tables of quantities with units, text, TOML, archives and locks."""

@@ -1,4 +1,4 @@
-"""Arrays in NumPy's archives, looked at before anything of them is unpacked."""
+"""Arrays in NumPy archives (.npz), checked before they are unpacked."""
 
 import math
 import zipfile
@@ -10,46 +10,51 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 
-# A file of a few megabytes can say that it holds terabytes. What is ours is far below [bytes].
+# The header of a small file can declare terabytes. Files of this package are far smaller [bytes].
 MOST = 1e9
-# Longest beginning of an array in which its shape is stated [bytes].
+# Longest header of an array, which contains its shape [bytes].
 _HEADER = 70_000
 
 
 def read_arrays(
     file: IO[bytes], expected: Callable[[str], bool], most: float = MOST
 ) -> dict[str, npt.NDArray[Any]]:
-    """Return the arrays of an archive, nothing of which is executed.
+    """Read the arrays of an archive without executing any of its content.
 
     Parameters
     ----------
     file : binary file
-        As ``numpy.savez_compressed`` wrote it.
+        As written by ``numpy.savez_compressed``.
     expected : callable
-        Whether an array of this name belongs in it.
+        Called with the name of an array; returns whether the archive may contain it.
     most : float
-        How large all of them may be when they are unpacked [bytes].
+        Largest total size of the unpacked arrays [bytes].
+
+    Returns
+    -------
+    dict of str to ndarray
+        The arrays by name.
 
     Raises
     ------
     InputError
-        If it is no archive, has something else in it, or is larger; also ValueError, OSError,
-        zlib.error and zipfile.BadZipFile where it is damaged.
+        If the file is not an archive, contains an unexpected member, or is too large. A damaged
+        file may also raise ValueError, OSError, zlib.error or zipfile.BadZipFile.
     """
     if not zipfile.is_zipfile(file):
-        raise InputError("it is not an archive")
+        raise InputError("it is not a NumPy archive")
     with zipfile.ZipFile(file) as archive:
         members = archive.infolist()
         names = [member.filename.removesuffix(".npy") for member in members]
         strange = [n for n, m in zip(names, members, strict=True) if n == m.filename]
         strange += [name for name in names if not expected(name)]
         if strange or len(set(names)) < len(names):
-            raise InputError(f"it has something in it that does not belong: {strange[:1] or names}")
+            raise InputError(f"it contains an unexpected array: {strange[:1] or names}")
         size = sum(member.file_size for member in members)
         if size > most:
             raise InputError(
-                f"unpacked it would have {size / 1e6:.0f} MB, more than the {most / 1e6:.0f} MB "
-                "that are taken"
+                f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of "
+                f"{most / 1e6:.0f} MB"
             )
         for member in members:
             _check_shape(archive, member)
@@ -59,7 +64,7 @@ def read_arrays(
 
 
 def _check_shape(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> None:
-    """Refuse an array that says it has other numbers than there are bytes for."""
+    """Raise InputError if the declared size of an array differs from its number of bytes."""
     with archive.open(member) as file:
         version = np.lib.format.read_magic(file)
         read = {
@@ -67,11 +72,12 @@ def _check_shape(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> None:
             (2, 0): np.lib.format.read_array_header_2_0,
         }.get(version)
         if read is None:
-            raise InputError(f"{member.filename} has a form that is not known, {version}")
+            raise InputError(f"{member.filename} has the unknown format version {version}")
         shape, _, kind = read(file)
         stated = math.prod(shape) * kind.itemsize
         there = member.file_size - file.tell()
         if any(n < 0 for n in shape) or stated != there or file.tell() > _HEADER:
             raise InputError(
-                f"{member.filename} says that it has {stated} bytes of numbers, and has {there}"
+                f"the header of {member.filename} declares {stated} bytes of numbers, the file "
+                f"contains {there}"
             )

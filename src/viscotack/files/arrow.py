@@ -1,4 +1,4 @@
-"""pyarrow, which reads and writes Parquet and comes with the extra ``campaign``."""
+"""Import of pyarrow, which reads and writes Parquet and is installed by the extra ``campaign``."""
 
 from typing import Any
 
@@ -6,17 +6,17 @@ from viscotack.errors import NotInstalled
 
 
 def arrow(stored: str = "campaigns are stored") -> Any:
-    """Import pyarrow with the modules that are used here.
+    """Import pyarrow and the submodules used in this package.
 
     Parameters
     ----------
     stored : str
-        What needs it, for the error.
+        Subject of the error message: what needs pyarrow.
 
     Raises
     ------
     NotInstalled
-        If it is missing.
+        If pyarrow is not installed.
     """
     try:
         import pyarrow

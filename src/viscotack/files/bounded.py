@@ -16,7 +16,7 @@ _AT_ONCE = 1 << 20
 def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
     """Open a regular file for reading; errors as of `read_bytes`."""
     found = os.stat(path).st_mode
-    # a pipe that nobody writes to would be waited for when it is opened
+    # opening a pipe without a writer would block
     if not stat.S_ISREG(found) and not stat.S_ISDIR(found):
         raise InputError(
             f"{os.fspath(path)} is no regular file: it is a device, a pipe or a socket; save what "

@@ -1,8 +1,9 @@
-"""One run at a time on a folder: the second is refused.
+"""Lock of a folder, so that only one run at a time writes to it.
 
-A lock of the system is let go of when its process ends, however. Not every file system has such
-locks, and some have them on each machine apart. So the file says besides who holds it, and its date
-that the holder lives; and the holder looks, before it writes, whether the file is still its own.
+The operating system releases a lock when its process ends, even after a crash. Some file systems
+have no locks, and others do not share them between machines. The lock file therefore also contains
+machine and process of its holder, the holder renews its modification time, and it checks before
+each write that the file is still its own.
 """
 
 import os
@@ -16,49 +17,51 @@ from time import time
 
 from viscotack.errors import InputError
 
-# Seconds without a sign of life after which a holder on another machine is taken for ended.
+# Time without renewal after which a holder on another machine counts as ended [s].
 _STALE = 60.0
 _HOLDER = re.compile(r"process (\d+) on (\S+)")
 
 
 class FolderInUse(InputError):
-    """Another run writes to the folder."""
+    """Another run has locked the folder."""
 
 
 class Hold:
-    """A folder that is held.
+    """A locked folder.
 
     Parameters
     ----------
     path : Path
-        The file of the lock.
+        The lock file.
     handle : int
-        Its open handle.
+        Its open file descriptor.
     """
 
     def __init__(self, path: Path, handle: int) -> None:
         self._path, self._handle = path, handle
 
     def confirm(self) -> None:
-        """Say that the holder lives; FolderInUse if the lock has been taken away meanwhile."""
+        """Renew the lock; FolderInUse if its file was removed or replaced meanwhile."""
         if not _is_same(self._path, self._handle):
             raise FolderInUse(
-                f"{self._path} was removed while this run held it, and another run may write "
-                "there; this one has ended, and what it had stored is safe"
+                f"{self._path} was removed while this run held it, so another run may write to "
+                "the folder; this run has ended, and its stored rows are safe"
             )
         os.utime(self._handle)
 
 
 @contextmanager
 def locked(folder: Path) -> Iterator[Hold]:
-    """Hold the folder for the block; the system lets go of it when the process ends, however.
+    """Lock a folder for the duration of a `with` block.
+
+    The operating system releases the lock when the process ends, even after a crash.
 
     Raises
     ------
     FolderInUse
-        If another process holds it; with the machine and the number of that process.
+        If another process holds the lock; the message contains its machine and number.
     InputError
-        If its lock is a link or no file, or the system has no locks.
+        If the lock file is a link or not a regular file, or the system has no file locks.
     """
     path = folder / "lock"
     handle = _opened(path)
@@ -78,16 +81,16 @@ def locked(folder: Path) -> Iterator[Hold]:
 
 
 def _opened(path: Path) -> int:
-    """Return a handle of the lock's own file: nothing that it may lead to is touched."""
+    """Open the lock file itself, without following links."""
     try:
         handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
     except OSError as error:
         if path.is_symlink():
-            raise InputError(f"{path} is a link, and a lock must be a file: remove it") from None
+            raise InputError(f"the lock {path} is a link, not a regular file; remove it") from None
         raise InputError(f"cannot lock {path.parent}: {error.strerror}") from None
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        raise InputError(f"{path} is no file, and a lock must be one: remove it")
+        raise InputError(f"the lock {path} is not a regular file; remove it")
     return handle
 
 
@@ -95,8 +98,8 @@ def _taken(handle: int) -> bool:
     try:
         import fcntl
     except ImportError:
-        raise InputError("campaigns need the file locks of Linux or macOS to run") from None
-    with suppress(OSError):  # a file system without such locks has the words in the file only
+        raise InputError("campaigns need the file locks of Linux or macOS") from None
+    with suppress(OSError):  # without locks in the file system only the text in the file counts
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -105,7 +108,7 @@ def _taken(handle: int) -> bool:
 
 
 def _lives(path: Path, handle: int, holder: str) -> bool:
-    """Return whether the holder that a file names may live, though the system gave us its lock."""
+    """Whether the holder named in the file may still run although its lock was granted to us."""
     found = _HOLDER.fullmatch(holder)
     if found is None or abs(time() - os.fstat(handle).st_mtime) > _STALE:
         return False
@@ -123,7 +126,7 @@ def _lives(path: Path, handle: int, holder: str) -> bool:
 
 
 def _excludes(path: Path) -> bool:
-    """Return whether the system keeps a lock from a second handle, as it should."""
+    """Whether the file system refuses a second lock on the same file, as it should."""
     second = os.open(path, os.O_RDWR | os.O_NOFOLLOW)
     try:
         return not _taken(second)

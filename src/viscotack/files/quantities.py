@@ -1,4 +1,4 @@
-"""Tables of quantities in CSV files, each with its unit at the end of the column's name."""
+"""Tables of quantities in CSV files; the unit is the last part of the column's name."""
 
 import os
 from collections.abc import Mapping
@@ -9,72 +9,74 @@ from viscotack.units import finite, parse
 
 from .text import read_rows
 
-# Rows of a table that states a curve; more of them say no more.
+# Largest number of rows of a tabulated curve; more rows add no information.
 MOST_ROWS = 10_000
 
 
 def read_quantities(
     path: str | os.PathLike[str], units: Mapping[str, str], *, most: int = MOST_ROWS
 ) -> dict[str, tuple[float, ...]]:
-    """Return the columns of a CSV file in SI.
+    """Read columns of a CSV file and convert them to SI.
 
     Parameters
     ----------
     path : path
-        A first row with the names of the columns and their units, such as ``gap_nm,traction_kPa``,
-        then a row of numbers for each point. Lines that begin with ``#`` are skipped.
+        The first row has the names of the columns with their units, such as
+        ``gap_nm,traction_kPa``; each further row has the numbers of one point. Lines that begin
+        with ``#`` are skipped.
     units : mapping
-        Name of each wanted column, without its unit -> SI unit of the answer.
+        Name of each wanted column, without its unit -> SI unit of the result.
     most : int
-        How many rows of numbers there may be.
+        Largest number of rows of numbers.
 
     Returns
     -------
     dict of str to tuple of float
-        The columns, by the names of `units`.
+        The columns by the names in `units`.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
-        If a column is missing, has no unit or the wrong one, a row is not as long as the header
-        or has something that is not a number, or there are too many rows; with the line.
+        If a column is missing, has no unit or one of another dimension, a row has another length
+        than the header or contains text, or there are too many rows. The message contains the
+        line.
     """
     path = Path(path)
     header, rows = read_rows(path)
     places = {name: _place(path, header, name, unit) for name, unit in units.items()}
     if len(rows) > most:
         raise InputError(
-            f"{path}: at most {most:,} rows below the header are taken, got {len(rows):,}; leave "
-            "out rows"
+            f"{path}: at most {most:,} rows below the header are allowed, got {len(rows):,}; "
+            "remove rows"
         )
     columns: dict[str, list[float]] = {name: [] for name in units}
     for line, row in rows:
         try:
             if len(row) != len(header):
-                raise InputError(f"{len(row)} entries, and the header has {len(header)}")
+                raise InputError(f"{len(row)} entries, but the header has {len(header)}")
             for name, (at, given) in places.items():
                 value = finite(name, row[at], given)
                 columns[name].append(parse(f"{value!r} {given}", units[name]))
         except ValueError as error:
             raise InputError(f"{path}, line {line}: {error}") from None
     if not rows:
-        raise InputError(f"{path}: there are no rows below the header")
+        raise InputError(f"{path}: no rows below the header")
     return {name: tuple(values) for name, values in columns.items()}
 
 
 def _place(path: Path, header: list[str], name: str, unit: str) -> tuple[int, str]:
-    """Return where a column is, and its unit as the file states it."""
+    """Return the index of a column and its unit as written in the file."""
     found = [i for i, text in enumerate(header) if text.startswith(f"{name}_")]
     if len(found) != 1:
         raise InputError(
-            f"{path}: one column must be {name} with its unit, such as {name}_{unit}; the first "
-            f"row is {','.join(header)!r}"
+            f"{path}: no column {name} with its unit, such as {name}_{unit}; the first row is "
+            f"{','.join(header)!r}"
         )
     given = header[found[0]].removeprefix(f"{name}_")
     try:
         parse(f"1 {given}", unit)
     except ValueError as error:
-        raise InputError(f"{path}, the name of the column {name}: {error}") from None
+        raise InputError(f"{path}, unit of column {name}: {error}") from None
     return found[0], given

@@ -1,4 +1,4 @@
-"""Text files, as editors and spreadsheets of every make write them."""
+"""Text files as written by editors and spreadsheets: encodings, line ends, CSV rows."""
 
 import codecs
 import csv
@@ -9,10 +9,10 @@ from viscotack.errors import InputError
 
 from .bounded import LARGEST_TEXT, read_bytes
 
-# Marks of control but for the ends of lines and tabs, and those that turn the direction of writing.
+# Control characters except line ends and tabs, and those that change the writing direction.
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
-# What a file may begin with -> how it is then read.
+# Byte-order mark -> encoding.
 _MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
     codecs.BOM_UTF16_LE: "utf-16",
@@ -21,7 +21,7 @@ _MARKS = {
 
 
 def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
-    r"""Return the text of a file in UTF-8, or in UTF-16 with its mark; every line ends in ``\n``.
+    r"""Read a text file in UTF-8, or in UTF-16 with byte-order mark; lines end in ``\n``.
 
     Parameters
     ----------
@@ -33,9 +33,9 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     InputError
-        If it is larger, in another encoding, or no text; with the line.
+        If it is too large, has another encoding or is not text. The message contains the line.
     """
     content = read_bytes(path, most)
     encoding = next((e for mark, e in _MARKS.items() if content.startswith(mark)), "utf-8")
@@ -49,14 +49,16 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
         ) from None
     if "\0" in text:
         raise InputError(
-            f"{os.fspath(path)} is not a text file in UTF-8: it has zero bytes; if it is UTF-16, "
-            "save it as UTF-8 in its editor, or convert it: iconv -f UTF-16 -t UTF-8"
+            f"{os.fspath(path)} is not a text file in UTF-8: it contains zero bytes; if it is "
+            "UTF-16, save it as UTF-8 in its editor, or convert it: iconv -f UTF-16 -t UTF-8"
         )
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def harmless(text: str) -> str:
-    r"""Return a text without what moves a cursor, colours or hides: such marks in their numbers.
+    r"""Replace control characters in a text by their escape codes.
+
+    Printed to a terminal they could move the cursor, change colours or hide text.
 
     Examples
     --------
@@ -67,7 +69,7 @@ def harmless(text: str) -> str:
 
 
 def cell(text: str) -> str:
-    """Return a text for a table, in which no program that opens it finds a formula.
+    """Return a text for a cell of a table such that spreadsheets do not read it as a formula.
 
     Examples
     --------
@@ -87,14 +89,14 @@ def _is_number(text: str) -> bool:
 
 
 def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Return the names in the first row of a CSV file, and the rows below with their lines.
+    """Read the names in the first row of a CSV file, and the rows below with line numbers.
 
-    A row is a line. Empty lines and those that begin with ``#`` are skipped.
+    Each row is one line. Empty lines and lines that begin with ``#`` are skipped.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     InputError
         If it is not a text file.
     """

@@ -1,4 +1,4 @@
-"""TOML files, with errors that show the line."""
+"""TOML files; error messages contain the line."""
 
 import json
 import os
@@ -12,13 +12,13 @@ from viscotack.errors import InputError
 
 from .text import read_text
 
-# Of a line that is shown.
+# Characters of a line that an error message shows.
 _SHOWN = 60
-# Longest file, and most parts of a dotted name, for which time and memory grow with their square.
+# Longest file, and most parts of a dotted name: parsing takes time and memory quadratic in both.
 _MOST_TEXT, _MOST_PARTS = 10_000_000, 50
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_NAME = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{_MOST_PARTS},}}")
-# Lines of a file that are looked through for what stands twice.
+# Number of lines that are searched for a duplicate key.
 _LOOKED_THROUGH = 2000
 # Characters that may be read on the way: a long array is read once for each of its lines.
 _MOST_READ = 2_000_000
@@ -26,50 +26,47 @@ _TWICE = ("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Return the tables of a TOML file.
+    """Read the tables of a TOML file.
 
     Parameters
     ----------
     path : path
-        In UTF-8, with or without a byte-order mark, or in UTF-16 with one.
+        File in UTF-8, with or without byte-order mark, or in UTF-16 with one.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     InputError
-        If it is not TOML: with the line, and a name that stands twice with both lines.
+        If it is not TOML. The message contains the line, for a duplicate key both lines.
     """
     # a character has four bytes at most
     return parse_toml(read_text(path, most=4 * _MOST_TEXT), path)
 
 
 def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Return the tables of a text that was read from a file; errors as of `read_toml`."""
+    """Parse the text of a TOML file; errors as for `read_toml`."""
     if len(text) > _MOST_TEXT:
         raise InputError(
-            f"{os.fspath(path)} has {len(text):,} characters, more than the {_MOST_TEXT:,} that a "
-            "TOML file may have here; long tables go into CSV files"
+            f"{os.fspath(path)} has {len(text):,} characters, more than the limit of "
+            f"{_MOST_TEXT:,}; move long tables into CSV files"
         )
     if found := _LONG_NAME.search(text):
         line = text.count("\n", 0, found.start()) + 1
         raise InputError(
-            f"{os.fspath(path)}, line {line}: a name of more than {_MOST_PARTS} parts, "
-            f"`{found[0][:_SHOWN]} ...`; write what it leads to as tables"
+            f"{os.fspath(path)}, line {line}: dotted key of more than {_MOST_PARTS} parts, "
+            f"`{found[0][:_SHOWN]} ...`; write it as tables"
         )
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         words, number = _place(str(error), text)
     except RecursionError:
-        raise InputError(
-            f"{os.fspath(path)} has brackets in brackets, more than can be read; nothing here "
-            "needs more than a few"
-        ) from None
-    except ValueError as error:  # a whole number of thousands of digits
-        raise InputError(f"{os.fspath(path)} has a number that cannot be read: {error}") from None
+        raise InputError(f"{os.fspath(path)} has too many nested brackets") from None
+    except ValueError as error:  # an integer of thousands of digits
+        raise InputError(f"{os.fspath(path)}: invalid number: {error}") from None
     if number <= _LOOKED_THROUGH and words.startswith(_TWICE) and (twice := _twice(text, number)):
-        raise InputError(f"{os.fspath(path)}: {twice}; leave out one of them")
+        raise InputError(f"{os.fspath(path)}: {twice}; remove one of them")
     shown = text.split("\n")[number - 1].strip()
     shown = f"{shown[:_SHOWN]} ..." if len(shown) > _SHOWN else shown
     words = words[:1].lower() + words[1:]
@@ -77,7 +74,7 @@ def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def toml_value(value: Any) -> str:
-    """Return a value as TOML writes it: text, a number, true or false, a list, a table in a line.
+    """Format a value as TOML: text, number, boolean, list or inline table.
 
     Examples
     --------
@@ -97,16 +94,16 @@ def toml_value(value: Any) -> str:
 
 
 def _place(words: str, text: str) -> tuple[str, int]:
-    """Return an error without its place, and the line."""
+    """Split an error message of the parser into the message and the line number."""
     bare, _, place = words.rpartition(" (at ")
     found = re.match(r"line (\d+)", place)
-    # otherwise it is the end of the document: the last line with something on it
+    # otherwise the end of the document: the last line that is not empty
     return bare, int(found[1]) if found else text.rstrip().count("\n") + 1
 
 
 @dataclass(frozen=True)
 class _Statement:
-    """A key with its value, or the header of a table: where it begins, and its full name."""
+    """A key with its value, or a table header: its first line and its full name."""
 
     line: int
     name: tuple[str, ...]
@@ -115,27 +112,27 @@ class _Statement:
 
 
 def _twice(text: str, number: int) -> str:
-    """Return words for what the statement on a line says again; none where that is not found."""
+    """Describe the duplicate that a statement on a line causes; "" if none is found."""
     known = list(_statements(text.split("\n")[:number]))
     if not known:
         return ""
     last = known[-1]
     for one in reversed(known[:-1]):
-        # a = 1 and a.b = 2 say a twice, while [a] and [a.b] are two tables
+        # a = 1 and a.b = 2 define a twice, while [a] and [a.b] are two tables
         short = None if last.is_header else min(len(one.name), len(last.name))
         if one.is_header != last.is_header or one.name[:short] != last.name[:short]:
             continue
         if last.is_header:
-            what = f"the table [{'.'.join(last.name)}] stands twice"
+            what = f"duplicate table [{'.'.join(last.name)}]"
         else:
             inside = f" in [{'.'.join(last.table)}]" if last.table else ""
-            what = f"key {'.'.join(last.name[len(last.table) : short])!r} stands twice{inside}"
+            what = f"duplicate key {'.'.join(last.name[len(last.table) : short])!r}{inside}"
         return f"{what}, lines {one.line} and {last.line}"
     return ""
 
 
 def _statements(lines: list[str]) -> Iterator[_Statement]:
-    """Yield the statements of a file: the shortest runs of lines that are TOML by themselves."""
+    """Yield the statements of a file: the shortest sequences of lines that are valid TOML."""
     begin, table = 0, ()
     left = _MOST_READ
     while begin < len(lines):
@@ -164,13 +161,13 @@ def _is_toml(lines: list[str]) -> bool:
 
 
 def _key(line: str) -> tuple[str, ...]:
-    """Return the dotted name before the equals sign, none where a name holds such a sign."""
+    """Return the dotted name before the equals sign; () if the name contains an equals sign."""
     left = line.partition("=")[0]
     return _path(tomllib.loads(f"{left} = 0")) if _is_toml([f"{left} = 0"]) else ()
 
 
 def _path(tables: Any) -> tuple[str, ...]:
-    """Return the names that lead to the only thing in a table of tables."""
+    """Return the keys that lead to the only entry of nested tables."""
     found: list[str] = []
     while tables and isinstance(tables, dict | list):
         if isinstance(tables, dict):

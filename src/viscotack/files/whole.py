@@ -1,8 +1,8 @@
-"""The one way to write a file: whole or not at all.
+"""Atomic writing of files: complete or not at all.
 
-What stands at the target decides. A regular file, or none, is replaced by a finished draft; behind
-a symbolic link it is the file that the link leads to. A terminal, a null device or a pipe is
-written to and stays what it is; so is a file that standard output or standard error goes to.
+If the target is a regular file or does not exist, a finished draft replaces it; for a symbolic link
+the draft replaces the file that the link points to. A terminal, a null device, a pipe, or a file to
+which standard output or standard error is redirected is written to directly.
 """
 
 import errno
@@ -22,37 +22,37 @@ from viscotack.errors import InputError
 Target = str | os.PathLike[str] | IO[bytes]
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-# A folder of /proc says that what is to be made there is missing.
+# Creating a file in /proc fails with ENOENT.
 _CLOSED = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT)
 
 
 class NotWritten(OSError, InputError):
-    """A file could not be written; the words say which one, and why."""
+    """A file could not be written; the message contains its name and the reason."""
 
     def __str__(self) -> str:
-        """Return the words without the number of the error."""
+        """Return the message without the error number."""
         return str(self.strerror)
 
 
 def write_whole(target: Target, content: Any) -> None:
-    """Write bytes to a file, whole or not at all; on return they are on the disk.
+    """Write bytes to a file, complete or not at all; on return they are on the disk.
 
-    Permission bits of a file that is there are kept. Streams, devices and pipes get the bytes as
-    they come, and what they got before an error they have.
+    The permission bits of an existing file are kept. Streams, devices and pipes are written to
+    directly, so that after an error they may have received a part of the bytes.
 
     Parameters
     ----------
     target : path or binary file
-        Where to.
+        Destination.
     content : bytes-like
-        All of it.
+        Complete content.
 
     Raises
     ------
     NotWritten
-        If that could not be done; a regular file is then as before, and no draft is left.
+        If writing fails; a regular file is then unchanged, and no draft remains.
     BrokenPipeError
-        If the reader of a pipe has gone.
+        If the reader of a pipe has closed it.
     """
     with writing_whole(target) as file:
         file.write(content)
@@ -60,9 +60,9 @@ def write_whole(target: Target, content: Any) -> None:
 
 @contextmanager
 def writing_whole(target: Target) -> Iterator[IO[bytes]]:
-    """Hold an open file for what is too long to have at once; errors as of `write_whole`.
+    """Open a file for atomic writing in several pieces; errors as for `write_whole`.
 
-    A regular file, or none, is replaced by the finished draft when the block ends well.
+    The finished draft replaces a regular file when the block ends without an exception.
     """
     if not isinstance(target, str | os.PathLike):
         yield target
@@ -89,12 +89,12 @@ def writing_whole(target: Target) -> Iterator[IO[bytes]]:
 
 
 def write_new(path: Path, content: Any) -> None:
-    """Write bytes to a file that is not there yet, whole or not at all; never over another one.
+    """Write bytes to a new file, complete or not at all; an existing file is never replaced.
 
     Raises
     ------
     NotWritten
-        If that could not be done; with what was there as it was.
+        If writing fails or the file exists.
     """
     try:
         with _draft(path, None, _name) as file:
@@ -104,22 +104,22 @@ def write_new(path: Path, content: Any) -> None:
 
 
 def is_draft(path: Path) -> bool:
-    """Return whether a file has a name that only drafts of this module have."""
+    """Whether a file has the name of a draft of this module."""
     return re.fullmatch(r"\.viscotack-[0-9a-f]{8}\.draft", path.name) is not None
 
 
 def remove_drafts(folder: Path) -> None:
-    """Remove the drafts that a killed process has left in a folder."""
+    """Remove the drafts that a killed process left in a folder."""
     for path in folder.glob("*"):
         if is_draft(path):
             path.unlink(missing_ok=True)
 
 
 def check_target(target: str | os.PathLike[str]) -> None:
-    """Raise NotWritten unless `write_whole` could begin; what is there stays as it is.
+    """Raise NotWritten unless `write_whole` could write to the target; nothing is changed.
 
-    A draft is made and taken away again: the rights of a folder say neither that the disk is
-    mounted for reading only nor what a folder of the system takes, and mean nothing to root.
+    The check creates and removes a draft, because permission bits do not show read-only file
+    systems and special folders, and do not apply to root.
     """
     path = Path(target)
     try:
@@ -137,7 +137,7 @@ def check_target(target: str | os.PathLike[str]) -> None:
 
 
 def is_standard_output(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path is ``-`` or leads to where standard output goes, unless to nothing."""
+    """Whether a path is ``-`` or the destination of standard output, the null device excepted."""
     if os.fspath(path) == "-":
         return True
     try:
@@ -148,9 +148,9 @@ def is_standard_output(path: str | os.PathLike[str]) -> bool:
 
 
 def same_file(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> bool:
-    """Return whether what is written to one path would be lost by writing to the other.
+    """Whether writing to one path would overwrite the file at the other path.
 
-    Links and other spellings of a path are seen through. A device loses nothing.
+    Links and relative paths are resolved. Devices are never overwritten.
     """
     if is_standard_output(one) and is_standard_output(other):
         return True
@@ -163,18 +163,18 @@ def same_file(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> boo
 
 
 def _found(path: Path) -> os.stat_result | None:
-    """Return what is there, None where nothing is; refuse what cannot be written to."""
+    """Return the status of an existing target, None if missing; NotWritten if not writable."""
     try:
         found = os.stat(path)
     except FileNotFoundError:
         folder = Path(os.path.realpath(path)).parent
         if not folder.is_dir():
             shown = folder if path.is_symlink() else path.parent
-            words = f"cannot write {path}: there is no folder {shown}"
+            words = f"cannot write {path}: folder {shown} does not exist"
             raise NotWritten(errno.ENOENT, words) from None
         return None
     if stat.S_ISDIR(found.st_mode):
-        words = f"cannot write {path}: it is a folder; give the name of a file"
+        words = f"cannot write {path}: it is a folder; give a file name"
         raise NotWritten(errno.EISDIR, words)
     if stat.S_ISREG(found.st_mode) or _own_stream(found) is not None:
         protected = not found.st_mode & 0o222
@@ -182,7 +182,7 @@ def _found(path: Path) -> os.stat_result | None:
         protected = False
     else:
         kind = "a socket" if stat.S_ISSOCK(found.st_mode) else "a disk"
-        words = f"cannot write {path}: it is {kind}; give the name of a file"
+        words = f"cannot write {path}: it is {kind}; give a file name"
         raise NotWritten(errno.EINVAL, words)
     if protected or not os.access(path, os.W_OK):
         words = f"cannot write {path}: it is write-protected; give another name"
@@ -191,7 +191,7 @@ def _found(path: Path) -> os.stat_result | None:
 
 
 def _own_stream(found: os.stat_result | None) -> int | None:
-    """Return 1 or 2 if standard output or standard error goes there: it must not be replaced."""
+    """Return 1 or 2 if the target receives standard output or error and must not be replaced."""
     for handle in (1, 2):
         try:
             if found is not None and os.path.samestat(found, os.fstat(handle)):
@@ -206,7 +206,7 @@ def _is_nothing(found: os.stat_result) -> bool:
 
 
 def _draft_beside(place: Path) -> Path:
-    # without the name of the file, which may be as long as a name can be
+    # without the name of the file, which may already have the largest allowed length
     return place.with_name(f".viscotack-{secrets.token_hex(4)}.draft")
 
 
@@ -214,7 +214,7 @@ def _draft_beside(place: Path) -> Path:
 def _draft(
     place: Path, mode: int | None, finish: Callable[[Path, Path], object]
 ) -> Iterator[IO[bytes]]:
-    """Hold a draft that `finish` gives its name when it is complete and on the disk."""
+    """Open a draft; `finish` renames it when it is complete and on the disk."""
     draft = _draft_beside(place)
     try:
         with open(draft, "xb") as file:
@@ -230,12 +230,12 @@ def _draft(
 
 
 def _name(draft: Path, path: Path) -> None:
-    """Give a draft its name, unless another file has it."""
+    """Rename a draft unless a file of that name exists."""
     try:
         os.link(draft, path, follow_symlinks=False)
     except FileExistsError:
         raise
-    except OSError:  # a file system on which a file has one name only
+    except OSError:  # a file system without hard links
         if os.path.lexists(path):
             raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST)) from None
         os.rename(draft, path)
@@ -244,22 +244,22 @@ def _name(draft: Path, path: Path) -> None:
 def _not_written(path: Path, error: OSError) -> NotWritten:
     why = error.strerror or str(error)
     if error.errno in _FULL:
-        words = f"no space left for {path} ({why}); what was there is safe: make room and run again"
+        words = f"no space left for {path} ({why}); the old file is intact: free space and repeat"
     elif error.errno in _CLOSED:
         folder = Path(os.path.realpath(path)).parent if path.is_symlink() else path.parent
-        words = f"cannot write {path}: the folder {folder} takes no new file ({why})"
+        words = f"cannot write {path}: cannot create a file in the folder {folder} ({why})"
     else:
         words = f"cannot write {path}: {why}"
     return NotWritten(error.errno, words)
 
 
 def _sync(folder: Path) -> None:
-    """Make the names in a folder durable; where the system cannot, it need not."""
+    """Flush the directory entries of a folder to the disk, if the system supports it."""
     if not hasattr(os, "O_DIRECTORY"):
         return
     try:
         handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    except PermissionError:  # it may be written and not be read
+    except PermissionError:  # a folder that may be written but not read
         return
     try:
         os.fsync(handle)

@@ -57,14 +57,20 @@ class Body(Protocol):
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """A body without an end: as thick as the contact is small."""
+    """Half-space: a body much thicker than the contact is wide.
+
+    Examples
+    --------
+    >>> HalfSpace().decay_length
+    inf
+    """
 
     word: ClassVar[str] = "half-space"
     symmetries: ClassVar[tuple[str, ...]] = ("revolution",)
 
     @property
     def decay_length(self) -> float:
-        """A pressure is felt everywhere: inf."""
+        """Distance beyond which a pressure does not move the surface [m]: infinite."""
         return float("inf")
 
     def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:

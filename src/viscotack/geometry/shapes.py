@@ -97,7 +97,12 @@ class FlatPunch:
     Parameters
     ----------
     half_width : float
-        Half of its width, a [m]; positive.
+        Half width a [m]; positive.
+
+    Examples
+    --------
+    >>> FlatPunch(half_width=1e-3).half_width
+    0.001
     """
 
     word: ClassVar[str] = "punch"

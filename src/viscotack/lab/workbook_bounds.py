@@ -13,7 +13,7 @@ from viscotack.errors import InputError
 
 # Of a sheet. Cells: of the smallest rectangle that holds those that are there.
 MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
-# Of one text, where spreadsheets take 32,767; and of a part, with so many for each element
+# Of one text, where spreadsheets allow 32,767; and of a part, per element
 # [characters].
 _LONGEST_TEXT, _MOST_TEXT, _ELEMENT = 40_000, 60_000_000, 16
 # Read at once, and most between two elements [bytes].

@@ -1,6 +1,6 @@
-"""Methods that answer a problem: simulation, or a contact whose edge is a steady crack.
+"""Methods that solve a problem: simulation or the steady-crack contact model.
 
-Functions that simulate are imported when they are first used: predictions do without them.
+Functions that simulate are imported on first use, because predictions do not need them.
 """
 
 from importlib import import_module

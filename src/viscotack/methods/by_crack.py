@@ -1,13 +1,14 @@
-r"""A problem answered as a contact whose edge is a steady crack: any Tabor number above a few.
+r"""Steady-crack contact model: the contact edge is a steady crack, for Tabor numbers above a few.
 
-The theory of :mod:`viscotack.theory.crack.contact`, which has forces of short range and no fitted
-constant, and the first correction for their range: a zone is :math:`\Gamma` times longer and the
-contact at pull-off of a tip r^q :math:`\Gamma^{1/(2q - 1)}` times larger than elastic ones, so that
-tensions are those of short range times the elastic pull-off ratio f at
+The model combines the theory of :mod:`viscotack.theory.crack.contact`, which assumes a short range
+of adhesion and has no fitted constant, with a first-order correction for the range. With the
+amplification :math:`\Gamma` the cohesive zone is :math:`\Gamma` times longer than an elastic one,
+and the contact of a tip r^q at pull-off :math:`\Gamma^{1/(2q - 1)}` times larger. The tension is
+therefore multiplied by the elastic pull-off ratio f at the effective Tabor number
 :math:`\mu \Gamma^{-(q - 1)/(2q - 1)}`, for a sphere :math:`\mu \Gamma^{-1/3}`.
 
-Where the interface grows with the opening speed and takes Q works of adhesion, the solid makes
-:math:`\Gamma/Q` of them; an interface Q times as strong has the Tabor number
+If the interface energy grows with the opening speed to Q times the work of adhesion, the solid
+amplifies it by :math:`\Gamma/Q`. An interface Q times as strong has the Tabor number
 :math:`\mu Q^{q/(2q - 1)}`, for a sphere :math:`\mu Q^{2/3}`, and a zone Q times shorter.
 """
 
@@ -42,62 +43,65 @@ from .crack_band import band_of
 from .crack_problem import LOAD, ROOT, drives_of, groups_of, start_of
 
 METHOD = "crack contact"
-# Effective Tabor number over the cube root of the amplification below which nothing is answered.
+# Smallest accepted effective Tabor number, including the amplification.
 LEAST_TABOR = 2.0
-# Largest one: beyond, lengths of the zone and of the contact are no numbers side by side.
+# Largest accepted one: beyond it zone and contact lengths differ by more than double precision.
 LARGEST_TABOR = 1e9
-# Way of the edge to the pull-off, in zones, below which a crack above that energy is not steady.
+# Smallest travel of the edge to pull-off [zone lengths], required if the amplification is above
+# _SLOW: with less travel the crack is not steady.
 LEAST_ZONES, _SLOW = 1.5, 1.1
-# A contact that lets go where it starts has its zone yet to grow: while the tension has hardly
-# fallen the edge goes so many zones, or it is refused.
+# A contact that detaches at its start has no developed zone. The case is rejected unless the edge
+# travels _FAR zones while the tension falls by less than the fraction _FLAT.
 _FLAT, _FAR = 5e-3, 10.0
-# How much larger than the largest relaxed state a contact may become.
+# Largest contact radius over that of the largest relaxed state.
 _MARGIN = 1.15
-# Instants nearer to each other than this part of a parabola's tell the same of it.
+# Points closer than this fraction of the parabola's width are treated as one point.
 _NEAR = 1e-6
 _NOTHING = 1e-12
-# Part of the largest energy of a crack with a growing interface beyond which none is known.
+# Fraction of the largest tabulated energy of a crack with a growing interface that is used.
 _LAST = 0.97
 
 
 @dataclass(frozen=True, eq=False)
 class CrackContact:
-    """The answer of the theory, in the dimensionless units of a :class:`viscotack.Result`.
+    """Result of :func:`crack_contact`, in the dimensionless units of a :class:`viscotack.Result`.
 
     Attributes
     ----------
     problem : Problem or Groups
-        What was asked.
-    time, depth, force, contact_radius, edge_speed : ndarray
-        The history as a simulation gives it; `force` with the correction for the range.
+        The problem that was solved.
+    time, depth, force, contact_radius, edge_speed : ndarray, shape (n,)
+        The history, as of a simulation; `force` includes the correction for the range.
     amplification : ndarray
-        Energy at the edge over the work of adhesion.
+        Energy release rate at the edge over the work of adhesion.
     move : ndarray
         Number of the move at each step.
     status : str
         "detached" or "still in contact".
     pull_off_force, depth_at_pull_off, time_at_pull_off : float or None
-        At the largest tension of the last opening; None without one.
+        Force (positive), depth and time at the largest tension of the last opening; None if
+        there is no opening.
     contact_radius_at_pull_off, crack_speed_at_pull_off, amplification_at_pull_off : float or None
-        There.
+        State at the same instant.
     work_to_pull_off : float or None
-        From the last zero crossing of the force to the largest tension.
+        Work from the last zero crossing of the force to the largest tension.
     hysteresis : float or None
-        Work of the whole history at the indenter, from apart to apart or around a closed loop.
+        Work of the indenter over the whole history, if it starts and ends apart or is a closed
+        loop; else None.
     loop : Loop
-        In which state that loop closed. The energy stored in the contact is not known, so that of
-        a viscoelastic solid closes in depth only.
+        How the loop closed. The energy stored in the contact is not computed, so a loop of a
+        viscoelastic solid is at best closed in depth only.
     zones : float
-        Way of the edge until the pull-off, in zones of the crack there: a crack that has gone few
-        of them is not steady yet.
+        Travel of the edge until pull-off, in cohesive zone lengths at pull-off. After few zone
+        lengths the crack is not steady yet.
     band : float
-        Part of the pull-off force by which a simulation may differ, in 9 of 10 cases.
+        Relative half width of the 90 % interval of the pull-off force.
     method : str
         "crack contact".
     inside : bool
-        Whether the band was measured there.
+        Whether the coverage of the band was measured for such problems.
     why : str
-        What the band is made of, and where it was measured.
+        Contributions to the band, and where they were measured.
     """
 
     problem: Problem | Groups
@@ -129,34 +133,39 @@ class CrackContact:
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """Between which the pull-off force lies in 9 of 10 cases; None without one."""
+        """90 % interval of the pull-off force; None without a pull-off."""
         P = self.pull_off_force
         return None if P is None else (P * (1 - self.band), P * (1 + self.band))
 
 
 def crack_contact(problem: Problem | Groups) -> CrackContact:
-    """Return what a contact does whose edge is the steady crack of its solid and its law.
+    """Compute a contact history with the steady-crack contact model.
 
     Parameters
     ----------
     problem : Problem or Groups
-        A sphere, cone, power-law tip or another shape of revolution on a half-space; any solid,
-        any law of which the crack is found, any history, springs and loads.
+        A shape of revolution (sphere, cone, power-law tip or other) on a half-space; any material,
+        traction law, history, spring and load.
+
+    Returns
+    -------
+    CrackContact
+        The history with the pull-off and its band, dimensionless.
 
     Raises
     ------
     OutOfRange
-        If the theory does not hold: a punch on a layer, zones as large as the contact.
+        If the model does not hold: a punch on a layer, or a cohesive zone as large as the contact.
     ValueError
-        If there is no relaxed contact to begin with.
+        If no relaxed contact exists at the start.
     TypeError
-        If it is no problem.
+        If the argument is not a problem.
 
     Notes
     -----
-    The first answer for a solid and a law solves its cracks, 0.2 to 3 s; later ones take 0.05 to
-    0.2 s for a retraction from rest and 0.2 to 1 s for a history. docs/steady_crack.md compares
-    it with simulations.
+    The first call for a material and a traction law computes their steady cracks (0.2 to 3 s).
+    Later calls take 0.05 to 0.2 s for a retraction from rest and 0.2 to 1 s for a history.
+    docs/steady_crack.md compares the model with simulations.
 
     Examples
     --------
@@ -202,22 +211,24 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
 
 
 def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]:
-    """Return what :func:`crack_contact` says of many retractions from rest of one solid, at once.
+    """Compute many retractions from rest on one material in a single vectorised call.
 
     Parameters
     ----------
     several : sequence of Groups
-        Of the same solid, law and shape, from relaxed starts by a rigid machine.
+        Problems with the same material, traction law and shape, with relaxed starts and a rigid
+        machine.
 
     Returns
     -------
     list
-        An answer each, or why there is none.
+        For each problem the result of :func:`crack_contact`, or the InputError that it would
+        raise.
 
     Raises
     ------
     ValueError
-        If they differ in what they must share, or no crack of the solid is found.
+        If the problems differ in material, law or shape, or the material has no steady crack.
     """
     if not several:
         return []
@@ -225,8 +236,8 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
     shared = (first.material, first.traction, first.geometry, (), None)
     if any((g.material, g.traction, g.geometry, g.moves, g.stiffness) != shared for g in several):
         raise InputError(
-            "cases that are answered at once share solid, law and shape, and have neither moves "
-            "nor a spring; group them"
+            "all problems need the same material, traction law and shape, no moves and no spring; "
+            "group them by these"
         )
     unit, profile = first.material.time_unit, profile_of(first.geometry)
     crack = SteadyCrack(first.material, first.traction)
@@ -251,24 +262,24 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
 
 
 def _check_tabor(groups: Groups) -> None:
-    """Raise OutOfRange where the theory ends."""
+    """Raise OutOfRange if the Tabor number is too large."""
     if groups.effective_tabor > LARGEST_TABOR:
         raise OutOfRange(
-            f"an effective Tabor number of {groups.effective_tabor:.4g} is too large: the theory "
-            f"goes to {LARGEST_TABOR:g}"
+            f"the effective Tabor number is {groups.effective_tabor:.4g}; the steady-crack "
+            f"contact model is valid up to {LARGEST_TABOR:g}"
         )
 
 
 def _rests(groups: Groups) -> bool:
-    """Return whether all that a relaxed contact does before the retraction is to wait."""
+    """Whether the contact starts relaxed and only rests before the retraction."""
     return all(isinstance(move, Dwell) for move in groups.moves)
 
 
 def _receded(groups: Groups, crack: SteadyCrack, found: Curves, case: int) -> dict[str, Any]:
-    """Return a retraction from rest as a result has it, after the dwells that change nothing."""
+    """Series of a retraction from rest, in the format of a result, after its initial dwells."""
     time, radius, depth, force, speed, energy = (column[:, case] for column in found)
     force = np.where(force < 0, _tension(groups, crack, energy, speed), 1.0) * force
-    # the start, and the end of each dwell
+    # the start and the end of each dwell
     waits = [move.duration for move in groups.moves if isinstance(move, Dwell)]
     ends = np.append(0.0, np.cumsum(waits)) / groups.material.time_unit
     count = len(waits)
@@ -282,7 +293,7 @@ def _receded(groups: Groups, crack: SteadyCrack, found: Curves, case: int) -> di
 
 
 def _series(groups: Groups, run: Curve) -> dict[str, Any]:
-    """Return a history as a result has it."""
+    """Series of a history, in the format of a result."""
     unit = groups.material.time_unit
     return {
         "time": run.time * unit,
@@ -296,7 +307,7 @@ def _series(groups: Groups, run: Curve) -> dict[str, Any]:
 
 
 def _tension(groups: Groups, crack: SteadyCrack, energy: Any, speed: Any) -> Array:
-    """Return the part of a tension of short range that the range of the law leaves."""
+    """Elastic pull-off ratio: tension of the law over that of the short-range limit."""
     effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
     return np.asarray(lennard_jones.pull_off_ratio(effective))
 
@@ -308,7 +319,7 @@ def _answer(
     series: dict[str, Any],
     detached: bool,
 ) -> CrackContact:
-    """Return the record of a history."""
+    """Build the result of a history; OutOfRange if the model does not hold for it."""
     status = "detached" if detached else "still in contact"
     pull_off = _pull_off(groups, series)
     at: dict[str, Any] = pull_off if pull_off is not None else dict.fromkeys(_AT_PULL_OFF)
@@ -316,23 +327,24 @@ def _answer(
     interface = _interface_work(groups, crack, at)
     if grows(groups.traction) and energy > _LAST * crack.largest:
         raise OutOfRange(
-            f"an energy of {energy:.4g} works of adhesion is asked of the edge, and the last crack "
-            f"with so fast an interface has {crack.largest:.4g}; pull more slowly, or simulate it"
+            f"the energy at the edge is {energy:.4g} times the work of adhesion; steady cracks "
+            f"of this interface are known up to {crack.largest:.4g}; pull more slowly, or "
+            "simulate the problem"
         )
     effective = float(_effective(groups, energy, interface))
     if effective < LEAST_TABOR:
         raise OutOfRange(
-            "the zone at the edge is too large beside the contact: the Tabor number "
-            f"{groups.tabor:.4g} is one of {effective:.3g} for the range of the law and an energy "
-            f"of {energy:.3g} works of adhesion, and the theory holds from {LEAST_TABOR:g} on; "
-            "simulate it"
+            "the cohesive zone is too large compared with the contact: at a Tabor number of "
+            f"{groups.tabor:.4g} and an energy of {energy:.3g} times the work of adhesion the "
+            f"effective Tabor number is {effective:.3g}, and the model is valid from "
+            f"{LEAST_TABOR:g}; simulate the problem"
         )
     zones = interface * _zones(groups, crack, series, at, energy / interface)
     if pull_off is not None and zones < LEAST_ZONES and energy > _SLOW:
         raise OutOfRange(
-            f"the edge goes {zones:.2g} zones until the pull-off, and is no steady crack before it "
-            f"has gone {LEAST_ZONES:g}: the start is too small for this rate; press deeper, "
-            "pull more slowly, or simulate it"
+            f"the edge travels {zones:.2g} zone lengths until pull-off, and the crack is steady "
+            f"only after {LEAST_ZONES:g}: the preload is too small for this rate; press deeper, "
+            "pull more slowly, or simulate the problem"
         )
     band, inside, why = band_of(groups, energy / interface, effective, zones)
     hysteresis, loop = _hysteresis(groups, series, detached)
@@ -351,8 +363,8 @@ def _answer(
 
 
 def _effective(groups: Groups, energy: Any, interface: Any) -> Any:
-    """Return the Tabor number of an elastic contact whose zone is as large beside it."""
-    # a shape of the user's is taken for a paraboloid
+    """Tabor number of an elastic contact with the same ratio of zone length to contact radius."""
+    # a user-defined shape is treated as a paraboloid
     q = getattr(groups.geometry, "exponent", 2.0)
     bulk = np.maximum(np.maximum(energy, 1.0) / interface, 1.0)
     stronger = interface ** (q / (2 * q - 1))
@@ -360,7 +372,7 @@ def _effective(groups: Groups, energy: Any, interface: Any) -> Any:
 
 
 def _interface_work(groups: Groups, crack: SteadyCrack, at: dict[str, Any]) -> float:
-    """Return what the interface takes at the pull-off [works of adhesion]."""
+    """Energy dissipated and stored by the interface at pull-off, over the work of adhesion."""
     speed = at["crack_speed_at_pull_off"]
     if speed is None:
         return 1.0
@@ -381,21 +393,21 @@ _AT_PULL_OFF = (
 def _zones(
     groups: Groups, crack: SteadyCrack, series: dict[str, Any], at: dict[str, Any], bulk: float
 ) -> float:
-    """Return the way of the edge to the pull-off in lengths of the zone there, at least.
+    """Lower bound of the travel of the edge to pull-off, in zone lengths at pull-off.
 
-    The zone is as many times longer as the solid makes of the energy.
+    The zone is longer than at rest by the amplification of the solid.
     """
     energy, radius = at["amplification_at_pull_off"], series["contact_radius"]
     if energy is None:
         return 0.0
-    # since the edge last rested or closed
+    # since the edge last rested or advanced
     rows = np.flatnonzero(series["time"] <= at["time_at_pull_off"])
     slow = np.flatnonzero(series["amplification"][rows] <= 1)
     last = int(slow[-1]) if slow.size else 0
     way = radius[last] - at["contact_radius_at_pull_off"]
     if energy > _SLOW:
-        # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with
-        # the square of the way of the drive: it is above the half for a quarter of the time.
+        # The steps of the radius may be too coarse. The energy of an edge that hardly moves grows
+        # with the square of the drive's travel: it is above one half for a quarter of the time.
         begun = max(series["time"][last], _begun(series))
         loading = 0.25 * (at["time_at_pull_off"] - begun) / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
@@ -408,13 +420,13 @@ def _zones(
 
 
 def _begun(series: dict[str, Any]) -> float:
-    """Return when the last move began."""
+    """Time at which the last move began."""
     before = np.flatnonzero(series["move"] < series["move"][-1])
     return float(series["time"][before[-1]]) if before.size else 0.0
 
 
 def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
-    """Return the state at the largest tension of the last opening, between steps."""
+    """State at the largest tension of the last opening, interpolated between steps."""
     force, depth = series["force"], series["depth"]
     span = spans_of(groups, series["move"], depth, force)[-1]
     detached = not series["contact_radius"][-1] > 0
@@ -430,7 +442,7 @@ def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
     first, last = span.turn, run[-1]
     place = np.zeros(1)
     weights = np.array([1.0])
-    # the first step is one of an edge at rest: no parabola goes through it
+    # at the first step the edge is at rest: the parabola must not include it
     x = series["time"][low - 1 : low + 2]
     inside = run[0] + 1 < low < last and series["contact_radius"][low + 1] > 0
     if inside and float(np.min(np.diff(x))) > _NEAR * (x[2] - x[0]):
@@ -459,21 +471,21 @@ def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
 
 
 def _runs(groups: Groups, series: dict[str, Any], span: Span) -> list[npt.NDArray[np.intp]]:
-    """Return the steps of an opening between stops: where the machine waits, nothing is pulled."""
+    """Return the steps of an opening, split at the dwells of the machine."""
     waiting = np.array([waits(move) for move in all_moves(groups)])[series["move"]]
     steps = np.arange(span.turn, span.last + 1 if span.opens else span.turn)
     pulled = steps[~waiting[steps] | (steps == span.turn)]
     runs = np.split(pulled, np.flatnonzero(np.diff(pulled) > 1) + 1)
-    # behind a stop the curve goes on from its end
+    # after a dwell the curve continues from its end
     return [run if run[0] == span.turn else np.append(run[0] - 1, run) for run in runs if run.size]
 
 
 def _hysteresis(
     groups: Groups, series: dict[str, Any], detached: bool
 ) -> tuple[float | None, Loop]:
-    """Return the work at the indenter of a history that closes, and in which state it does.
+    """Return the work of the indenter over a closed history, and how its loop closed.
 
-    Surfaces apart do not attract each other here, so that no energy is left across the gap.
+    Separated surfaces do not attract each other in this model, so no interface energy remains.
     """
     force, depth = series["force"], series["depth"]
     if isinstance(groups.start, Apart) and detached:
@@ -498,7 +510,7 @@ _IN_SI = {
 
 
 def summary(found: CrackContact) -> dict[str, Any]:
-    """Return the numbers of an answer by name: dimensionless, and in SI where the problem is."""
+    """Numbers of a result by name: dimensionless, and also in SI if the problem is in SI."""
     scales = found.problem.scales()
     numbers: dict[str, Any] = {"status": found.status, "loop": str(found.loop)}
     for name in (*_AT_PULL_OFF, "hysteresis"):

@@ -1,7 +1,7 @@
-"""A problem as the theory of a contact with a crack for its edge has it: states and drives.
+"""Conversion of a problem to the units and arguments of the steady-crack contact theory.
 
-Lengths along the surface in beta, heights in beta^2/R, forces in R dg, times in the unit of the
-material, as in :mod:`viscotack.theory.crack.contact`.
+Lengths along the surface are in beta, heights in beta^2/R, forces in R dg, times in the time unit
+of the material, as in :mod:`viscotack.theory.crack.contact`.
 """
 
 from __future__ import annotations
@@ -38,23 +38,22 @@ LOAD, ROOT = 1.5 * np.pi, np.pi ** (1 / 3)
 
 
 def groups_of(problem: Any) -> Groups:
-    """Return the groups of a problem, or the reason why the theory does not know it."""
+    """Dimensionless groups of a problem; OutOfRange if the theory does not cover it."""
     if not isinstance(problem, Problem | Groups):
         raise TypeError(
-            f"crack_contact takes a Problem or Groups, got {problem!r}; for a file give "
+            f"crack_contact needs a Problem or Groups, got {problem!r}; for a file use "
             "viscotack.read_case(path)"
         )
     groups = problem.groups()
     if groups.in_plane_strain:
         raise OutOfRange(
-            "the theory of a contact with a crack for its edge is one of shapes of revolution, got "
-            "a flat punch on a layer; theory.punch.pull_off takes its bulk as relaxed, and "
-            "`viscotack simulate` answers it"
+            "the steady-crack contact model covers shapes of revolution, got a flat punch on a "
+            "layer; use theory.punch.pull_off (relaxed bulk) or `viscotack simulate`"
         )
     if not isinstance(groups.body, HalfSpace):
         raise OutOfRange(
-            "the theory of a contact with a crack for its edge is one of the half-space, got a "
-            f"{groups.body.word}; `viscotack simulate` answers it"
+            "the steady-crack contact model covers a half-space, got a "
+            f"{groups.body.word}; use `viscotack simulate`"
         )
     if np.isfinite(detail(groups.geometry)):
         raise OutOfRange(
@@ -66,7 +65,7 @@ def groups_of(problem: Any) -> Groups:
 
 
 def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
-    """Return the radius of the start, 0 apart, and the largest of the history [beta]."""
+    """Contact radius at the start (0 if apart) and largest radius of the history [beta]."""
     radii = [_relaxed_radius(state, groups, profile) for state in _all_states(groups)]
     if isinstance(groups.start, Apart):
         return 0.0, max([1.0, *radii])
@@ -74,7 +73,7 @@ def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
 
 
 def largest_radius(groups: Groups) -> float:
-    """Return the radius of the largest relaxed state of a history, about [beta]."""
+    """Approximate radius of the largest relaxed state of a history [beta]."""
     return start_of(groups, profile_of(groups.geometry))[1]
 
 
@@ -96,7 +95,7 @@ def _relaxed_radius(state: Any, groups: Groups, profile: Profile) -> float:
         case AtDepth():
             return radius_at_depth(profile, state.depth / groups.tabor)
         case AtForce():
-            # a tension of this range is one larger without
+            # the short-range limit of this tension is larger by the pull-off ratio
             left = float(lennard_jones.pull_off_ratio(groups.effective_tabor))
             short = state.force / left if state.force < 0 else state.force
             return radius_at_force(profile, short * LOAD)
@@ -106,7 +105,7 @@ def _relaxed_radius(state: Any, groups: Groups, profile: Profile) -> float:
 
 
 def drives_of(groups: Groups) -> tuple[Drive, ...]:
-    """Return what the machine does, in the units of the theory."""
+    """Return the moves of the machine in the units of the theory."""
     unit, mu = groups.material.time_unit, groups.tabor
     drives = []
     for move in groups.moves:

@@ -1,4 +1,4 @@
-"""Forces of so short a range that the theory answers in place of a simulation."""
+"""Use of the steady-crack contact model when the adhesion range is too short to simulate."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from .crack_problem import start_of
 
 
 def knows(groups: Groups) -> bool:
-    """Return whether the theory knows the problem: a contact with one edge on a half-space."""
+    """Whether the model covers the problem: a contact with one edge on a half-space."""
     one_edge = not groups.in_plane_strain and np.isinf(detail(groups.geometry))
     return bool(one_edge and isinstance(groups.body, HalfSpace))
 
 
 def too_short(groups: Groups) -> bool:
-    """Return whether the theory answers because the forces are too short to be simulated."""
+    """Whether the model replaces the simulation because the range of the forces is too short."""
     if not knows(groups):
         return False
     least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
@@ -30,7 +30,7 @@ def too_short(groups: Groups) -> bool:
 
 
 def has_start(groups: Groups) -> bool:
-    """Return whether the relaxed contact exists in which a test begins."""
+    """Whether the relaxed contact at the start of the test exists."""
     try:
         start_of(groups, profile_of(groups.geometry))
     except InputError:
@@ -39,9 +39,9 @@ def has_start(groups: Groups) -> bool:
 
 
 def answered(problem: Problem | Groups) -> Result:
-    """Return the answer of :func:`crack_contact` as a simulation would give it.
+    """Convert the result of :func:`crack_contact` to a :class:`viscotack.Result`.
 
-    Energies are not known; the error of the force is the band.
+    Energies are not available; the error of the force is the band.
     """
     found = crack_contact(problem)
     outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT
@@ -57,7 +57,7 @@ def answered(problem: Problem | Groups) -> Result:
         edge_speed=np.where(radius > 0, found.edge_speed, np.nan),
         status=(
             f"{outcome}; the range of the forces, a Tabor number of {groups.effective_tabor:.4g}, "
-            "is too short to be simulated: answered as a contact whose edge is a steady crack"
+            "is too short to simulate: computed with the steady-crack contact model"
         ),
         statistics={"steps": found.time.size - 1},
         error_estimate=None if found.pull_off_force is None else {"force": found.band},

@@ -1,4 +1,4 @@
-"""By which method a problem is solved: a simulation, or a contact whose edge is a steady crack."""
+"""Choice of the method for a problem: simulation or the steady-crack contact model."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeL
 from viscotack.result import Result
 
 _UNTIL = ("pull-off", "detached")
-# Influences of nodes so near to each other, in parts of the contact radius, have too few digits: at
-# 4e-7 a force was a fifth off. Not looked at below this effective Tabor number.
+# Smallest node spacing over the contact radius: below it the influence coefficients lose digits (at
+# 4e-7 a force was off by a fifth). Checked above this effective Tabor number only.
 _DIGITS, _FINE_TABOR = 6e-7, 20.0
 
 
@@ -40,47 +40,48 @@ def solve(
 ) -> Result:
     """Simulate the detachment of a rigid indenter from a viscoelastic solid.
 
-    The test begins at rest, in a relaxed contact or apart, goes through the moves of its protocol,
-    and ends with a retraction at a constant rate, or with the last move. Pressure and gap follow
-    from the traction law and from the hereditary solid (Eq. 4.11 to 4.15 of Maghami, PhD thesis
-    (2025)); mesh, steps and relaxation modes follow from the accuracy.
+    The test starts at rest, in a relaxed contact or apart, performs the moves of its protocol, and
+    ends with a retraction at a constant rate or with the last move. Pressure and gap are computed
+    from the traction law and the hereditary integral of the solid (Eq. 4.11 to 4.15 of Maghami,
+    PhD thesis (2025)). The accuracy determines mesh, time steps and relaxation modes.
 
     Parameters
     ----------
     problem : Problem or Groups
-        What is tested, in SI or in dimensionless groups.
+        The problem, in SI or in dimensionless groups.
     accuracy : float
-        Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
-        end is a flat minimum, has up to five times this error.
+        Required relative error of the pull-off force, from 1e-6 to 0.02. The work to pull-off has
+        up to five times this error, because the force minimum at its end is flat.
     until : {"detached", "pull-off"}
-        Run until the surfaces are apart, or only until no later tension can exceed the largest one
-        so far, mostly just past the first force minimum (faster; the work of separation is then not
-        known).
+        End of the run: when the surfaces are apart, or as soon as no later tension can exceed the
+        largest one so far, mostly just past the first force minimum. The latter is faster, but
+        does not give the work of separation.
     settings : Settings, optional
-        Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
+        Mesh, steps and modes for experts; overrides those chosen from `accuracy`.
     estimate_error : bool
-        Also run a coarser companion and state the errors of force, work and depth at pull-off from
-        the difference. A run whose force is known ten times worse than asked for is stopped as
-        unresolved.
+        Also run a coarser simulation and estimate the errors of force, work and depth at pull-off
+        from the difference. If the error of the force is ten times the required one, the run stops
+        with the status "unresolved".
     whole : bool
-        March the whole retraction from the start that is asked for, however deep. Else one from
-        more than 1000 h0, by sphere, cone or power-law tip and without moves before it, begins
-        where light marches tell that the depth no longer matters
-        (:mod:`viscotack.bem.preload`); ``result.shallow_start`` says where.
+        Simulate the whole retraction from the given start, however deep. By default a retraction
+        of a sphere, cone or power-law tip from more than 1000 h0, without moves before it, starts
+        at a smaller depth for which coarse simulations show no influence of the start
+        (:mod:`viscotack.bem.preload`); ``result.shallow_start`` contains that depth.
     fields : bool
-        Keep the profiles of pressure and gap at every step.
+        Store the profiles of pressure and gap at every step.
     throw : bool
-        Raise when the run stops before its end; else the result's status says so.
+        Raise SimulationError if the run stops before its end. If False, the status of the result
+        gives the reason.
     progress : callable, optional
-        Called after every step with the done share of the way, from 0 to 1, that of the coarser
-        companion being the last part.
+        Called after every step with the completed fraction, from 0 to 1, including the coarser
+        simulation.
     watch : callable, optional
-        Called after every step of the run itself with its time, depth, force and contact radius,
-        dimensionless as the series of a result: a curve to be drawn while it grows. What it raises
-        ends the run and is raised here.
+        Called after every step of the main run with time, depth, force and contact radius,
+        dimensionless as in a result; for example to draw the curve. An exception that it raises
+        ends the run and is propagated.
     time_limit : float, optional
-        Longest time [s] for the run and its companion. A run that meets it is stopped: it keeps
-        what there is, and its status says so.
+        Longest time [s] for both simulations. A run that reaches it stops; the result contains the
+        steps so far, and its status gives the reason.
 
     Returns
     -------
@@ -90,18 +91,18 @@ def solve(
     Raises
     ------
     ValueError
-        If the relaxed start does not exist, or is not found within the time limit; if it is too
-        deep to be marched and none that is shallower gives the same answer; if an argument, or a
-        number of the problem, is out of range.
+        If the relaxed start does not exist or is not found within the time limit; if it is too
+        deep to simulate and no shallower start gives the same result; if an argument or a number
+        of the problem is out of range.
     SimulationError
-        If the run stops before its end, unless throw is False.
+        If the run stops before its end and `throw` is True.
 
     Notes
     -----
-    Beyond Tabor numbers of 200, elastic solids of 30, a contact whose edge is a steady crack is
-    the answer (:func:`crack_contact`), and the result says so: its `method`, its status, and its
-    band for the error of the force. So where nodes would be nearer to each other than digits
-    tell, in a large contact or at a high accuracy.
+    Above a Tabor number of 200 (elastic solids: 30) the steady-crack contact model replaces the
+    simulation (:func:`crack_contact`); `method` and `status` of the result state it, and its error
+    of the force is the band of the model. The same holds if round-off prevents a sufficiently fine
+    mesh, in a very large contact or at a very high accuracy.
 
     Tested for Tabor numbers from 0.01 to 100, modulus ratios down to 1e-4, preloads from 0.01 to
     500 h0 and rates from 0.1 to 1e10. Small strains are assumed, and inertia is neglected.
@@ -123,14 +124,14 @@ def solve(
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
     if time_limit is not None:
         time_limit = card_of(TimeLimit).checked("time_limit", time_limit)
-    # The matrices are small: a second BLAS thread costs many times what it brings.
+    # The matrices are small, so a second BLAS thread slows the run down.
     with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
         groups = problem.groups()
         if _too_short(groups, chosen):
             if fields:
                 raise InputError(
-                    "profiles are known of simulations only, and the Tabor number of "
-                    f"{groups.effective_tabor:.4g} is too large for one; ask for none"
+                    "profiles exist for simulations only, and the Tabor number of "
+                    f"{groups.effective_tabor:.4g} is too large to simulate; use fields=False"
                 )
             return _handed_over(problem, chosen.accuracy, began)
         return simulate(
@@ -148,9 +149,9 @@ def solve(
 
 
 def has_start(problem: Case) -> bool:
-    """Return whether the state at rest exists in which a test begins; some milliseconds.
+    """Whether the relaxed state at the start of a test exists; takes some milliseconds.
 
-    It is looked for at the loosest accuracy.
+    The state is searched at the lowest accuracy.
     """
     with threadpool_limits(limits=1, user_api="blas"):
         try:
@@ -164,7 +165,7 @@ def has_start(problem: Case) -> bool:
 
 
 def _too_short(groups: Groups, settings: Settings) -> bool:
-    """Return whether the range of the forces is too short for a simulation, or for its digits."""
+    """Whether the range of the forces is too short for a simulation or for its round-off."""
     if handover.too_short(groups):
         return True
     if not handover.knows(groups) or groups.effective_tabor < _FINE_TABOR:
@@ -172,12 +173,12 @@ def _too_short(groups: Groups, settings: Settings) -> bool:
     spacing = contact_of(groups).grading(settings, 0.0).spacing
     try:
         return spacing < _DIGITS * largest_radius(groups)
-    except InputError:  # there is no such contact by JKR, which ends a little sooner
+    except InputError:  # no such contact by JKR, whose range of contacts is a little smaller
         return False
 
 
 def _handed_over(problem: Problem | Groups, accuracy: float, began: float) -> Result:
-    """Return the answer of the theory for forces of too short a range."""
+    """Solve a problem with the steady-crack contact model."""
     result = handover.answered(problem)
     cost = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     return replace(result, accuracy=accuracy, statistics=cost)

@@ -1,8 +1,9 @@
-"""Whatever a user can ask, each operation declared once.
+"""Operations: every task of a user, each declared once for all front ends.
 
-Every module of this folder declares operations: frozen dataclasses with a ``word``, options with
-cards, and one method to a typed answer. The command line, HTTP, the page, study files and Python
-read those declarations; a module more is an operation more for all of them.
+Every module of this folder declares operations: frozen dataclasses with a name (``word``), options
+with cards, and a method that returns a typed answer. The front ends (command line, HTTP, page,
+study files and Python) are generated from these declarations, so a new module adds its operations
+to all of them.
 """
 
 import ast
@@ -20,7 +21,7 @@ from viscotack.errors import InputError
 from .declare.answer import Answer, Caller
 from .declare.options import Here, Operation, answered, respelled, take
 
-# Folders with operations of the user's own: modules as those in here.
+# Environment variable with folders of user-defined operations.
 FOLDERS = "VISCOTACK_OPERATIONS"
 __path__ += [folder for folder in os.environ.get(FOLDERS, "").split(os.pathsep) if folder]
 
@@ -47,10 +48,20 @@ class Declared:
 
 @lru_cache(maxsize=1)
 def declared() -> Mapping[str, Declared]:
-    """All operations by their words, sorted; those of this package without importing them.
+    """List all operations by name, sorted, without importing those of the package.
 
-    The command line lists them and imports the one that is asked for: to import all takes ten
-    times as long as to import NumPy.
+    The command line imports only the requested operation, because importing all of them takes ten
+    times as long as importing NumPy.
+
+    Returns
+    -------
+    mapping of str to Declared
+        Name of the operation -> its help text and module.
+
+    Examples
+    --------
+    >>> declared()["predict"].module
+    'predict'
     """
     modules = (module for module in iter_modules(__path__) if not module.ispkg)
     found = {each.word: each for module in modules for each in _declared_in(module)}
@@ -89,44 +100,70 @@ def _kinds(module: str) -> Iterator[type[Operation]]:
 
 
 def operations() -> Mapping[str, type[Operation]]:
-    """Import all operations; by their words, sorted."""
+    """Import and return all operations by name, sorted.
+
+    Returns
+    -------
+    mapping of str to class
+        Name of the operation, such as "identify rates" -> its class.
+
+    Examples
+    --------
+    >>> "predict" in operations()
+    True
+    """
     return {word: operation(word) for word in declared()}
 
 
 def operation(word: str) -> type[Operation]:
-    """Import the operation of a word.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
-    if word not in declared():
-        raise InputError(f"there is no operation {word!r:.60}; there are {', '.join(declared())}")
-    return next(kind for kind in _kinds(declared()[word].module) if kind.word == word)
-
-
-def ask(word: str, /, **given: Any) -> Answer:
-    """Return the answer to an operation, as every door gives it.
+    """Import and return the class of an operation.
 
     Parameters
     ----------
     word : str
-        Of the operation: "identify rates".
-    **given
-        Its options by name: numbers in SI, or texts with units as on the command line; names of
-        files; a problem as an object, a case file or its tables; a passport as an object or a file.
-        `also` has classes of your own.
+        Name of the operation, such as "identify rates".
 
     Returns
     -------
-    Answer
-        `found` has the objects, `record()` plain data, `words()` lines to read.
+    class
+        A subclass of `Operation`.
 
     Raises
     ------
     ValueError
-        If an option is unknown, missing or impossible, or the question has no answer.
+        If no operation has this name.
+
+    Examples
+    --------
+    >>> operation("predict").__name__
+    'Predict'
+    """
+    if word not in declared():
+        raise InputError(f"unknown operation {word!r:.60}; known are {', '.join(declared())}")
+    return next(kind for kind in _kinds(declared()[word].module) if kind.word == word)
+
+
+def ask(word: str, /, **given: Any) -> Answer:
+    """Run an operation; the answer is the same as on the command line and over HTTP.
+
+    Parameters
+    ----------
+    word : str
+        Name of the operation, such as "identify rates".
+    **given
+        Options by name: numbers in SI, or text with units as on the command line; file names; a
+        problem as an object, a case file or its tables; a passport as an object or a file.
+        `also` is a sequence of user-defined classes.
+
+    Returns
+    -------
+    Answer
+        `found` contains the objects, `record()` returns plain data, `words()` returns text.
+
+    Raises
+    ------
+    ValueError
+        If an option is unknown, missing or invalid, or the operation has no answer.
 
     Examples
     --------

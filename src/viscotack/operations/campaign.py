@@ -1,4 +1,4 @@
-"""The operations ``campaign ...``: many problems, a plan, a folder that survives every stop."""
+"""The operations ``campaign ...``: run many problems by a plan, resumable, stored in a folder."""
 
 from collections import Counter
 from dataclasses import asdict, dataclass, field, replace
@@ -18,15 +18,15 @@ if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress
 
 _COLUMNS = "a CSV file with the columns tabor, modulus_ratio, exponent, preload and rate, as for"
-_OF_FOLDERS = {"http": "a campaign lives in a folder of the machine that runs it"}
+_OF_FOLDERS = {"http": "a campaign is stored in a folder of the machine that runs it"}
 _OF_PLANS = {"http": "a plan names other files, and Python files that are executed"}
-# Exit status of a run that was ended, and of one that has nothing left to do but failed cases.
+# Exit status of an interrupted run, and of a complete run with failed cases.
 _STOPPED, _SOME_FAILED = 1, 4
 
 AtTemperature = Annotated[
     float | None,
     Number(
-        'Of the material of the base problem, from a passport, "0 degC".', unit="K", metavar="T"
+        'Temperature of the base problem\'s material (a passport), "0 degC".', unit="K", metavar="T"
     ),
 ]
 AFolder = Annotated[Path, Folder("The folder of a campaign.", metavar="DIR", argument=True)]
@@ -34,7 +34,7 @@ AFolder = Annotated[Path, Folder("The folder of a campaign.", metavar="DIR", arg
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs(Operation):
-    """Say which numbers of a problem a plan may set, by which names, and what they are now.
+    """List the numbers of a problem that a plan can set, with their names and current values.
 
     Example: viscotack campaign inputs pad.toml
     """
@@ -48,7 +48,7 @@ class Inputs(Operation):
     ]
 
     def answer(self, caller: Caller) -> Answer:
-        """List the numbers of the problem by their paths."""
+        """List the numbers of the problem by path."""
         from viscotack.campaign import inputs_of
 
         found = inputs_of(self.problem.problem)
@@ -69,7 +69,7 @@ def _input_words(entry: Any) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class DescribePlan(Operation):
-    """Say what a plan stands for, without running it.
+    """Describe the cases and settings of a plan without running it.
 
     Example: viscotack campaign plan study.toml --csv cases.csv
     """
@@ -133,49 +133,45 @@ def _plan_words(plan: "Plan") -> str:
     limits = plan.settings
     return "\n".join(
         [
-            f"{len(plan.cases)} cases of kind {plan.kind.name}; {plan.rejected} points are no "
-            f"contacts and are left out, {plan.repeated} are stated more than once and run once",
-            *([f"  left out, for one: {plan.refusal}"] if plan.rejected else []),
+            f"{len(plan.cases)} cases of kind {plan.kind.name}; {plan.rejected} points without a "
+            f"contact are skipped, {plan.repeated} repeated cases are run once",
+            *([f"  first skipped point: {plan.refusal}"] if plan.rejected else []),
             *(
                 f"  {name:<24}{low:>12.5g} to {high:.5g}"
                 for name, (low, high) in _ranges(plan).items()
             ),
-            f"  to {limits.until}, accuracy {limits.accuracy:g}; at most {limits.time_limit:g} s "
-            f"and {limits.memory_limit / 1e6:g} MB a case",
+            f"  to {limits.until}, accuracy {limits.accuracy:g}; limits per case: "
+            f"{limits.time_limit:g} s, {limits.memory_limit / 1e6:g} MB",
         ]
     )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Settings(Part):
-    """What is said in place of the settings of a plan; the fields of `CaseSettings` hold ranges."""
+    """Options that replace the settings of a plan; `CaseSettings` checks their ranges."""
 
     table: ClassVar = "settings"
 
     accuracy: Annotated[
         float | None,
-        Number(
-            "Accuracy wanted of the pull-off force, in place of the plan's.", metavar="RELATIVE"
-        ),
+        Number("Relative error of the pull-off force; replaces the plan's.", metavar="RELATIVE"),
     ] = None
     until: Annotated[
         str | None,
         Choice(
-            "How far to pull, in place of the plan's; pull-off if nobody says.",
+            "End of each case; replaces the plan's. Default: pull-off.",
             metavar="pull-off|detached",
             choices=("pull-off", "detached"),
         ),
     ] = None
     time_limit: Annotated[
         float | None,
-        Number(
-            'Longest time of a case, "10 min", in place of the plan\'s.', unit="s", metavar="TIME"
-        ),
+        Number('Time limit per case, "10 min"; replaces the plan\'s.', unit="s", metavar="TIME"),
     ] = None
     memory_limit: Annotated[
         float | None,
         Number(
-            'Most memory of a case beside its worker, "400 MB", in place of the plan\'s.',
+            'Memory limit per case, "400 MB"; replaces the plan\'s.',
             unit="byte",
             metavar="MEMORY",
         ),
@@ -184,11 +180,11 @@ class Settings(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Run(Operation):
-    """Run the cases of a plan that are not in the folder yet.
+    """Run the cases of a plan that have no result in the folder yet.
 
-    It may be stopped at any time and goes on when called again; ctrl-C finishes the cases in
-    flight, a second one does not. Exit status 0: all cases have a result; 1: stopped before; 4:
-    nothing is left to be done, and some cases failed, for which viscotack campaign status says why.
+    An interrupted run resumes when called again. The first ctrl-C lets running cases finish, a
+    second one stops at once. Exit status 0: all cases have a result; 1: interrupted; 4: all cases
+    were run and some failed; viscotack campaign status lists the reasons.
 
     Example: viscotack campaign run cases.csv --out study --workers 2
     """
@@ -200,8 +196,8 @@ class Run(Operation):
     plan: Annotated[
         Path | None,
         File(
-            f"A plan in TOML, or {_COLUMNS} simulate sphere. Leave it out to go on with what is in "
-            "DIR.",
+            f"A plan in TOML, or {_COLUMNS} simulate sphere. Without it the plan in DIR is "
+            "resumed.",
             metavar="[PLAN]",
             argument=True,
         ),
@@ -209,7 +205,7 @@ class Run(Operation):
     out: Annotated[
         Path | None,
         Folder(
-            "Folder that keeps the campaign; made if missing. What is in it is not run again.",
+            "Folder of the campaign; created if missing. Cases with a result are not repeated.",
             metavar="DIR",
         ),
     ] = None
@@ -219,41 +215,39 @@ class Run(Operation):
     scheduler: Annotated[
         str | None,
         Text(
-            'A Dask scheduler, "tcp://host:8786": its workers do the cases instead.',
+            'A Dask scheduler, "tcp://host:8786", whose workers run the cases.',
             metavar="ADDRESS",
         ),
     ] = None
     tls_ca: Annotated[
         Path | None,
         File(
-            "For a scheduler at tls://host:8786: the authority that both ends trust, in PEM.",
+            "CA certificate (PEM) for a scheduler at tls://host:8786.",
             metavar="FILE",
         ),
     ] = None
-    tls_cert: Annotated[Path | None, File("The certificate of this end.", metavar="FILE")] = None
-    tls_key: Annotated[Path | None, File("The key of that certificate.", metavar="FILE")] = None
+    tls_cert: Annotated[Path | None, File("Client certificate (PEM).", metavar="FILE")] = None
+    tls_key: Annotated[Path | None, File("Key of the client certificate.", metavar="FILE")] = None
     shard: Annotated[
         str | None,
         Text(
-            "Only the K-th of N parts of the plan, for the job arrays of a batch system; viscotack "
-            "campaign merge makes one folder of all.",
+            "Run only part K of N of the plan, for job arrays of a batch system; viscotack "
+            "campaign merge combines the folders.",
             metavar="K/N",
         ),
     ] = None
     settings: Settings = field(default_factory=Settings)
     temperature: AtTemperature = None
-    retry: Annotated[bool, Switch("Run the cases that failed for a lasting reason once more.")] = (
-        False
-    )
+    retry: Annotated[bool, Switch("Also repeat the cases that failed before.")] = False
 
     def __post_init__(self) -> None:
         if self.out is None:
-            raise InputError("--out is missing: the folder that keeps the campaign")
+            raise InputError("--out is missing; give the folder of the campaign")
         if self.plan is None and self.shard is not None:
-            raise InputError("--shard is of a plan: give the plan")
+            raise InputError("--shard needs the plan; give its file")
 
     def answer(self, caller: Caller) -> Answer:
-        """Run what is missing; says on the way how far it is."""
+        """Run the missing cases and report progress."""
         from viscotack.campaign import AllCrashed, NoWorker, run
         from viscotack.campaign.cluster import security_of
 
@@ -277,13 +271,15 @@ class Run(Operation):
         return replace(_standing(self.out, end), status=status)
 
     def _plan(self, caller: Caller) -> "Plan | None":
-        """Return the plan, of which only a shard may be wanted; None for that of the folder."""
+        """Return the plan or its shard; None for the plan in the folder."""
         from viscotack.campaign import read_plan, shard_of
 
         changed = asdict(self.settings) | {"temperature": self.temperature}
         if self.plan is None:
             if any(value is not None for value in changed.values()):
-                raise InputError("settings are those of the folder; give the plan to change limits")
+                raise InputError(
+                    "the settings are stored in the folder; give the plan to change limits"
+                )
             return None
         plan = read_plan(self.plan, own=caller.own, **changed)
         return plan if self.shard is None else shard_of(plan, self.shard)
@@ -291,7 +287,7 @@ class Run(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class Status(Operation):
-    """Say how far a campaign is, and why cases failed; also while it runs.
+    """Show the progress of a campaign and the reasons of failures, also while it runs.
 
     Example: viscotack campaign status study
     """
@@ -302,7 +298,7 @@ class Status(Operation):
     folder: AFolder
 
     def answer(self, caller: Caller) -> Answer:
-        """Count what is stored."""
+        """Count the stored results and failures."""
         from viscotack.campaign import Store
 
         store = Store(self.folder)
@@ -311,9 +307,9 @@ class Status(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class Verify(Operation):
-    """Say whether what is stored is what was written: every file, every row, each once.
+    """Check that the stored files and rows are complete and unchanged.
 
-    Exit status 0: it is; 1: it is not, and what is wrong is named. Nothing is changed.
+    Exit status 0: no differences; 1: differences, which are listed. The folder is not changed.
 
     Example: viscotack campaign verify study
     """
@@ -324,7 +320,7 @@ class Verify(Operation):
     folder: AFolder
 
     def answer(self, caller: Caller) -> Answer:
-        """Read all files and compare them with their hashes."""
+        """Compare all files with their hashes, and all rows with the plan."""
         from viscotack.campaign import Store, verify
 
         verdict = verify(Store(self.folder))
@@ -337,11 +333,11 @@ class Verify(Operation):
 
 
 def _verdict_words(verdict: Any) -> str:
-    end = "something is wrong" if verdict.wrong else "all as it was written"
+    end = "differences found" if verdict.wrong else "complete and unchanged"
     return "\n".join(
         [
             *(f"wrong: {words}" for words in verdict.wrong),
-            *(f"not of this campaign, and not read: {words}" for words in verdict.strange),
+            *(f"not part of this campaign, ignored: {words}" for words in verdict.strange),
             f"{verdict.rows} rows in {verdict.files} files: {end}",
         ]
     )
@@ -349,9 +345,9 @@ def _verdict_words(verdict: Any) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Merge(Operation):
-    """Make one campaign of several, such as the shards of one plan.
+    """Merge several campaigns, such as the shards of one plan, into one.
 
-    Each is verified before; they must be of one kind, accuracy and version of viscotack.
+    Each is verified first; kind, accuracy and version of viscotack must be the same.
 
     Example: viscotack campaign merge shard-1 shard-2 --out study
     """
@@ -362,14 +358,14 @@ class Merge(Operation):
     folders: Annotated[
         tuple[Path, ...], Folder("Folders of campaigns.", metavar="DIR...", argument=True)
     ]
-    out: Annotated[Path | None, Folder("Folder that is to hold all of them.", metavar="DIR")] = None
+    out: Annotated[Path | None, Folder("Folder of the merged campaign.", metavar="DIR")] = None
 
     def __post_init__(self) -> None:
         if self.out is None:
-            raise InputError("--out is missing: the folder that is to hold all of them")
+            raise InputError("--out is missing; give the folder of the merged campaign")
 
     def answer(self, caller: Caller) -> Answer:
-        """Verify and merge."""
+        """Verify and merge the campaigns."""
         from viscotack.campaign import merge
 
         assert self.out is not None
@@ -378,9 +374,9 @@ class Merge(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class Export(Operation):
-    """Write the results as a table: inputs, pull-off force, work, error estimate and the rest.
+    """Export the results as a table: inputs, pull-off force, work, error estimate and others.
 
-    Rows come in the order of the plan. A case that failed is not among them.
+    Rows are in the order of the plan. Failed cases are not included.
 
     Example: viscotack campaign export study --csv study.csv
     """
@@ -397,15 +393,15 @@ class Export(Operation):
     folder: AFolder
     trajectories: Annotated[
         bool,
-        Switch("Write the 24 points of each curve to the CSV file as well; the others have them."),
+        Switch("Include the 24 points of each curve in the CSV file; other formats have them."),
     ] = False
 
     def answer(self, caller: Caller) -> Answer:
-        """Open the folder; tables are made as they are written."""
+        """Open the folder; tables are created while they are written."""
         from viscotack.campaign import Store, export
 
         if not caller.wants:
-            raise InputError("say what to write: --csv, --parquet, --mat or --failures FILE")
+            raise InputError("no output; give --csv, --parquet, --mat or --failures FILE")
         store = Store(self.folder)
 
         def results(target: Any, trajectories: bool = True) -> None:
@@ -426,7 +422,7 @@ class Export(Operation):
 
 
 def _progress(store: Any) -> "Progress":
-    """Return how many cases of a folder have a result or have failed."""
+    """Count the cases of a folder with a result and with a failure."""
     from viscotack.campaign import Progress
 
     standing = store.standing(store.cases())
@@ -436,7 +432,7 @@ def _progress(store: Any) -> "Progress":
 def _standing(
     folder: Path, now: "Progress", reasons: Counter[tuple[str, str]] | None = None
 ) -> Answer:
-    """Return the answer how far a campaign is."""
+    """Build the answer with the progress of a campaign."""
     record: dict[str, Any] = {
         "cases": now.cases,
         "done": now.done,
@@ -470,24 +466,24 @@ def _standing_words(folder: Path, now: "Progress", record: dict[str, Any]) -> st
     for why in record.get("failures", ()):
         lines.append(f"  {why['cases']:6d} {why['failure']}: {why['reason']}")
     if left:
-        lines.append(f"  go on with: viscotack campaign run --out {folder}")
+        lines.append(f"  resume with: viscotack campaign run --out {folder}")
     return "\n".join(lines)
 
 
 def _ended(folder: Path, error: BaseException) -> Answer:
-    """Return the answer of a run that did not come to an end of its own."""
-    why = str(error) or "ended at once"
+    """Build the answer of an interrupted run."""
+    why = str(error) or "interrupted"
     return Answer(
         error,
         record=lambda: {"stopped": True, "reason": why},
         words=lambda: "",
-        notes=(f"viscotack: {why}; what is stored in {folder} is safe",),
+        notes=(f"viscotack: {why}; the stored rows in {folder} are safe",),
         status=_STOPPED,
     )
 
 
 def _told(now: "Progress") -> dict[str, Any]:
-    """Return what a run tells of itself."""
+    """Progress of a run as data for the caller."""
     share = (now.done + now.failed) / now.cases
     return {"share": share, "words": _progress_words(now), "urgent": now.stopped}
 
@@ -497,4 +493,4 @@ def _progress_words(now: "Progress") -> str:
     if now.remaining_s is not None:
         minutes, seconds = divmod(round(now.remaining_s), 60)
         text += f", about {minutes} min {seconds:02d} s left"
-    return text + ("; finishing the cases in flight" if now.stopped else "")
+    return text + ("; finishing the running cases" if now.stopped else "")

@@ -1,4 +1,4 @@
-"""The operation ``edge-energy``: what the edge of a simulated contact takes, by speed."""
+"""The operation ``edge-energy``: energy at the edge of a simulated contact against its speed."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,17 +11,17 @@ from .declare.cards import File
 from .declare.options import Operation
 from .simulate import saved
 
-# Rows of the table that a person reads.
+# Rows of the printed table.
 _ROWS = 8
 
 
 @dataclass(frozen=True, kw_only=True)
 class EdgeEnergy(Operation):
-    """Read the energy at the edge off a simulated pull-off, against the speed that the edge had.
+    """Evaluate the energy at the contact edge against its speed, from a simulated pull-off.
 
-    Of a sphere that is pulled off a relaxed contact. Fits Gent and Schultz's relation to the
-    energies, says which part of them the bulk takes and which the interface, and how steep the
-    surface is at the edge.
+    The result must be the retraction of a sphere from a relaxed contact. Fits the relation of Gent
+    and Schultz to the energies, separates the contributions of bulk and interface, and gives the
+    slope of the surface at the edge.
 
     Example: viscotack simulate sphere lens.toml --save lens.npz, then viscotack edge-energy
     lens.npz --plot edge.png
@@ -34,7 +34,7 @@ class EdgeEnergy(Operation):
     file: Annotated[Path, File("A result that --save wrote.", metavar="FILE.npz", argument=True)]
 
     def answer(self, caller: Caller) -> Answer:
-        """Load the result and read its edge."""
+        """Load the result and evaluate its edge."""
         from viscotack.pictures.edge_energy import draw_edge_energy
         from viscotack.result.edge_energy import edge_energy
 
@@ -64,7 +64,7 @@ def _record(found: Any, unit: str) -> dict[str, Any]:
 
 
 def _words(found: Any, unit: str) -> str:
-    """Return the answer as lines a person reads: some rows, evenly over the logarithm of speed."""
+    """Format the answer as text: some rows, evenly spaced in the logarithm of the speed."""
     speed = found.speed
     wanted = np.geomspace(speed.min(), speed.max(), _ROWS)
     near = {int(np.argmin(np.abs(np.log(speed / v)))) for v in wanted}

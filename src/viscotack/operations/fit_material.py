@@ -1,4 +1,4 @@
-"""The operation ``material fit``: from a laboratory's files to a material."""
+"""The operation ``material fit``: fit a material model to measured data."""
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -51,7 +51,7 @@ class FitMaterial(Operation):
     files: Annotated[
         tuple[Path, ...],
         File(
-            "What the instrument wrote; several files are sweeps of one material.",
+            "Files of the instrument; several files are sweeps of one material.",
             metavar="FILE...",
             argument=True,
         ),
@@ -61,39 +61,39 @@ class FitMaterial(Operation):
     ]
     model: Annotated[
         str,
-        Choice("What to fit; best: all, and an information criterion chooses.", choices=_MODELS),
+        Choice("Model; best: fit all and select by an information criterion.", choices=_MODELS),
     ] = "best"
     arms: Annotated[
         int | None,
-        Whole("Relaxation times of a Prony series; else the data decide.", metavar="N"),
+        Whole("Number of relaxation times of a Prony series; default: by the data.", metavar="N"),
     ] = None
     glassy_modulus: Annotated[
         float | None,
         Number(
-            'Known from elsewhere and not fitted, "3 GPa"; not for a Prony series.',
+            'Known modulus that is not fitted, "3 GPa"; not for a Prony series.',
             unit="Pa",
             metavar="PRESSURE",
         ),
     ] = None
     rubbery_modulus: Annotated[
-        float | None, Number("In the same way.", unit="Pa", metavar="PRESSURE")
+        float | None, Number("Known modulus, as above.", unit="Pa", metavar="PRESSURE")
     ] = None
-    loss: Annotated[bool, Switch("Whether the loss modulus counts.")] = True
+    loss: Annotated[bool, Switch("Whether to fit the loss modulus as well.")] = True
     level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
     name: Annotated[
-        str | None, Text("Name of the material; else that of the file.", metavar="WORDS")
+        str | None, Text("Name of the material; default: the file name.", metavar="WORDS")
     ] = None
     source: Annotated[str, Text("Who measured it, for the passport.", metavar="WORDS")] = ""
     dma: Dma = field(default_factory=Dma)
     shifting: Shifting = field(default_factory=Shifting)
 
     def __post_init__(self) -> None:
-        """Check that options of sweeps are given for sweeps."""
+        """Check that options for sweeps are given for sweeps only."""
         if self.dma.test in ("relaxation", "creep"):
             self._refuse_of_sweeps(f"for --test {self.dma.test}")
 
     def answer(self, caller: Caller) -> Answer:
-        """Read the files, make one curve of them, and fit."""
+        """Read the files, build the master curve and fit the model."""
         from viscotack.materials.passport_file import write_passport
         from viscotack.materials.passport_words import shift_lines
         from viscotack.pictures.lab import draw_fit
@@ -121,7 +121,7 @@ class FitMaterial(Operation):
         )
 
     def _fitted(self) -> "tuple[FitReport, Any]":
-        """Return the fit, and how times shift with temperature."""
+        """Return the fit and the shift law."""
         from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
 
         measured = self.dma.measured(self.files)
@@ -130,7 +130,7 @@ class FitMaterial(Operation):
         else:
             first = measured[0] if isinstance(measured, tuple) else measured
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
-            self._refuse_of_sweeps(f"for a {found} test, which the file holds")
+            self._refuse_of_sweeps(f"for the {found} test in the file")
             data, shift, cautions = self.shifting.stepped(measured)
         known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
         report = fit(
@@ -164,11 +164,11 @@ class FitMaterial(Operation):
         said = {"--frequency-unit": self.dma.frequency_unit, "--shift-by": self.shifting.shift_by}
         given = [flag for flag, value in said.items() if value is not None]
         if given:
-            raise InputError(f"{' and '.join(given)} cannot be used {why}; leave it out")
+            raise InputError(f"{' and '.join(given)} cannot be used {why}; remove it")
 
 
 def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
-    """Return what a page shows of a fit; no table and no passport of a law for fits only."""
+    """Return the data of a fit for the page."""
     from viscotack.materials.passport_tables import passport_text
 
     from .parts import drawn

@@ -1,4 +1,4 @@
-"""The operations ``forecast`` and ``report``: from a study to what to expect."""
+"""The operations ``forecast`` and ``report``: forecasts of pull-off forces from a study."""
 
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar
@@ -28,7 +28,7 @@ StudyFile = Annotated[
 
 @dataclass(frozen=True)
 class Speeds(Text):
-    """A speed, or a range of them; the value is their numbers [m/s]."""
+    """Option: a speed or a range of speeds; the value is a tuple of speeds [m/s]."""
 
     def read(self, value: Any, place: Place) -> tuple[float, ...]:
         """Return the speeds."""
@@ -39,7 +39,7 @@ class Speeds(Text):
             return (parse(first, "m/s"),)
         low, high = parse(first, "m/s"), parse(last, "m/s")
         if not 0 < low < high:
-            raise InputError(f"{value}: the first of two must be positive and the smaller one")
+            raise InputError(f"{value}: a range needs two positive speeds, the smaller one first")
         count = min(_MOST, 1 + round(8 * (np.log10(high) - np.log10(low))))
         return tuple(np.geomspace(low, high, max(count, 2)).tolist())
 
@@ -50,27 +50,27 @@ class Speeds(Text):
 
 @dataclass(frozen=True, kw_only=True)
 class Wish(Part):
-    """At which speeds, and under which conditions, a forecast is wanted."""
+    """Speeds and conditions of a forecast."""
 
     table: ClassVar = "forecast"
 
     speed: Annotated[
         tuple[tuple[float, ...], ...],
         Speeds(
-            'Of a retraction, "30 um/s", or a range, "1 um/s..1 mm/s"; may be given again. Else '
+            'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
             "the range of the series.",
             metavar="SPEED|FROM..TO",
         ),
     ] = ()
     preload: Annotated[
         float | None,
-        Number("Of the forecast; else that of the series.", unit="N", metavar="FORCE"),
+        Number("Preload; default: that of the series.", unit="N", metavar="FORCE"),
     ] = None
     temperature: Annotated[
         float | None,
         Number(
-            'Of the forecast, "40 degC"; else that of the series. The passport says how times '
-            "change with it.",
+            'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
+            "of the times.",
             unit="K",
             metavar="T",
         ),
@@ -78,17 +78,17 @@ class Wish(Part):
     dwell: Annotated[
         float | None,
         Number(
-            "Under the preload, held; else until all has relaxed. Goes with --approach-speed.",
+            "Dwell time under the preload; default: full relaxation. Needs --approach-speed.",
             unit="s",
             metavar="TIME",
         ),
     ] = None
     approach_speed: Annotated[
-        float | None, Number("Goes with --dwell.", unit="m/s", metavar="SPEED")
+        float | None, Number("Approach speed; needs --dwell.", unit="m/s", metavar="SPEED")
     ] = None
 
     def of(self, fit: Any) -> Any:
-        """Return the forecast from a fitted rate series."""
+        """Compute the forecast from a fitted rate series."""
         from viscotack.identify import forecast_rates
 
         if self.speed:
@@ -108,10 +108,10 @@ class Wish(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Forecast(Operation):
-    """Forecast pull-off forces with a band, from a lab's rate series.
+    """Forecast pull-off forces with a band, from a measured rate series.
 
-    The interface is found from the files of the study; its posterior, the doubt about the material
-    and that of the theory make the band, which is narrow near speeds that were measured.
+    The interface is fitted to the files of the study. The band combines its posterior with the
+    uncertainties of material and theory; it is narrow near measured speeds.
 
     Example: viscotack forecast study.toml --speed "1 um/s..10 mm/s" --plot forecast.png
     """
@@ -146,9 +146,9 @@ class Forecast(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class Report(Operation):
-    """Write one page for the lab: curves, interface, forecast, method, and what to cite.
+    """Write a report as a web page: curves, interface, forecast, method and references.
 
-    The page needs nothing beside it and prints well.
+    The page is a single file and suited to printing.
 
     Example: viscotack report study.toml -o report.html
     """
@@ -162,7 +162,7 @@ class Report(Operation):
     wish: Wish = field(default_factory=Wish)
 
     def answer(self, caller: Caller) -> Answer:
-        """Fit, forecast, and render the page."""
+        """Fit, forecast and render the page."""
         from .parts.report import page
         from .parts.tables import as_text
 
@@ -178,20 +178,20 @@ class Report(Operation):
 
 
 def _identified(study: Placed, caller: Caller) -> Any:
-    """Return what the files of a study say."""
+    """Fit the interface to the files of a study."""
     from viscotack.identify.study import answer
 
     return answer(_asked(study).study(caller.also))
 
 
 def _asked(study: Placed) -> IdentifyRates:
-    """Return what a study asks, which must be where a forecast starts from."""
+    """Read a study, which must contain the operation `identify rates`."""
     word, place = IdentifyRates.word, study.place
 
-    # the word comes before the options: a study may name itself as one that is forecast from
+    # the operation is checked before the options are read
     def known(found: str) -> type[Operation]:
         if found != word:
-            raise InputError(f"it asks to {found}; a forecast starts from a study of {word}")
+            raise InputError(f"its operation is {found}; a forecast needs a study of {word}")
         return IdentifyRates
 
     asked = read_study(study.path, known=known, usual=word, also=place.also, place=place).operation

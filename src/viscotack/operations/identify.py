@@ -1,4 +1,4 @@
-"""The operations ``identify ...``: from measured curves to the interface."""
+"""The operations ``identify ...``: fit the interface to measured curves."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
 _MODELS = ("jkr", "dmt", "maugis", "carpick")
 Radius = Annotated[
-    float, Number('Of the sphere, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
+    float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
 ]
 Level = Annotated[float, Number("Confidence level of the intervals.")]
 
 
 @dataclass(frozen=True, kw_only=True)
 class IdentifySlow(Operation):
-    """Find work of adhesion and Tabor number from one slow retraction of a sphere.
+    """Identify work of adhesion and Tabor number from one slow retraction of a sphere.
 
     JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
     against depth, and compared by an information criterion; intervals are profile likelihoods.
-    What the data cannot tell is said in words. A test that is not slow reads the range of
-    attraction wrong: docs/tack_tests.md shows by how much.
+    The answer states which parameters the data do not determine. If the test is not slow, the
+    range of attraction is biased; docs/tack_tests.md shows by how much.
 
     Example: viscotack identify slow lens_1um_s.csv --radius "5.19 mm"
     --contact-modulus "1.94 MPa" --contact-modulus-uncertainty "0.06 MPa" --plot slow.png
@@ -41,22 +41,22 @@ class IdentifySlow(Operation):
     files: Files
     radius: Radius
     cycle: Annotated[
-        int, Whole("Which cycle of the files, from 1 on.", metavar="N", least=1, most=10**6)
+        int, Whole("Number of the cycle in the files, from 1.", metavar="N", least=1, most=10**6)
     ] = 1
     model: Annotated[
-        tuple[str, ...], Choice("Models to compare; else all four.", choices=_MODELS)
+        tuple[str, ...], Choice("Models to compare; default: all four.", choices=_MODELS)
     ] = ()
     against: Annotated[
         str | None,
         Choice(
-            "Contact radius or depth; else the radius where the file has one.",
+            "Abscissa: contact radius or depth; default: the radius if the file contains it.",
             choices=("radius", "depth"),
         ),
     ] = None
     contact_modulus: Annotated[
         tuple[float, float] | None,
         Known(
-            'E0* of the relaxed solid, known from elsewhere, "1.94 MPa"; else it is fitted.',
+            'Known E0* of the relaxed solid, "1.94 MPa"; default: fitted.',
             unit="Pa",
             metavar="PRESSURE",
         ),
@@ -97,12 +97,12 @@ class IdentifySlow(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class IdentifyRates(Operation):
-    """Find work of adhesion and range of attraction from pull-offs at several speeds.
+    """Identify work of adhesion and range of attraction from pull-offs at several speeds.
 
-    Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
-    steady viscoelastic crack is fitted to them. Solids that the measurement behind the passport
-    allows as well widen the intervals. What the data cannot tell, and where such an interface does
-    not give the forces, is said in words. --growth looks for an interface that grows with speed.
+    The steady-crack contact model is fitted to the true speed and pull-off force of every cycle.
+    The intervals include the uncertainty of the material in the passport. The answer states which
+    parameters the data do not determine, and at which speeds the model does not fit. With --growth
+    an interface that grows with speed is fitted.
 
     Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
     -o study.toml
@@ -126,7 +126,8 @@ class IdentifyRates(Operation):
     preload: Annotated[
         float | None,
         Number(
-            'Under which the contact relaxed, "1.5 mN"; else the force where retractions begin.',
+            'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of '
+            "retraction.",
             unit="N",
             metavar="FORCE",
         ),
@@ -134,7 +135,7 @@ class IdentifyRates(Operation):
     work_of_adhesion: Annotated[
         tuple[float, float] | None,
         Known(
-            'Known from a slow test, "152 mJ/m2"; else it is fitted with nothing known of it.',
+            'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
             unit="J/m^2",
             metavar="ENERGY/AREA",
         ),
@@ -142,36 +143,36 @@ class IdentifyRates(Operation):
     temperature: Annotated[
         float | None,
         Number(
-            'Of the tests, "25 degC"; else that at which the passport holds.',
+            'Temperature of the tests, "25 degC"; default: that of the passport.',
             unit="K",
             metavar="T",
         ),
     ] = None
     curves: Annotated[
         bool,
-        Switch("Take whole curves, by their travels between forces; one speed is enough then."),
+        Switch("Fit whole curves by their travel between forces; one speed is then sufficient."),
     ] = False
     growth: Annotated[
         bool,
         Switch(
-            "Look for an interface that grows with the opening speed: how much, with which power, "
-            "and whether the data need it. Takes 1 to 2 minutes."
+            "Fit an interface that grows with the opening speed: amount, exponent, significance. "
+            "Takes 1 to 2 minutes."
         ),
     ] = False
     scatter: Annotated[
         float,
         Number(
-            'Of forces from test to test, "3 %", where repeated tests do not show it.',
+            'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
             metavar="PART",
         ),
     ] = 0.0
     level: Level = 0.9
-    title: Annotated[str, Text("Of the report.", metavar="WORDS")] = ""
-    notes: Annotated[str, Text("For the report.", metavar="WORDS")] = ""
+    title: Annotated[str, Text("Title of the report.", metavar="WORDS")] = ""
+    notes: Annotated[str, Text("Notes for the report.", metavar="WORDS")] = ""
     rig: Rig = field(default_factory=Rig)
 
     def study(self, also: tuple[Any, ...] = ()) -> "Study":
-        """Return what was measured on what, for :func:`viscotack.identify.study.answer`."""
+        """Convert the options to a study for :func:`viscotack.identify.study.answer`."""
         from viscotack.identify.study import Study
 
         return Study(

@@ -1,4 +1,4 @@
-"""The operation ``material list``: what the library of published materials has."""
+"""The operation ``material list``: list the library of published materials."""
 
 from dataclasses import dataclass
 from typing import ClassVar

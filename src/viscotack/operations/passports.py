@@ -1,4 +1,4 @@
-"""The operations ``material show | convert | export``: passports, and input of other programs."""
+"""The operations ``material show``, ``convert`` and ``export``: passports and other formats."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,11 +31,13 @@ Temperature = Annotated[
     float | None,
     Number('At this temperature, "0 degC" or "273 K".', unit="K", metavar="T"),
 ]
-Tolerance = Annotated[float, Number("Relative error allowed to the series.")]
+Tolerance = Annotated[float, Number("Largest relative error of the series.")]
 PressureUnit = Annotated[
-    str | None, Text("Unit of moduli there, MPa.", metavar="UNIT", example="MPa")
+    str | None, Text("Unit of moduli in the other program, MPa.", metavar="UNIT", example="MPa")
 ]
-TimeUnit = Annotated[str | None, Text("Unit of times there, s.", metavar="UNIT", example="s")]
+TimeUnit = Annotated[
+    str | None, Text("Unit of times in the other program, s.", metavar="UNIT", example="s")
+]
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Band(Two):
 Frequencies = Annotated[
     tuple[float, float] | None,
     Band(
-        'Where the Prony series must hold, "1 mHz,1 MHz"; else the measured range.',
+        'Range of the Prony series, "1 mHz,1 MHz"; default: the measured range.',
         metavar="LOW,HIGH",
     ),
 ]
@@ -63,7 +65,7 @@ Frequencies = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class ShowMaterial(Operation):
-    """Show a material passport in words, or a published material.
+    """Show a material passport or a published material.
 
     Example: viscotack material show pdms-10-1
     """
@@ -104,24 +106,26 @@ class ConvertMaterial(Operation):
         ),
     ]
     temperature: Temperature = None
-    prony: Annotated[bool, Switch("As a Prony series; of a power law with a stated error.")] = False
+    prony: Annotated[bool, Switch("Convert to a Prony series with a stated error.")] = False
     frequencies: Frequencies = None
     tolerance: Tolerance = 3e-4
     code: Annotated[
         str | None,
-        Choice("The file is input of this program.", choices=_CODES, flags=("--from",)),
+        Choice("Program whose input file is read.", choices=_CODES, flags=("--from",)),
     ] = None
     pressure_unit: PressureUnit = None
     time_unit: TimeUnit = None
     rubbery_modulus: Annotated[
         float | None,
         Number(
-            "Long-term Young's modulus, where that input does not hold it.",
+            "Long-term Young's modulus, if not in the input file.",
             unit="Pa",
             metavar="PRESSURE",
         ),
     ] = None
-    poisson_ratio: Annotated[float | None, Number("In the same way.", metavar="NU")] = None
+    poisson_ratio: Annotated[
+        float | None, Number("Poisson ratio, if not in the input file.", metavar="NU")
+    ] = None
 
     @classmethod
     def kept(cls, given: Any) -> tuple[str, ...]:
@@ -200,7 +204,7 @@ class ConvertMaterial(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class ExportMaterial(Operation):
-    """Write a material as input of another program, in its convention and in stated units.
+    """Export a material as input of another program, in its convention and units.
 
     Without units: Pa and s. Without -o it goes to standard output.
 
@@ -222,7 +226,7 @@ class ExportMaterial(Operation):
     bulk_modulus: Annotated[
         float | None,
         Number(
-            'Of an incompressible solid, for a program that forbids that, "2 GPa".',
+            'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".',
             unit="Pa",
             metavar="PRESSURE",
         ),

@@ -1,4 +1,4 @@
-"""The operations ``predict`` and ``advise``: answers at once, and which of them to trust."""
+"""The operations ``predict`` and ``advise``: fast predictions and their reliability."""
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -57,7 +57,7 @@ class Predict(Operation):
         csv_file("Write the predicted unloading curve as a table; - is standard output.", "curve"),
         picture("Draw that curve to a .png, .pdf or .svg file."),
         csv_file(
-            "Where the rows of CASES.csv go, with their answers; - is standard output.",
+            "Write the rows of CASES.csv with their predictions; - is standard output.",
         ),
     )
     takes_own: ClassVar = True
@@ -84,26 +84,23 @@ class Predict(Operation):
     confidence: Annotated[
         float,
         Number(
-            "Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or "
-            "0.98.",
+            "Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.",
             metavar="PART",
         ),
     ] = 0.9
     budget: Annotated[
         float | None,
         Number(
-            "Time that the answer may take: surrogates up to 0.01, closed forms from 0.02, the "
-            "steady-crack contact from 0.5, the simulation from 3. Else 1 s.",
+            "Time budget: from 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the "
+            "steady-crack contact model, from 3 s the simulation. Default: 1 s.",
             unit="s",
             above=0,
             bare=True,
             metavar="SECONDS",
         ),
     ] = None
-    exact: Annotated[bool, Switch("Simulate, whatever it takes.")] = False
-    compare: Annotated[bool, Switch("Simulate as well, and say how far off the prediction is.")] = (
-        False
-    )
+    exact: Annotated[bool, Switch("Simulate without a time limit.")] = False
+    compare: Annotated[bool, Switch("Also simulate, and show the error of the prediction.")] = False
 
     def __post_init__(self) -> None:
         if (self.problem is None) == (self.cases is None):
@@ -111,7 +108,7 @@ class Predict(Operation):
             raise InputError(f"give a problem or a table of cases, got {got}")
 
     def answer(self, caller: Caller) -> Answer:
-        """Ask the best tier within the budget."""
+        """Predict with the best tier within the time budget."""
         if self.cases is not None:
             return self._of_table(self.cases, caller)
         from viscotack.forecast import predict
@@ -169,7 +166,7 @@ class Predict(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class Advise(Operation):
-    """Say which regime a contact is in, and which answer to trust.
+    """Determine the regime of a contact and the reliability of each method.
 
     The problem is stated as for simulate sphere, by flags or by a file in SI.
 
@@ -183,7 +180,7 @@ class Advise(Operation):
     problem: Annotated[Statement, Stated("The contact, of a sphere.", whole=False)]
 
     def answer(self, caller: Caller) -> Answer:
-        """Ask every tier."""
+        """Evaluate every tier."""
         from viscotack.forecast.advice import advise
 
         problem = self.problem.problem
@@ -215,7 +212,7 @@ def _simulated(problem: "Case") -> "Result":
 
 
 def _compared(kind: "Kind") -> dict[str, str]:
-    """Return what of both answers is compared, with the name of its interval."""
+    """Return the quantities to compare, with the names of their intervals."""
     return {f"pull_off_{kind.name_of('force')}": "interval", "work_to_pull_off": "work_interval"}
 
 

@@ -1,4 +1,4 @@
-"""The operation ``test read``: from the files of a tack tester to pull-offs."""
+"""The operation ``test read``: evaluate the files of a tack tester or microscope."""
 
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
@@ -12,11 +12,11 @@ from .parts.rig import Files, Rig, refusals
 
 @dataclass(frozen=True, kw_only=True)
 class ReadTests(Operation):
-    """Read tack tests or force curves: pull-off, work, depth and TRUE speed of every cycle.
+    """Read tack tests or force curves: pull-off, work, depth and true speed of every cycle.
 
-    Approach, dwell and retraction are found by the signal; zero, tilt and drift of the force are
-    taken off; every number has its standard uncertainty. A curve that cannot be trusted is refused
-    with the reason, and the others are read. Exit status 2 if no cycle gives numbers.
+    Approach, dwell and retraction are detected in the signal. Zero, tilt and drift of the force are
+    corrected, and each number has a standard uncertainty. An unreliable curve is rejected with the
+    reason; the others are evaluated. Exit status 2 if no cycle can be evaluated.
 
     Example: viscotack test read probe_Interval_*.csv --compliance "2 um/N" --plot tests.png
     """

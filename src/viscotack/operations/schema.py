@@ -1,4 +1,4 @@
-"""The operation ``schema``: what a problem may say, for other programs and for people."""
+"""The operation ``schema``: the JSON schema of a problem."""
 
 import json
 from dataclasses import dataclass

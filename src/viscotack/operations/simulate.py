@@ -1,4 +1,4 @@
-"""The operations ``simulate`` and ``show``: a contact pulled apart, and a result that was saved."""
+"""The operations ``simulate`` and ``show``: simulate a contact, and show a saved result."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -37,7 +37,7 @@ PlotKind = Annotated[
     str,
     Choice(
         "force: against depth; radius: force against contact radius; overview: four pictures; "
-        "energy: where the work went.",
+        "energy: energy balance.",
         choices=("force", "radius", "overview", "energy"),
     ),
 ]
@@ -54,9 +54,9 @@ _FILES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Simulate(Operation):
-    """Simulate a contact that is pulled apart: sphere, cone, other profile, or punch on a layer.
+    """Simulate the detachment of a sphere, cone, other profile, or punch on a layer.
 
-    The problem is stated by dimensionless numbers, or in SI by a case.
+    The problem is given by dimensionless numbers, or in SI by a case file.
     """
 
     word: ClassVar = "simulate"
@@ -102,17 +102,17 @@ class Simulate(Operation):
     """,
         "disc": """Pull a disc, the flat end of a cylinder, off a soft viscoelastic half-space.
 
-    By dimensionless numbers, R being a sqrt(a E0*/dg0) with the radius a of the disc, so that the
-    Tabor number is sqrt(a dg0/E0*)/h0; its edge is sharp. In SI by a file that has a table [disc]
-    in place of [sphere]: `radius`, and `edge_width` and `edge_height` of a rounded edge. Kendall's
-    pull-off force is 1.064 of the unit 1.5 pi R dg0.
+    The problem is given by dimensionless numbers with R = a sqrt(a E0*/dg0), a the radius of the
+    disc, so that the Tabor number is sqrt(a dg0/E0*)/h0; the edge is sharp. In SI it is given by a
+    file with a table [disc] in place of [sphere]: `radius`, and `edge_width` and `edge_height` of a
+    rounded edge. Kendall's pull-off force is 1.064 of the unit 1.5 pi R dg0.
 
     Example: viscotack simulate disc --tabor 8 --modulus-ratio 0.1 --exponent 0.8 --preload 0
     --rate 10
     """,
-        "case": """Simulate what a file states in SI, with whatever indenter.
+        "case": """Simulate the problem of a case file in SI, with any indenter.
 
-    Shapes of your own have their table by their word, and --with says where they are.
+    For a user-defined shape, the table has its name and --with gives its Python file.
 
     Example: viscotack simulate case examples/from_toml/cone.toml
     """,
@@ -121,7 +121,7 @@ class Simulate(Operation):
     problem: Annotated[
         Statement,
         Stated(
-            "The contact, and what the machine does.",
+            "The contact and the moves of the machine.",
             indenters=INDENTERS,
             spelling="commands",
         ),
@@ -132,8 +132,8 @@ class Simulate(Operation):
     whole: Annotated[
         bool,
         Switch(
-            "March the whole retraction, however deep its start: one from more than 1000 h0 begins "
-            "else where its depth no longer matters."
+            "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
+            "at a smaller depth with the same result."
         ),
     ] = False
     profiles: Annotated[
@@ -142,7 +142,7 @@ class Simulate(Operation):
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:
-        """Solve the problem, telling its curve as it grows."""
+        """Solve the problem and report its curve while it grows."""
         from viscotack.result import save
 
         from .parts.running import run
@@ -225,12 +225,12 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
 
 
 def _not_met(result: "Result") -> str:
-    """Return what is said of a run that is not as accurate as it was asked to be."""
+    """Return the warning for a run that misses the required accuracy."""
     stated = result.error_estimate or {}
     name, error = next((n, stated[n]) for n in ("force", "time") if n in stated)
     return (
-        f"viscotack: the error of the {name} is estimated at {error:.2e}, more than the "
-        f"{result.accuracy:g} that were asked for; ask for a better accuracy"
+        f"viscotack: the estimated error of the {name} is {error:.2e}, above the required "
+        f"{result.accuracy:g}; repeat with a smaller --accuracy"
     )
 
 

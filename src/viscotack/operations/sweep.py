@@ -1,4 +1,4 @@
-"""The operation ``sweep``: one problem with some of its numbers replaced, a row for each case."""
+"""The operation ``sweep``: simulate variations of a problem, one row for each case."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -26,11 +26,11 @@ _SOME_FAILED = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep(Operation):
-    """Simulate a problem with some of its numbers replaced, a row for each case.
+    """Simulate variations of a problem, one row for each case.
 
-    The table names the numbers that it replaces by their paths in its first row, in the units that
-    viscotack campaign inputs lists with them. A case that fails has a row that says why, and the
-    exit status is 4. Nothing is kept of a sweep that is stopped, as a campaign keeps it.
+    The first row of the table has the paths of the replaced numbers, in the units listed by
+    viscotack campaign inputs. The row of a failed case contains the reason, and the exit status is
+    then 4. An interrupted sweep keeps no results; use a campaign for long runs.
 
     Example: viscotack sweep lens.toml speeds.csv --csv forces.csv
     """
@@ -88,7 +88,7 @@ class Sweep(Operation):
         )
 
     def _kind(self, also: tuple[Any, ...]) -> "Kind":
-        """Return what makes the problem of a case from its numbers."""
+        """Return the kind of case, which builds problems from numbers."""
         from viscotack.campaign.columns import kind_of_problem
         from viscotack.campaign.inputs import check_exponent
 
@@ -97,7 +97,7 @@ class Sweep(Operation):
 
 
 def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") -> dict[str, Any]:
-    """Return what came of a case: its inputs, its numbers, and why it failed if it did."""
+    """Return the row of a case: inputs, results, and the reason if it failed."""
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
     from viscotack.problem.record import run_id

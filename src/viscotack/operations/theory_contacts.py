@@ -140,10 +140,10 @@ class Maugis(Operation):
 
 @dataclass(frozen=True, kw_only=True)
 class OfCrack(Operation):
-    """Follow a contact whose edge is the steady crack of its solid and law.
+    """Compute a contact history with the steady-crack contact model.
 
-    The problem is stated as for simulate sphere, by flags or by a file in SI. No fitted constant;
-    any Tabor number above a few, in a tenth of a second where a simulation takes minutes.
+    The problem is given as for simulate sphere, by options or by a file in SI. The model has no
+    fitted constant and holds for Tabor numbers above a few. It takes about 0.1 s.
 
     Example: viscotack theory crack-contact --tabor 10000 --material sls --modulus-ratio 0.1
     --preload 200000 --rate 10000
@@ -156,7 +156,7 @@ class OfCrack(Operation):
     problem: Annotated[Statement, Stated("The contact, of a sphere.", whole=False)]
 
     def answer(self, caller: Caller) -> Answer:
-        """Follow the edge."""
+        """Compute the history."""
         from viscotack.methods.by_crack import crack_contact, summary
         from viscotack.problem import Groups, Problem
 

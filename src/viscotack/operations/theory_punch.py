@@ -1,4 +1,4 @@
-"""The operation ``theory punch``: what the theory says of a pad and its thickness."""
+"""The operation ``theory punch``: theory of a flat punch on a layer."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -53,10 +53,10 @@ class OfLayer(Reduced):
 
 @dataclass(frozen=True, kw_only=True)
 class OfPad(Operation):
-    """Flat punch on a layer: how thick must a pad be, and what does it hold.
+    """Flat punch on a layer: pull-off stress for a thickness, or thickness for a stress.
 
-    Without simulation, and up to 19 % high in stress against simulations. Stated in SI, by flags or
-    by a file.
+    A theory without simulation; its stress is up to 19 % above simulations. The problem is given in
+    SI, by options or by a file.
 
     Example: viscotack theory punch --half-width "1 mm" --contact-modulus "1 MPa"
     --work-of-adhesion "50 mJ/m^2" --strength "50 kPa" --modulus-ratio 0.1 --tau0 "1 ms"
@@ -129,14 +129,14 @@ class OfPad(Operation):
 
     def __post_init__(self) -> None:
         if self.thickness is not None and self.stress is not None:
-            raise InputError("give --thickness or --stress, not both: one answers the other")
+            raise InputError("give either --thickness or --stress, not both")
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
         from viscotack.pictures.plot import draw_regimes
 
         pad, solid, wanted = self._stated()
-        # where arithmetic fails there is no answer, and none that is not a number
+        # overflow must raise an error rather than return nan
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             crack = pad.crack_law(self.theory, material=solid)
             numbers = _boundaries(pad, crack) | _asked(pad, crack, wanted)
@@ -151,14 +151,14 @@ class OfPad(Operation):
 
     @property
     def _given(self) -> dict[str, Any]:
-        """What states the pad, by flag."""
+        """Options that define the pad."""
         names = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded")
         said = {name.replace("_", "-"): getattr(self, name) for name in names}
         said |= self.solid.given | {"tau0": self.tau0}
         return {flag: value for flag, value in said.items() if value is not None}
 
     def _stated(self) -> "tuple[Pad, Material, dict[str, float]]":
-        """Return the pad and its solid in SI, and what is asked."""
+        """Return the pad and its solid in SI, and the requested numbers."""
         wanted = {"thickness": self.thickness, "stress": self.stress, "speed": self.speed}
         wanted = {name: value for name, value in wanted.items() if value is not None}
         if self.case is None:
@@ -183,7 +183,7 @@ class OfPad(Operation):
 
         if self._given:
             flags = ", ".join(f"--{flag}" for flag in self._given)
-            raise InputError(f"{case.path} states the whole problem; leave out {flags}")
+            raise InputError(f"{case.path} defines the whole problem; remove {flags}")
         problem = read_case(case.path, beside=case.inside.file)
         if not isinstance(problem.geometry, FlatPunch):
             raise InputError(
@@ -243,7 +243,7 @@ def _pad_of(problem: Any) -> "Pad":
 
 
 def _boundaries(pad: "Pad", law: "CrackLaw") -> dict[str, Any]:
-    """Return where the ways to come off meet."""
+    """Return the boundaries between the detachment regimes."""
     from viscotack.theory import punch
 
     b0, fast, b1 = punch.regime_thicknesses(pad, modulus_ratio=law.material.modulus_ratio)
@@ -282,12 +282,12 @@ def _asked(pad: "Pad", law: "CrackLaw", wanted: Mapping[str, float]) -> dict[str
 
 
 def _map(pad: "Pad", law: "CrackLaw") -> "RegimeMap":
-    """Return how the pad comes off, over the thicknesses and speeds that matter to it."""
+    """Return the regime map of the pad over the relevant thicknesses and speeds."""
     from viscotack.theory import punch
 
     a = pad.half_width
     if law.largest == 1:
-        raise InputError("an elastic layer comes off in the same way at every speed: no map")
+        raise InputError("an elastic layer has no rate dependence, so there is no regime map")
     cracks = law.speed(1 + np.array([_SLOW, _FAST]) * (law.largest - 1))
     # a punch moved by the depth of its pull-off while the cracks run through it
     slow, fast = np.asarray(cracks) * -pad.elastic_depth(a) / a

@@ -1,1 +1,1 @@
-"""Every drawing, in one style."""
+"""Figures of results, predictions, fits and tack tests, in one style."""

@@ -1,4 +1,4 @@
-"""A picture of the energy at a simulated edge: what it took, and what the bulk explains."""
+"""Figure of the energy at a simulated contact edge, compared with the steady-crack model."""
 
 from __future__ import annotations
 
@@ -16,14 +16,18 @@ _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 
 
 def draw_edge_energy(found: EdgeEnergy, unit: str) -> Figure:
-    """Return energies of the edge against its speed: read off, by the bulk, and as fitted.
+    """Draw the energy at the edge against its speed: simulation, steady crack and fit.
 
     Parameters
     ----------
     found : EdgeEnergy
-        What was read off.
+        Energies evaluated from a simulation.
     unit : str
-        Of its speeds.
+        Unit of the speeds.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     import matplotlib.style
     from matplotlib.figure import Figure
@@ -35,8 +39,8 @@ def draw_edge_energy(found: EdgeEnergy, unit: str) -> Figure:
         figure = Figure()
         axes = figure.subplots()
         place = {"mfc": "none", "markevery": 0.04}
-        axes.loglog(speed, found.amplification[order], "o", label="read off the run", **place)
-        axes.loglog(speed, found.bulk[order], "-", label="bulk, by the steady crack")
+        axes.loglog(speed, found.amplification[order], "o", label="simulation", **place)
+        axes.loglog(speed, found.bulk[order], "-", label="bulk, steady-crack model")
         axes.loglog(speed, fitted, "--", color="0.3", label="Gent and Schultz, fitted")
         axes.set_xlabel(f"speed of the edge [{unit}]")
         axes.set_ylabel(r"energy at the edge / $\Delta\gamma_0$")

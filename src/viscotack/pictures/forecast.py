@@ -1,4 +1,4 @@
-"""Pictures of a prediction: a line that was learned, its interval, and markers that were simulated.
+"""Figure of a prediction: surrogate curve, interval, and markers of a simulation.
 
 Force positive in compression, depth positive into the solid.
 """
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
-# Pieces of the line from one point of a curve to the next.
+# Line segments between two points of a curve.
 _BETWEEN = 8
 
 
 def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> Figure:
-    """Return the predicted force against the depth, its band, the pull-off's interval at its end.
+    """Draw the predicted force against the depth, with its band and the interval of the pull-off.
 
     With SI prefixes for a problem in SI, else in h0 and 1.5 pi R dg0; of a punch the mean stress,
     in Pa with a prefix or in sigma0.
@@ -40,21 +40,34 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     Parameters
     ----------
     prediction : Prediction
-        One that has a curve.
+        A prediction with a curve.
     simulated : Result, optional
-        The simulation of the same problem, drawn as open markers.
+        Simulation of the same problem, drawn as open markers.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Force positive in compression.
 
     Raises
     ------
     ValueError
-        If the prediction has no curve, being a theory's.
+        If the prediction has no curve because its method is a theory.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, predict
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> figure = draw_prediction(predict(Groups(2.0, solid, AtDepth(30.0), rate=100.0)))
+    >>> len(figure.axes)
+    1
     """
     import matplotlib.style
     from matplotlib.figure import Figure
 
     curve = prediction.curve
     if curve is None:
-        raise InputError(f"the theory {prediction.method!r} gives a force and no curve to draw")
+        raise InputError(f"the theory {prediction.method!r} has no force curve to draw")
     scales, kind = prediction.problem.scales(), prediction.problem.groups().outputs
     drawn = [kind.of(name).unit for name in ("depth", "force")]
     what = "force" if kind is REVOLUTION else "mean stress"
@@ -99,7 +112,7 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
 
 
 def _smooth(curve: Curves) -> tuple[Array, Array]:
-    """Return a curve between its points too, every ``_BETWEEN``-th place one of them."""
+    """Interpolate a curve with ``_BETWEEN`` segments between two points."""
     place = np.arange(len(curve.depth))
     fine = np.linspace(0, place[-1], place[-1] * _BETWEEN + 1)
     depth, force = (PchipInterpolator(place, x)(fine) for x in (curve.depth, curve.force))
@@ -107,7 +120,7 @@ def _smooth(curve: Curves) -> tuple[Array, Array]:
 
 
 def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> None:
-    """Shade how far the force in tension may be off, and draw how far its beginning may be."""
+    """Shade the uncertainty of the tensile force and mark that of its zero crossing."""
     curve, band = prediction.curve, prediction.curve_band
     if curve is None or band is None:
         return

@@ -1,4 +1,4 @@
-"""Pictures of an interface that was found: measured points, fitted curves, residuals."""
+"""Figures of an identified interface: measured points, fitted curves, residuals."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
-# parameter -> its label and factor in pictures
+# parameter -> label and scale factor
 _SCALES = {
     "work_of_adhesion": ("work of adhesion [J/m$^2$]", 1.0),
     "equilibrium_gap": ("range $h_0$ [nm]", 1e9),
     "strengthening": ("strength over that at rest", 1.0),
     "exponent": ("exponent of growth", 1.0),
 }
-_MOST = 20.0  # of the criterion: models that are worth a line
+_MOST = 20.0  # largest difference of the information criterion of a model that is drawn
 
 
 def draw_slow_test(fit: SlowTestFit) -> "Figure":
-    """Return force against radius or depth, with the models worth a line, and their residuals."""
+    """Draw force against radius or depth, the plausible models, and their residuals."""
     import matplotlib.style
     from matplotlib.figure import Figure
 
@@ -62,7 +62,7 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
 
 
 def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -> "Figure":
-    """Return pull-off force against speed: measured, fitted, and forecast with its band."""
+    """Draw pull-off force against speed: measured, fitted, and forecast with its band."""
     import matplotlib.style
     from matplotlib.figure import Figure
     from matplotlib.ticker import FuncFormatter
@@ -90,7 +90,7 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
             _band(axes, forecast, fastest, load)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        # forces seldom go through a decade: plain numbers
+        # forces rarely span a decade, so ticks are plain numbers
         for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
             which(FuncFormatter(lambda value, _: f"{value:.3g}"))
         axes.set_xlabel(f"true speed of retraction [{speed_unit}]")
@@ -122,12 +122,12 @@ def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> Non
 
 
 def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
-    """Return the posterior of an interface, each parameter alone and with each other."""
+    """Draw the posterior of an interface: marginal and pairwise distributions."""
     import matplotlib.style
     from corner import corner
     from matplotlib.figure import Figure
 
-    # the panels are placed by the library that draws them
+    # the corner library positions the panels
     own: list[Any] = [_STYLE, {"figure.constrained_layout.use": False}]
     with matplotlib.style.context(own):
         side = 7.0 if len(chain.parameters) == 2 else 11.0

@@ -1,4 +1,4 @@
-"""Pictures of a fit: what was measured are points, the fitted law is a line with its band."""
+"""Figure of a material fit: measured points, and the fitted model as a line with its band."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,16 +23,42 @@ _WORDS = {
 }
 _MARKERS = ("o", "s")
 _COLOURS = ("#0072B2", "#D55E00")  # the first two of the style
-_BEYOND = 1.0  # decades drawn beyond the measured range, as dashes: there nothing was measured
+_BEYOND = 1.0  # decades drawn beyond the measured range, dashed
 
 
 def draw_fit(report: FitReport, passport: Passport | None = None) -> "Figure":
-    """Return measured numbers and fitted law above, and the residuals below.
+    """Draw measured data and fitted model above, and the residuals below.
 
-    Points are measured, lines fitted, shades the band of the report; dashes are where the law
-    goes on without a measurement. With a passport that has a table of shifts they are drawn below
-    that, with their standard deviations and the law nearest to them.
-    :func:`viscotack.save_figure` writes the figure.
+    Points are measured, lines fitted, shading is the confidence band; lines are dashed outside the
+    measured range.
+
+    Parameters
+    ----------
+    report : FitReport
+        Result of :func:`viscotack.lab.fit`.
+    passport : Passport, optional
+        If it contains a table of shift factors, they are drawn in a third panel, with standard
+        deviations and the closest shift law.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Write it with :func:`viscotack.save_figure`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscotack.lab import MasterCurve, fit
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> omega = np.geomspace(0.1, 1e4, 16)
+    >>> E = solid.complex_modulus(omega)
+    >>> data = MasterCurve(293.15, omega, E.real, E.imag, "E")
+    >>> report = fit(data, poisson_ratio=0.5, model="sls")
+    >>> len(draw_fit(report).axes)
+    2
     """
     import matplotlib.style
     from matplotlib.figure import Figure

@@ -1,7 +1,7 @@
-"""Pictures of a result. A simulation is open markers, a theory is a line, everywhere.
+"""Figures of a result. Simulations are drawn as open markers, theories as lines.
 
-Each function returns a matplotlib ``Figure`` that belongs to nobody else: no window is opened and
-no global state is left behind. :func:`save_figure` writes it in the package's style.
+Each function returns a new matplotlib ``Figure``. No window is opened, and the global state of
+matplotlib is unchanged. :func:`save_figure` writes a figure in the style of the package.
 """
 
 import io
@@ -25,33 +25,93 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Of a regime map: cohesive, thin layer, half-plane; and how many lines of equal stress.
+# Colours of a regime map (cohesive, thin layer, half-plane), and number of contour lines.
 _REGIME_COLOURS = ("#f2c9a0", "#cfe3f2", "#dddddd")
 _STRESS_LINES = 10
-# Series of Result.energy beside the work of the drive -> words.
+# Series of Result.energy besides the drive work -> label.
 _ENERGIES = {
     "interface": "interface",
     "elastic": "elastic energy",
-    "spring": "spring of the machine",
+    "spring": "machine spring",
     "heat": "heat in the solid",
     "interface_heat": "heat in the interface",
     "jumps": "lost in jumps",
-    "transfer": "lost in mesh moves",
+    "transfer": "lost in remeshing",
 }
 
 
 def draw_force(result: Result) -> "Figure":
-    """Return the force against the depth; the pull-off is marked."""
+    """Draw the force against the depth, with the pull-off marked.
+
+    Parameters
+    ----------
+    result : Result
+        A simulation; axes are in SI if its problem is in SI.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Force positive in compression.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups, solve
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> groups = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> result = solve(groups, accuracy=0.02, until="pull-off", estimate_error=False)
+    >>> draw_force(result).axes[0].get_xlabel()
+    'depth / $h_0$'
+    """
     return _single(result, "depth", "force")
 
 
 def draw_radius(result: Result) -> "Figure":
-    """Return the force against the contact radius; the pull-off is marked."""
+    """Draw the force against the contact radius, with the pull-off marked.
+
+    Parameters
+    ----------
+    result : Result
+        A simulation; axes are in SI if its problem is in SI.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Force positive in compression.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups, solve
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> groups = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> result = solve(groups, accuracy=0.02, until="pull-off", estimate_error=False)
+    >>> len(draw_radius(result).axes)
+    1
+    """
     return _single(result, "contact_radius", "force")
 
 
 def draw_overview(result: Result) -> "Figure":
-    """Return four pictures: force by depth and by radius, radius and crack speed by time."""
+    """Draw force against depth and radius, and radius and crack speed against time.
+
+    Parameters
+    ----------
+    result : Result
+        A simulation; axes are in SI if its problem is in SI.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Four panels.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups, solve
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> groups = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> result = solve(groups, accuracy=0.02, until="pull-off", estimate_error=False)
+    >>> len(draw_overview(result).axes)
+    4
+    """
     with _style():
         figure = _figure(figsize=(13.0, 9.0))
         axes = figure.subplots(2, 2)
@@ -67,20 +127,37 @@ def draw_overview(result: Result) -> "Figure":
 
 
 def draw_energy(result: Result) -> "Figure":
-    """Return where the work of the drive went, and the heat by retardation time.
+    """Draw the energy balance, and the heat by retardation time.
 
-    Over the depth where the test is one retraction; over the time where it has moves, which go
-    through a depth more than once, or wait at it. Elastic and interface energy are drawn as their
-    change since the start; drive work is their sum with the heat in the solid and what was lost in
-    jumps.
+    The horizontal axis is the depth for a single retraction, and the time for a history with
+    moves. Elastic and interface energy are drawn as changes since the start. The drive work equals
+    their sum plus the heat in the solid and the energy lost in jumps.
+
+    Parameters
+    ----------
+    result : Result
+        A simulation with energies.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
 
     Raises
     ------
     ValueError
-        If the result keeps no energies.
+        If the result contains no energies.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups, solve
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> groups = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> result = solve(groups, accuracy=0.02, until="pull-off", estimate_error=False)
+    >>> len(draw_energy(result).axes)
+    2
     """
     if result.energy is None:
-        raise InputError("the result keeps no energies to draw; simulate it anew")
+        raise InputError("the result contains no energies to draw; repeat the simulation")
     energy = result.energy
     moved = bool(result.groups.moves)
     along, _, label = _series(result, "time" if moved else "depth")
@@ -88,14 +165,14 @@ def draw_energy(result: Result) -> "Figure":
     with _style():
         figure = _figure(figsize=(13.0, 5.2))
         left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
-        left.plot(along, energy.drive * factor, color="k", label="work of the drive")
+        left.plot(along, energy.drive * factor, color="k", label="drive work")
         for name, words in _ENERGIES.items():
             values = getattr(energy, name)
             series = (values - values[0]) * factor
             if np.any(series != 0):
                 left.plot(along, series, label=words)
         if not moved:
-            left.invert_xaxis()  # time goes to the right
+            left.invert_xaxis()  # so that time runs to the right
         left.set_xlabel(label)
         left.set_ylabel(f"energy {unit}")
         left.legend()
@@ -120,7 +197,7 @@ def draw_rates(
     title: str = "",
     note: str = "",
 ) -> "Figure":
-    """Return the pull-off force against the retraction speed, beside the elastic value.
+    """Draw the pull-off force against the retraction speed, with the elastic value.
 
     Parameters
     ----------
@@ -131,7 +208,17 @@ def draw_rates(
     elastic_force : float
         Pull-off force of the relaxed solid [N], the slow limit, drawn as a line.
     title, note : str
-        Words above the picture and in its corner.
+        Title of the figure, and a text in its corner.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> figure = draw_rates([1e-6, 1e-4], [2e-4, 9e-4], elastic_force=1.8e-4)
+    >>> figure.axes[0].get_xlabel()
+    'retraction speed [µm/s]'
     """
     speeds, forces = np.asarray(speed, dtype=float), np.asarray(pull_off_force, dtype=float)
     v, v_unit = axis_unit(float(np.max(speeds)), "m/s")
@@ -143,7 +230,7 @@ def draw_rates(
         axes.axhline(
             elastic_force / F,
             color="C1",
-            label=f"elastic, infinitely slow: {readable(elastic_force, 'N', digits=3)}",
+            label=f"elastic (slow limit): {readable(elastic_force, 'N', digits=3)}",
         )
         axes.set_xscale("log")
         axes.set_ylim(0, 1.12 * max(forces.max(), elastic_force) / F)
@@ -157,12 +244,38 @@ def draw_rates(
 
 
 def draw_regimes(found: RegimeMap) -> "Figure":
-    """Return how a pad comes off over retraction speed and thickness, with lines of equal stress.
+    """Draw the regime map of a pad: detachment regime over retraction speed and thickness.
+
+    Contour lines connect equal pull-off stresses.
 
     Parameters
     ----------
     found : RegimeMap
-        As :func:`viscotack.theory.punch.map.regime_map` returns it.
+        Result of :func:`viscotack.theory.punch.map.regime_map`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.theory.punch import Frictionless, Pad
+    >>> from viscotack.theory.punch.map import regime_map
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> pad = Pad(
+    ...     half_width=1e-3,
+    ...     contact_modulus=1e6,
+    ...     work_of_adhesion=0.05,
+    ...     strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> figure = draw_regimes(regime_map([1e-4, 2e-3], [1e-6, 1.0], pad, law))
+    >>> figure.axes[0].get_xlabel()
+    'retraction speed [µm/s]'
     """
     from matplotlib.patches import Patch
 
@@ -189,7 +302,31 @@ def draw_regimes(found: RegimeMap) -> "Figure":
 
 
 def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
-    """Write a figure to a file, whole or not at all; the ending (.png, .pdf, .svg) says how."""
+    """Write a figure to a file, complete or not at all.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure.
+    path : path
+        File name; its ending chooses the format: .png, .pdf or .svg.
+
+    Raises
+    ------
+    ValueError
+        If the ending is not a known format.
+    OSError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> figure = draw_rates([1e-6, 1e-4], [2e-4, 9e-4], elastic_force=1.8e-4)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_figure(figure, os.path.join(folder, "rates.svg"))
+    ...     os.listdir(folder)
+    ['rates.svg']
+    """
     check_format(path)
     content = io.BytesIO()
     with _style():
@@ -198,14 +335,14 @@ def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
 
 
 def check_format(path: str | os.PathLike[str]) -> None:
-    """Raise ValueError unless a figure can be written to a file with this ending."""
+    """Raise ValueError unless figures can be written in the format of this file name."""
     from matplotlib.backend_bases import FigureCanvasBase
 
     known = FigureCanvasBase.get_supported_filetypes()
     if Path(path).suffix.lstrip(".").lower() not in known:
         raise InputError(
-            f"cannot draw to {os.fspath(path)!r}: "
-            f"its ending must be one of {', '.join(sorted(known))}"
+            f"cannot draw to {os.fspath(path)!r}: the file name must end in one of "
+            f"{', '.join(sorted(known))}"
         )
 
 
@@ -253,7 +390,7 @@ def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
 
 
 def _drawn_steps(known: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Return the steps that are drawn: the known ones, and one between them where a line breaks."""
+    """Select the steps to draw: those with a value, and one between them where the line breaks."""
     later = np.flip(np.logical_or.accumulate(np.flip(known)))
     return known | (np.append(False, known[:-1]) & later)
 
@@ -261,7 +398,7 @@ def _drawn_steps(known: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
 def _mark_pull_off(
     axes: "Axes", result: Result, x: str, xfactor: float, yfactor: float, ylabel: str
 ) -> None:
-    """Mark the pull-off of every cycle that has one; the words are of the last."""
+    """Mark the pull-off of every cycle that has one; the label gives the last value."""
     if result.outcome is Outcome.STOPPED:
         return
     found = [end for end in pull_offs(result) if end is not None]
@@ -270,14 +407,14 @@ def _mark_pull_off(
     force = [-end.force * yfactor for end in found]
     unit = ylabel.rpartition(" [")[2].rstrip("]")
     last = abs(force[-1])
-    words = f"{last:.4g}" if result.scales is None else f"{last:.3g} {unit}"
-    label = f"pull-off, {words}" if len(found) == 1 else f"pull-offs, the last {words}"
+    value = f"{last:.4g}" if result.scales is None else f"{last:.3g} {unit}"
+    label = f"pull-off, {value}" if len(found) == 1 else f"pull-offs, the last {value}"
     places = [getattr(end, x) * xfactor for end in found]
     axes.plot(places, force, "s", color="C1", ms=9, label=label, zorder=3)
 
 
 def _work_unit(result: Result) -> tuple[float, str]:
-    """Return the factor and the unit in which energies are drawn."""
+    """Factor and unit with which energies are drawn."""
     kind = result.problem.outputs
     work = np.zeros(1) if result.energy is None else result.energy.drive
     factor = kind.energy_factor(result.groups)
@@ -285,7 +422,7 @@ def _work_unit(result: Result) -> tuple[float, str]:
 
 
 def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:
-    """Return a series as drawn, the factor that made it so, and the label of its axis."""
+    """Return a scaled series, its scale factor, and the axis label."""
     values, column = getattr(result, name), result.problem.outputs.of(name)
     factor = column.factor(result.groups)
     factor, unit = _drawn(result, values, factor, column.unit)
@@ -295,7 +432,7 @@ def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, 
 def _drawn(
     result: Result, values: npt.NDArray[np.float64], factor: float, unit: Unit
 ) -> tuple[float, str]:
-    """Return the factor with which numbers of a result are drawn, and the unit that they have."""
+    """Factor and unit with which numbers of a result are drawn."""
     scales = result.scales
     if scales is None:
         return factor, f"/ {unit.drawn}"

@@ -1,4 +1,4 @@
-"""Pictures of tack tests: the retractions, and what they say over their speed."""
+"""Figures of tack tests: the retraction curves, and pull-off forces against speed."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,15 +15,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
-_MOST = 40  # curves that can still be told apart
+_MOST = 40  # largest number of curves that are drawn
 _POINTS = 2000  # of one curve
 
 
 def draw_tests(cycles: Sequence[Cycle]) -> "Figure":
-    """Return force against depth of every retraction, and pull-off against true speed.
+    """Draw force against depth of every retraction, and pull-off force against true speed.
 
-    Dots are pull-offs; bars are standard uncertainties. Of more than 40 cycles the curves of 40,
-    evenly chosen, are drawn, and the pull-offs of all.
+    Dots are pull-offs, bars standard uncertainties. At most 40 evenly chosen curves are drawn, but
+    the pull-offs of all cycles.
     """
     import matplotlib.style
     from matplotlib.figure import Figure

@@ -1,12 +1,12 @@
-"""Worker processes under one supervisor, for campaigns and for the page.
+"""A pool of supervised worker processes, used by campaigns and by the page.
 
-A pool runs tasks by name, one at a time in each process. It reports progress, enforces limits of
-time and memory, interrupts tasks that are no longer wanted, and replaces processes that crash or
-exceed a limit. The queue, retries and blame are the business of the caller.
+A pool runs functions by name, one at a time in each process. It reports progress, enforces time
+and memory limits, interrupts cancelled tasks, and replaces processes that crash or exceed a limit.
+The caller keeps the queue and decides about retries.
 
 No library does all of this: pebble kills processes on timeout and cancellation, but has no memory
-limit, no progress and no detection of suspended processes. A crash breaks the whole pool of
-concurrent.futures, loky and joblib, and they cannot end a task that runs.
+limit, no progress reports and no detection of suspended processes. In concurrent.futures, loky and
+joblib a crash breaks the whole pool, and running tasks cannot be ended.
 """
 
 from .event import Event, NoWorker

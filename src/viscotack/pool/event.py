@@ -1,4 +1,4 @@
-"""Events of a task in a pool: progress, then one event that ends it."""
+"""Events of a task in a pool: any number of progress events, then one final event."""
 
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -10,21 +10,21 @@ Kind = Literal[
 
 @dataclass(frozen=True)
 class Event:
-    """What has become of a task.
+    """Progress or final outcome of a task.
 
     Attributes
     ----------
     kind : str
-        "told", progress of a task that runs on; "answer"; "refused", it has raised an InputError;
-        "failed", it has raised another exception; "time limit" and "memory limit", it exceeded one;
-        "stopped", the caller did not want it any more; "lost", its process has died.
+        "told": progress report; "answer": the task returned; "refused": it raised an InputError;
+        "failed": it raised another exception; "time limit", "memory limit": it exceeded a limit;
+        "stopped": the caller cancelled it; "lost": its process died.
     what : object
-        The news of "told", the answer of "answer"; of all others the reason in words, of "lost" how
-        the process ended.
+        Progress data ("told"), return value ("answer"), or the reason as text (all others; for
+        "lost" how the process ended).
     seconds : float
         Time of the task [s].
     memory : float
-        Largest resident memory seen of its process [bytes]; 0 where the system does not tell.
+        Largest resident memory observed of its process [bytes]; 0 if the system does not report it.
     """
 
     kind: Kind
@@ -34,4 +34,4 @@ class Event:
 
 
 class NoWorker(RuntimeError):
-    """There is no worker that could take a task."""
+    """No worker process can be started."""

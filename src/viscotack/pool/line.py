@@ -1,4 +1,4 @@
-"""Whole messages between a process and its workers, over a socket."""
+"""Message-based communication between a process and its workers over a socket."""
 
 import json
 import pickle
@@ -12,7 +12,7 @@ _LENGTH = struct.Struct("!Q")
 
 
 class Line:
-    """One end of a socket, for whole messages.
+    """One end of a socket that sends and receives complete messages.
 
     The receiver never waits for the rest of a message, because a process that is suspended in the
     middle of one would block it.
@@ -20,11 +20,11 @@ class Line:
     Parameters
     ----------
     end : socket
-        Of a connected pair.
+        One socket of a connected pair.
     code : {"json", "pickle"}
-        Format of the messages; both ends need the same.
+        Format of the messages; the same at both ends.
     strict : bool
-        Refuse numbers that JSON does not have (not a number, infinity) in messages sent as JSON.
+        Reject NaN and infinity, which JSON does not define, in messages sent as JSON.
     """
 
     def __init__(self, end: socket.socket, code: Code = "pickle", *, strict: bool = False) -> None:
@@ -40,13 +40,13 @@ class Line:
         self._end.close()
 
     def packed(self, thing: Any) -> bytes:
-        """Encode a message; TypeError or ValueError if the format cannot hold it."""
+        """Encode a message; TypeError or ValueError if the format cannot represent it."""
         if self._code == "pickle":
             return pickle.dumps(thing)
         return json.dumps(thing, allow_nan=not self._strict).encode()
 
     def send(self, content: bytes, patience: float | None = None) -> None:
-        """Send an encoded message; OSError if the peer has gone or does not read in time [s]."""
+        """Send an encoded message; OSError if the peer is closed or does not read in time [s]."""
         with self._lock:
             if patience is not None:
                 self._end.settimeout(patience)
@@ -57,7 +57,7 @@ class Line:
                     self._end.settimeout(None)
 
     def receive(self) -> list[Any]:
-        """Return the complete messages that have arrived; EOFError once the peer has gone."""
+        """Return the complete messages that have arrived; EOFError if the peer is closed."""
         try:
             while chunk := self._end.recv(1 << 16, socket.MSG_DONTWAIT):
                 self._came += chunk

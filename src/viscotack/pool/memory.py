@@ -1,11 +1,11 @@
-"""How much memory a process has, where the system tells."""
+"""Resident memory of a process, on systems that report it."""
 
 import os
 from pathlib import Path
 
 
 def resident_memory(process: int | str = "self") -> float:
-    """Return the resident memory of a process [bytes]; 0 where the system does not tell."""
+    """Return the resident memory of a process [bytes]; 0 if the system does not report it."""
     try:
         pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
         return pages * float(os.sysconf("SC_PAGE_SIZE"))
@@ -14,7 +14,7 @@ def resident_memory(process: int | str = "self") -> float:
 
 
 def peak_memory() -> float:
-    """Return the largest resident memory that this process has had [bytes]; 0 where unknown."""
+    """Return the peak resident memory of this process [bytes]; 0 if unknown."""
     try:
         status = Path("/proc/self/status").read_text()
         peak = next(line for line in status.splitlines() if line.startswith("VmHWM:"))

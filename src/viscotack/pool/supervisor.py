@@ -1,7 +1,7 @@
-"""The supervisor of worker processes: it has no threads and never waits for a worker.
+"""Supervisor of worker processes. It has no threads and never blocks on a worker.
 
-It polls its workers some twenty times a second while any is busy. A worker that exceeds a limit or
-gives no sign of life is killed and replaced; only its own task is lost.
+It polls the workers about twenty times a second while any of them is busy. A worker that exceeds a
+limit or sends no heartbeat is killed and replaced; only its own task is lost.
 """
 
 import os
@@ -21,36 +21,36 @@ from .event import Event, Kind, NoWorker
 from .line import Code, Line
 from .memory import resident_memory
 
-# The first lines of a worker, before it imports anything slow: on Linux the kernel kills it when
-# its parent ends, also while it waits in C.
+# First lines of a worker process, run before any slow import. On Linux the kernel then kills the
+# worker when its parent ends, even while it runs C code.
 _MORTAL = """\
 import ctypes, os, signal, sys
 if sys.platform == "linux":
     PR_SET_PDEATHSIG = 1
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 if os.getppid() != {parent}:
-    os._exit(1)  # it has ended already
+    os._exit(1)  # the parent has ended already
 """
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-# Seconds between two polls of the workers: limits are enforced to about this accuracy.
+# Interval between two polls of the workers [s]; limits are enforced with about this accuracy.
 LOOK = 0.05
-# Seconds without a sign of life after which a worker is taken for suspended; it gives one a second,
-# but not while foreign code holds the interpreter.
+# Time without a heartbeat after which a worker counts as suspended [s]. Workers send one a second,
+# except while compiled code holds the interpreter lock.
 _SILENCE = 60.0
-# Seconds that a process may take to import what it needs, on a machine that is busy with others.
+# Time allowed for the imports of a new process on a busy machine [s].
 _START = 120.0
 # Consecutive failed starts after which the pool gives up.
 _STARTS = 3
-# Seconds in which a worker takes a message, and in which one that is dismissed ends.
+# Time allowed for a worker to receive a message, and for a dismissed worker to end [s].
 _PATIENCE = 5.0
-# Longest time counted between two polls [s]: a machine that slept, or a run that was halted by
-# ctrl-Z together with its workers, makes no task slow.
+# Longest time counted between two polls [s], so that a sleeping machine, or a run suspended by
+# ctrl-Z together with its workers, does not cause time-limit failures.
 _LONGEST = 1.0
 
 
 @dataclass(frozen=True)
 class Setup:
-    """How the processes of a pool begin.
+    """Start-up configuration of the processes of a pool.
 
     Attributes
     ----------
@@ -58,15 +58,15 @@ class Setup:
         ``"module:function"``, called once in each process with `given`. Its result is the third
         argument of all tasks.
     given : object
-        Argument of `prepare`; must fit the format `code`.
+        Argument of `prepare`; must be representable in the format `code`.
     code : {"json", "pickle"}
-        Format of arguments and answers.
+        Format of arguments and results.
     nice : int
         Added to the nice level of the processes.
     address_space : int, optional
         Address space of a process [bytes]; an allocation beyond it raises MemoryError in the task.
     idle : float, optional
-        Time without a task after which a process ends [s]; None waits for ever.
+        Time without a task after which a process ends [s]; None for no limit.
     """
 
     prepare: str
@@ -79,7 +79,7 @@ class Setup:
 
 @dataclass(frozen=True)
 class Limits:
-    """What a task may take.
+    """Time and memory limits of a task.
 
     Attributes
     ----------
@@ -89,8 +89,8 @@ class Limits:
         Time after the limit, or after a request to stop, in which the task may end by itself [s];
         then its process is killed.
     interrupts : bool
-        Whether the pool interrupts the task at the time limit. False for a task that watches the
-        clock itself.
+        Whether the pool interrupts the task at the time limit. False for a task that checks the
+        time itself.
     memory : float
         Largest growth of the resident memory of its process [bytes]; enforced on Linux only.
     """
@@ -108,7 +108,7 @@ class _Worker:
     process: subprocess.Popen[bytes]
     line: Line
     ready: bool = False
-    # the caller's number of the task, and that of the line: callers may use theirs again
+    # the caller's number of the task, and the internal one: callers may reuse theirs
     number: int | None = None
     turn: int = 0
     limits: Limits = field(default_factory=Limits)
@@ -118,7 +118,7 @@ class _Worker:
     stopping: Kind | None = None
     base: float = 0.0
     most: float = 0.0
-    # why it was killed
+    # reason for which it was killed
     verdict: Event | None = None
 
     @property
@@ -126,7 +126,7 @@ class _Worker:
         return self.ready and self.number is None and self.verdict is None
 
     def begin(self, number: int, limits: Limits) -> None:
-        """Count for a task from now on."""
+        """Reset the counters for a new task."""
         self.number, self.limits, self.turn = number, limits, self.turn + 1
         self.age, self.silence, self.until, self.stopping = 0.0, 0.0, limits.seconds, None
         self.base = self.most = resident_memory(self.process.pid)
@@ -134,7 +134,7 @@ class _Worker:
     def stop(self, cause: Kind) -> None:
         """Interrupt the task."""
         self.until, self.stopping = min(self.until, self.age), cause
-        # a process that has just ended is met by the next poll
+        # the next poll detects a process that has just ended
         with suppress(OSError):
             self.line.send(self.line.packed(("stop", self.turn)), _PATIENCE)
 
@@ -166,16 +166,16 @@ class Pool:
         self._looked = monotonic()
 
     def fileno(self) -> int:
-        """File descriptor that is readable when `collect` would find a message."""
+        """File descriptor that becomes readable when `collect` has a message to read."""
         return self._selector.fileno()
 
     def room(self, wanted: int | None = None) -> int:
-        """Count the idle workers, and start processes up to the number that is wanted.
+        """Return the number of idle workers; start processes up to the wanted number.
 
         Raises
         ------
         NoWorker
-            If a process could not prepare, or several in a row ended before they were ready.
+            If `Setup.prepare` failed, or several processes in a row ended before they were ready.
         """
         if self._unfit:
             words, self._unfit, self._failed = self._unfit, "", 0
@@ -186,17 +186,17 @@ class Pool:
         return sum(worker.idle for worker in self._workers)
 
     def hand(self, number: int, task: str, asked: Any, limits: Limits) -> None:
-        """Give a task to an idle worker.
+        """Submit a task to an idle worker.
 
         Parameters
         ----------
         number : int
-            The caller's; its events carry it.
+            Number chosen by the caller; returned with the events of the task.
         task : str
             ``"module:function"``, called with `asked`, a function that reports progress, and the
             result of `Setup.prepare`.
         asked : object
-            Must fit the format of the pool.
+            First argument of the task; must be representable in the format of the pool.
         limits : Limits
             Of this task.
         """
@@ -204,18 +204,18 @@ class Pool:
         content = worker.line.packed(("task", (worker.turn + 1, task, asked)))
         self._pass_time()
         worker.begin(number, limits)
-        # a process that has just ended is met by the next poll, with its task
+        # the next poll detects a process that has just ended, with its task
         with suppress(OSError):
             worker.line.send(content, _PATIENCE)
 
     def stop(self, number: int) -> None:
-        """Interrupt a task; its outcome comes as that of any other."""
+        """Interrupt a task; `collect` returns its final event as usual."""
         for worker in self._workers:
             if worker.number == number and worker.verdict is None:
                 worker.stop("stopped")
 
     def collect(self, seconds: float) -> list[tuple[int, Event]]:
-        """Wait for events, at most for a time [s], and enforce limits meanwhile."""
+        """Wait for events for at most the given time [s], and enforce limits meanwhile."""
         until = monotonic() + seconds
         while True:
             wait = max(0.0, min(LOOK, until - monotonic()))
@@ -230,18 +230,18 @@ class Pool:
         return self._count
 
     def processes(self) -> list[int]:
-        """Return the identifiers of the living processes."""
+        """Return the process identifiers of the living workers."""
         return [worker.process.pid for worker in self._workers]
 
     def busy(self) -> bool:
-        """Whether any process is starting, at a task or ending, and must be polled."""
+        """Whether any process is starting, running a task or ending, and must be polled."""
         return not all(worker.idle for worker in self._workers)
 
     def dismiss(self, *, at_once: bool) -> None:
-        """End all processes: idle ones by themselves, or all at once."""
+        """End all processes: idle ones exit by themselves, or all are killed (`at_once`)."""
         for worker in self._workers:
             if at_once or worker.number is not None:
-                # before its line closes, or it might end by itself first
+                # kill before closing the socket, or the process might exit by itself first
                 worker.process.kill()
             worker.line.close()
         for worker in self._workers:
@@ -253,14 +253,14 @@ class Pool:
         setup = self._setup
         ours, theirs = socket.socketpair()
         with theirs:
-            # the child begins with what is blocked here: ctrl-C is never for it
+            # the child inherits the blocked signals: it must not receive ctrl-C
             deaf = (signal.SIGINT, signal.SIGTERM)
             before = signal.pthread_sigmask(signal.SIG_BLOCK, deaf)
             try:
                 process = subprocess.Popen(
                     [sys.executable, "-c", _program(theirs.fileno(), setup.code)],
                     stdin=subprocess.DEVNULL,
-                    # what a task prints is no answer of the command
+                    # output printed by a task must not mix with the output of the command
                     stdout=2,
                     pass_fds=[theirs.fileno()],
                     env=os.environ | dict.fromkeys(_THREADS, "1"),
@@ -303,17 +303,17 @@ class Pool:
         found = []
         for worker in list(self._workers):
             if worker.verdict is not None:
-                if worker.age > _PATIENCE:  # the system may be slow to end it
+                if worker.age > _PATIENCE:  # the system may take time to end it
                     found += self._remove(worker)
             elif not worker.ready:
                 if worker.age > _START:
-                    worker.kill("lost", f"did not begin in {_START:g} s")
+                    worker.kill("lost", f"did not start within {_START:g} s")
             elif worker.number is not None:
                 _enforce(worker)
         return found
 
     def _remove(self, worker: _Worker) -> Iterator[tuple[int, Event]]:
-        """Forget a process that has ended; yield the outcome of its task if it had one."""
+        """Remove a process that has ended; yield the final event of its task, if it had one."""
         self._workers.remove(worker)
         self._selector.unregister(worker.line)
         worker.line.close()
@@ -325,13 +325,13 @@ class Pool:
             self._failed += 1
             if self._failed >= _STARTS and not self._unfit:
                 self._unfit = (
-                    f"{self._failed} worker processes in a row have ended before they began; the "
+                    f"{self._failed} worker processes in a row ended during start-up; the "
                     f"last one {end.what}"
                 )
 
 
 def _enforce(worker: _Worker) -> None:
-    """Interrupt or kill a worker whose task is beyond a limit, and kill one that is suspended."""
+    """Interrupt or kill a worker whose task exceeds a limit; kill a suspended worker."""
     limits, resident = worker.limits, resident_memory(worker.process.pid)
     worker.most = max(worker.most, resident)
     gained = resident - worker.base
@@ -342,13 +342,13 @@ def _enforce(worker: _Worker) -> None:
         words = f"took more than {limits.seconds:g} s and did not end by itself"
         worker.kill(worker.stopping or "time limit", words)
     elif worker.silence > _SILENCE:
-        worker.kill("lost", f"gave no sign of life for {_SILENCE:g} s")
+        worker.kill("lost", f"sent no heartbeat for {_SILENCE:g} s")
     elif worker.age > worker.until and limits.interrupts and not worker.stopping:
         worker.stop("time limit")
 
 
 def _program(handle: int, code: Code) -> str:
-    """Source of a worker's program; it finds modules where this process finds them."""
+    """Source code of a worker's program; it uses the module search path of this process."""
     return _MORTAL.format(parent=os.getpid()) + (
         f"sys.path[:] = {sys.path!r}\n"
         f"from viscotack.pool.worker import serve\n"
@@ -357,14 +357,14 @@ def _program(handle: int, code: Code) -> str:
 
 
 def _ended(process: subprocess.Popen[bytes]) -> str:
-    """Words for how a process has ended; one that only closed its line is killed."""
+    """Describe how a process ended; kill it if it only closed its socket."""
     try:
         code = process.wait(_PATIENCE)
     except subprocess.TimeoutExpired:
         process.kill()
         with suppress(subprocess.TimeoutExpired):
             process.wait(_PATIENCE)
-        return "closed its line"
+        return "closed its connection"
     if code < 0:
         return f"was ended by {signal.Signals(-code).name}: killed, out of memory or crashed"
     return f"ended with status {code}"

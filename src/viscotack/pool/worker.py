@@ -1,4 +1,4 @@
-"""A worker process: it runs the tasks of a pool one after the other, and ends with its parent.
+"""A worker process: it runs the tasks of a pool one after another and ends with its parent.
 
 Messages are pairs over a :class:`Line`. In: ``("setup", {...})`` first, then ``("task", (turn,
 "module:function", asked))`` and ``("stop", turn)``. Out: ``("ready", None)`` or ``("unfit",
@@ -25,12 +25,12 @@ from viscotack.errors import InputError
 from .event import NoWorker
 from .line import Code, Line
 
-# Seconds between two signs of life of a worker that is at a task.
+# Interval between two heartbeats of a worker that runs a task [s].
 BEAT = 1.0
 
 
 class Stopped(BaseException):
-    """Raised inside a task whose answer is no longer wanted."""
+    """Raised inside a cancelled task."""
 
 
 def serve(handle: int, code: Code) -> None:
@@ -44,9 +44,9 @@ def serve(handle: int, code: Code) -> None:
         Format of the messages.
     """
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)  # meant for the parent, which decides about tasks
+        signal.signal(number, signal.SIG_IGN)  # the parent handles it and decides about tasks
     signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
-    with suppress(ConnectionError):  # the parent has gone, and needs no answer
+    with suppress(ConnectionError):  # the parent has ended and needs no answer
         _Runner(Line(socket.socket(fileno=handle), code, strict=True)).serve()
 
 
@@ -54,9 +54,9 @@ class _Runner:
     def __init__(self, line: Line) -> None:
         self._line = line
         self._messages: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        # a task that was received and not answered keeps this process busy
+        # a received task without an answer keeps this process busy
         self._received = self._answered = 0
-        # turns of the task that runs, and of the task to stop
+        # numbers of the running task and of the task to stop
         self._current: int | None = None
         self._unwanted: int | None = None
         self._telling = False
@@ -74,25 +74,25 @@ class _Runner:
         except (InputError, NoWorker) as error:
             return self._say("unfit", str(error))
         except BaseException as error:
-            return self._say("unfit", f"no worker can begin: {type(error).__name__}: {error}")
+            return self._say("unfit", f"no worker can start: {type(error).__name__}: {error}")
         self._answer(self._line.packed(("ready", None)))
         while (message := self._next(setup["idle"])) is not None:
             turn, task, asked = message
             self._answer(self._done(turn, task, asked, context))
 
     def _next(self, idle: float | None) -> Any:
-        """Wait for a task; None when none will come, or none has come for a time [s]."""
+        """Wait for a task; None at the end of the connection or after an idle time [s]."""
         try:
             return self._messages.get(timeout=idle)
         except queue.Empty:
             return None
 
     def _done(self, turn: int, task: str, asked: Any, context: Any) -> bytes:
-        """Run a task; return the message of its end."""
+        """Run a task and return its final message."""
         try:
             try:
                 self._current = turn
-                self._check_stopped()  # the request may have come before the task began
+                self._check_stopped()  # the request may have arrived before the task started
                 return self._line.packed(("answer", named(task)(asked, self._tell, context)))
             finally:
                 self._current = None
@@ -105,7 +105,7 @@ class _Runner:
             return self._line.packed(("failed", f"{type(error).__name__}: {error}"))
 
     def _tell(self, news: Any) -> None:
-        self._telling = True  # half a message would garble all later ones
+        self._telling = True  # an interrupted message would corrupt all later ones
         try:
             self._say("told", news)
         finally:
@@ -113,13 +113,13 @@ class _Runner:
         self._check_stopped()
 
     def _check_stopped(self, *_: Any) -> None:
-        """Raise Stopped, once, if the task that runs is to stop."""
+        """Raise Stopped, once, if the running task is to stop."""
         if self._current is not None and self._unwanted == self._current and not self._telling:
             self._current = None
             raise Stopped
 
     def _answer(self, content: bytes) -> None:
-        # counted first: a parent that closes the line after an answer leaves an idle worker
+        # decremented first: the parent may close the connection right after the answer
         self._answered += 1
         self._line.send(content)
 
@@ -127,7 +127,7 @@ class _Runner:
         self._line.send(self._line.packed((kind, what)))
 
     def _listen(self) -> None:
-        """Receive messages and give signs of life until the parent has gone."""
+        """Receive messages and send heartbeats until the parent has ended."""
         with suppress(OSError, EOFError):
             while True:
                 if select.select([self._line], [], [], BEAT)[0]:
@@ -142,20 +142,20 @@ class _Runner:
     def _take(self, kind: str, what: Any) -> None:
         if kind == "stop":
             self._unwanted = what
-            os.kill(os.getpid(), signal.SIGUSR1)  # the main thread is to look up
+            os.kill(os.getpid(), signal.SIGUSR1)  # interrupts the main thread
         else:
             self._received += 1
             self._messages.put(what)
 
 
 def named(function: str) -> Callable[..., Any]:
-    """Import a function by its name, ``"package.module:function"``."""
+    """Import a function given as ``"package.module:function"``."""
     module, _, name = function.partition(":")
     return getattr(import_module(module), name)
 
 
 def _bound_memory(most: int | None) -> None:
-    """Limit the address space of this process [bytes]: beyond it a task gets a MemoryError."""
+    """Limit the address space of this process [bytes]; allocations beyond it raise MemoryError."""
     if most is not None:
         _, hard = resource.getrlimit(resource.RLIMIT_AS)
         least = most if hard == resource.RLIM_INFINITY else min(most, hard)

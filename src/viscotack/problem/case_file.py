@@ -202,7 +202,7 @@ def _shape(table: Table, kind: Any) -> Any:
     """Return the indenter stated by a table, by the cards of its class.
 
     A [profile] is a measured one by its file, a cone by its slope, or the exponent q and one point
-    of z = A r^q, its height at a radius, so that nobody has to type a coefficient in m^(1-q).
+    of z = A r^q, its height at a radius, instead of a coefficient in m^(1-q).
     """
     if "file" in table.values and kind in (PowerLawProfile, MeasuredProfile):
         return _measured(table)

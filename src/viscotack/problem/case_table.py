@@ -13,7 +13,7 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 # Hint for unknown laws, materials and shapes.
-OWN = "; one of your own comes --with FILE.py"
+OWN = "; give a user-defined one with --with FILE.py"
 
 
 class Table:

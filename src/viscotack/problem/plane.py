@@ -71,7 +71,7 @@ class PunchScales:
 
 
 def outputs(shape: Any) -> Kind:
-    """Return what the numbers of an answer are called."""
+    """Return the kind of a problem, which names its outputs."""
     return PLANE
 
 

@@ -93,7 +93,7 @@ class Scales:
 
 
 def outputs(shape: Any) -> Kind:
-    """Return what the numbers of an answer are called; of a shape with details those of rings."""
+    """Return the kind of a problem; a shape with details has the outputs of rings."""
     return REVOLUTION if np.isinf(detail(shape)) else DETAILED
 
 

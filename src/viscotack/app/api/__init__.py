@@ -1,4 +1,4 @@
-"""The HTTP API, and the page that asks it."""
+"""The HTTP API and the page that uses it."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 
 def application(engine: Engine | None = None) -> "FastAPI":
-    """Return the application of page and API, without its guard.
+    """Create the FastAPI application of page and API, without its guard.
 
     Parameters
     ----------
     engine : Engine, optional
-        What answers; one with the usual limits when left out.
+        Runs the tasks; default: an engine with default limits.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def application(engine: Engine | None = None) -> "FastAPI":
         title="viscotack",
         version=__version__,
         summary="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
-        # their pages load scripts from elsewhere; /api/docs is our own
+        # the pages of FastAPI load scripts from other servers; /api/docs is our own
         docs_url=None,
         redoc_url=None,
         lifespan=alive,
@@ -61,16 +61,16 @@ def application(engine: Engine | None = None) -> "FastAPI":
 def guarded(
     engine: Engine | None = None, *, hosts: tuple[str, ...] = (), token: str = ""
 ) -> "Guard":
-    """Return the application behind its guard, as a server runs it.
+    """Create the application with its guard, as run by a server.
 
     Parameters
     ----------
     engine : Engine, optional
-        What answers.
+        Runs the tasks.
     hosts : tuple of str
-        Names by which it may be called; any when left out.
+        Accepted host names; () for any.
     token : str
-        That every request must bring; none when left out.
+        Token that every request must contain; "" for none.
     """
     engine = Engine() if engine is None else engine
     app = application(engine)

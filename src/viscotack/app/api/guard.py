@@ -1,4 +1,4 @@
-"""Who may ask, and how much at once: looked at before anything else of a request."""
+"""Access control: host, origin, token and size of a request are checked before its content."""
 
 import json
 import secrets
@@ -14,7 +14,7 @@ Send = Callable[[Message], Awaitable[None]]
 Application = Callable[[Message, Receive, Send], Awaitable[None]]
 
 _COOKIE = "viscotack"
-# Nothing of the page, or of an upload that it shows, comes from or goes to another place.
+# The page, and uploads that it shows, load nothing from other servers and send nothing to them.
 _HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; style-src 'self' "
     "'unsafe-inline'; frame-ancestors 'none'; form-action 'self'; base-uri 'none'",
@@ -25,16 +25,16 @@ _HEADERS = {
 
 @dataclass(frozen=True)
 class Rules:
-    """Who may ask, and how much.
+    """Rules of access and size limits.
 
     Attributes
     ----------
     hosts : tuple of str
-        Names by which the server may be called, without port; () for any.
+        Accepted host names, without port; () for any.
     token : str
-        That a request must bring; "" for none.
+        Token that a request must contain; "" for none.
     body, uploads : int
-        Longest request, and longest one with files [bytes].
+        Largest request, and largest request with files [bytes].
     """
 
     hosts: tuple[str, ...] = ()
@@ -44,17 +44,17 @@ class Rules:
 
 
 class TooLarge(Exception):
-    """A request with more content than is taken."""
+    """A request exceeds its size limit."""
 
 
 class Guard:
-    """The application behind its rules."""
+    """ASGI application that enforces the rules."""
 
     def __init__(self, application: Application, rules: Rules) -> None:
         self._application, self._rules = application, rules
 
     async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
-        """Let a request through, or say why not."""
+        """Forward a request, or reject it with a reason."""
         if scope["type"] != "http":
             await self._application(scope, receive, send)
             return
@@ -91,13 +91,13 @@ class Guard:
         return self._rules.uploads if is_upload else self._rules.body
 
     def _refusal(self, scope: Message, headers: MutableMapping[str, str]) -> tuple[int, str] | None:
-        """Return status and words for a request that may not come in, None for one that may."""
+        """Return status and reason for a rejected request, None for an accepted one."""
         host = headers.get("host", "")
         if self._rules.hosts and _bare(host) not in self._rules.hosts:
             return 403, f"this server is called {' or '.join(self._rules.hosts)}, not {host!r}"
         origin = headers.get("origin", "")
         if origin and urlsplit(origin).netloc != host:
-            # a page from elsewhere, in the browser of whoever runs the server
+            # a page of another origin in the browser of the user
             return 403, "pages from elsewhere may not ask this server"
         if not self._rules.token or self._knows(scope, headers):
             return None
@@ -107,7 +107,7 @@ class Guard:
         )
 
     def _knows(self, scope: Message, headers: MutableMapping[str, str]) -> bool:
-        """Return whether a request brings the token, in a header, a cookie or the link."""
+        """Whether a request contains the token, in a header, a cookie or the link."""
         given = [headers.get("authorization", "").removeprefix("Bearer ")]
         try:
             morsel = SimpleCookie(headers.get("cookie", "")).get(_COOKIE)
@@ -118,7 +118,7 @@ class Guard:
         return any(secrets.compare_digest(x.encode(), self._rules.token.encode()) for x in given)
 
     def _entered(self, scope: Message) -> str:
-        """Return the cookie for a browser that comes by the link with the token, else nothing."""
+        """Return the cookie for a browser that opened the link with the token, else ""."""
         query = parse_qs(scope["query_string"].decode("latin-1"))
         if not self._rules.token or scope["path"] != "/" or "token" not in query:
             return ""
@@ -126,14 +126,14 @@ class Guard:
 
 
 def _without_token(scope: Message) -> str:
-    """Return where a browser is sent that has come with the token."""
+    """Return the link without the token, to which the browser is redirected."""
     pairs = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
     query = urlencode([(name, value) for name, value in pairs if name != "token"])
     return scope["path"] + (f"?{query}" if query else "")
 
 
 def _counted(receive: Receive, limit: int) -> Receive:
-    """Return what hands a request on until it has grown too large."""
+    """Return a receiver that raises TooLarge if a request exceeds the limit."""
     taken = 0
 
     async def counted() -> Message:
@@ -173,7 +173,7 @@ async def _refuse(send: Send, status: int, words: str) -> None:
 
 
 async def _redirect(send: Send, path: str, cookie: str) -> None:
-    # without the token, which then stands in no history and no log
+    # without the token, so that it does not appear in histories and logs
     await _respond(send, 303, {"location": path, "set-cookie": cookie, "content-length": "0"}, b"")
 
 

@@ -1,4 +1,4 @@
-"""What requests and answers of the API look like; limits of single numbers stand here."""
+"""Schemas of requests and responses of the API, with the limits of single numbers."""
 
 from typing import Annotated, Any, Literal
 
@@ -51,7 +51,7 @@ TABLES_SCHEMA = {
 }
 Accuracy = Annotated[
     float,
-    Field(ge=1e-6, le=LOOSEST_ACCURACY, description="Accuracy wanted of the pull-off force."),
+    Field(ge=1e-6, le=LOOSEST_ACCURACY, description="Required relative error of the force."),
 ]
 Until = Annotated[
     Literal["pull-off", "detached"],
@@ -63,7 +63,7 @@ Confidence = Annotated[
 
 
 class Strict(BaseModel):
-    """What is sent: a misspelt name is refused and not lost."""
+    """Base class of requests; rejects unknown names."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
@@ -77,7 +77,7 @@ class AskedState(Strict):
 
 
 class AskedQuick(Strict):
-    """A state of the page whose numbers are dragged."""
+    """A state of the page while its numbers are dragged."""
 
     tables: dict[str, Any]
     accuracy: Accuracy = DEFAULT_ACCURACY
@@ -86,32 +86,32 @@ class AskedQuick(Strict):
 
 
 class AskedVerdict(Strict):
-    """A state of the page that is to be judged."""
+    """A state of the page for which advice is requested."""
 
     tables: dict[str, Any]
 
 
 class AskedTheory(AskedVerdict):
-    """A state of the page, and which theories that may take seconds are to say something."""
+    """A state of the page, and which slow theories to evaluate."""
 
     crack: Annotated[bool, Field(description="The contact whose edge is a steady crack.")] = True
     speeds: Annotated[bool, Field(description="The best theory at other speeds.")] = False
 
 
 class Refusal(BaseModel):
-    """Why there is no answer: what was wrong, what was given, what to do."""
+    """Error response: the problem, the value, and a remedy."""
 
     error: str
 
 
 class Answer(BaseModel):
-    """An answer; its names are those of ``--json`` on the command line."""
+    """Response; its names are the same as of ``--json`` on the command line."""
 
     model_config = ConfigDict(extra="allow")
 
 
 class JobAnswer(BaseModel):
-    """A job, as far as it has come."""
+    """State of a job."""
 
     id: str
     kind: str

@@ -1,4 +1,4 @@
-"""The description of the API, with the schema of problems that the cards write."""
+"""OpenAPI description, including the schema of problems generated from the cards."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ _PROBLEMS = "#/$defs/"
 
 
 def described(app: FastAPI) -> None:
-    """Make an application describe what a problem is as well; once, when it is first asked."""
+    """Add the schema of problems to the OpenAPI description; computed at the first request."""
     plain = app.openapi
 
     def openapi() -> dict[str, Any]:
@@ -30,7 +30,7 @@ def described(app: FastAPI) -> None:
 
 
 def _moved(value: Any) -> Any:
-    """Return a schema whose references lead to where OpenAPI keeps them."""
+    """Return a schema with its references moved to the place defined by OpenAPI."""
     if isinstance(value, dict):
         return {key: _moved(entry) for key, entry in value.items()}
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""How the API says no: one object with the words, whatever went wrong."""
+"""Error responses of the API: one object with the message, for all kinds of errors."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -20,7 +20,7 @@ _MOST_SAID = 3
 
 
 def words_for(app: FastAPI) -> None:
-    """Make an application say all its refusals as ``{"error": words}``."""
+    """Install handlers that return all errors as ``{"error": message}``."""
 
     async def refused(request: Request, error: Exception) -> JSONResponse:
         status = next(status for kind, status in _STATUS if isinstance(error, kind))
@@ -45,7 +45,7 @@ def words_for(app: FastAPI) -> None:
 
 
 def _said(errors: Sequence[Any]) -> str:
-    """Return what is wrong with a request, the first few things of many."""
+    """Summarise the first validation errors of a request."""
     said = []
     for error in errors[:_MOST_SAID]:
         place = ".".join(str(part) for part in error["loc"] if part != "body")

@@ -1,4 +1,4 @@
-"""What a request for an operation holds: an object in JSON, or a form with files."""
+"""Parsing of requests for operations: a JSON object, or a form with files."""
 
 import json
 from typing import Any
@@ -21,12 +21,12 @@ Files = list[tuple[str, bytes]]
 
 
 async def received(request: Request, kind: type[Operation]) -> tuple[dict[str, Any], Files]:
-    """Return the question of a request, and the files that were sent with it.
+    """Return the options in a request, and its files.
 
     Raises
     ------
     Refused
-        If it is neither an object in JSON nor a form.
+        If it is neither a JSON object nor a form.
     """
     form = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     given, files = await (_form if form == "multipart/form-data" else _object)(request, kind)
@@ -68,7 +68,7 @@ def _named(file: UploadFile) -> str:
 
 
 def _value(option: Option | None, text: str) -> Any:
-    """Return the value of a field: that of a problem, or of rows, is JSON."""
+    """Return the value of a form field; problems and rows are parsed as JSON."""
     if option is None or option.card.form not in _AS_JSON:
         return text
     try:
@@ -78,7 +78,7 @@ def _value(option: Option | None, text: str) -> Any:
 
 
 def _single(option: Option | None, values: list[Any]) -> Any:
-    """Return the one value of an option that has one."""
+    """Return the value of an option that is not repeated."""
     if len(values) > 1 or (option is not None and option.many):
         return values
     return values[0]

@@ -1,4 +1,4 @@
-"""The questions of the API and of the page, and the files of the page."""
+"""Routes of the API and of the page, and the static files of the page."""
 
 import asyncio
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ from .models import (
 )
 from .requests import received
 
-# Longest time that a question for a job waits for news [s].
+# Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
 _KINDS = {
     "html": "text/html; charset=utf-8",
@@ -52,7 +52,7 @@ Id = Annotated[str, Path(max_length=64)]
 
 
 def routes(engine: Engine) -> APIRouter:
-    """Return the routes of an engine."""
+    """Create the routes of an engine."""
     router = APIRouter(responses=_REFUSED)
     _jobs(router, engine)
     for kind in operations().values():
@@ -65,7 +65,7 @@ def routes(engine: Engine) -> APIRouter:
 
 
 def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None:
-    """Add an operation, to be answered at once or as a job."""
+    """Add the routes of an operation: direct answer, and job."""
     word = path(kind.word)
 
     async def answer(request: Request) -> Answer:
@@ -109,17 +109,17 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None
 
 
 def _refused(router: APIRouter, word: str, reason: str) -> None:
-    """Answer an operation that is not served with the reason."""
+    """Add a route that rejects an operation with the reason."""
 
     async def refuse() -> None:
-        raise Refused(f"{word} is not answered over HTTP: {reason}")
+        raise Refused(f"{word} is not available over HTTP: {reason}")
 
     for place in ("/api", "/api/jobs"):
         router.post(f"{place}/{path(word)}", include_in_schema=False)(refuse)
 
 
 def _content(kind: type[Operation]) -> dict[str, Any]:
-    """Return what a request for an operation holds: an object, or files and words."""
+    """Return the content types of a request for an operation."""
     needs_files = any(isinstance(o.card, File) and o.needed for o in options(kind))
     plain = (
         {} if needs_files else {"application/json": {"schema": request_schema(kind, sent=False)}}
@@ -128,12 +128,12 @@ def _content(kind: type[Operation]) -> dict[str, Any]:
 
 
 def _check_rows(given: Mapping[str, Any], most: int) -> None:
-    """Refuse more cases than a server computes for one request."""
+    """Reject more cases than the limit per request."""
     count = max((len(value) for value in given.values() if isinstance(value, list)), default=0)
     if count > most:
         raise Refused(
-            f"{count} cases are more than the {most} that a request may have here; "
-            "viscotack campaign has no such limit"
+            f"{count} cases exceed the limit of {most} per request; use viscotack campaign, which "
+            "has no limit"
         )
 
 
@@ -154,7 +154,7 @@ def _jobs(router: APIRouter, engine: Engine) -> None:
             try:
                 await asyncio.wait_for(found.news.wait(), wait)
             except TimeoutError:
-                pass  # no news is an answer too
+                pass  # return the unchanged state
         return _told(found, points_from, rows_from)
 
     @router.delete("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
@@ -198,7 +198,7 @@ def _page(router: APIRouter, engine: Engine) -> None:
 
     @router.post("/api/quick", tags=["page"])
     async def quick(asked: AskedQuick) -> Answer:
-        """Return what is known of a state in milliseconds: curves, numbers with intervals."""
+        """Evaluate theory and surrogate for a state (milliseconds): curves, numbers, intervals."""
         return Answer(**await engine.ask("quick", asked.model_dump()))
 
     @router.post("/api/moduli", tags=["page"])
@@ -241,7 +241,7 @@ def _file(name: str) -> Response:
     if name not in _PARTS:
         return Response("there is no such file", 404, media_type="text/plain")
     kind = _KINDS[name.rpartition(".")[2]]
-    # always asked for anew: the page and the program it asks are of one version
+    # never cached, so that the page and the server have the same version
     return Response(
         _PARTS[name].read_bytes(), media_type=kind, headers={"cache-control": "no-cache"}
     )

@@ -1,8 +1,8 @@
-"""The commands: reads flags and files, runs the simulation, writes words, tables and pictures.
+"""The command-line application and its error handling.
 
-Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong or a file
-could not be written, 3 a defect of viscotack.
-With --json exactly one object goes to standard output, everything else to standard error.
+Exit status: 0 success; 1 the simulation failed (its status gives the reason); 2 invalid input, or a
+file could not be written; 3 a defect of viscotack.
+With --json exactly one object is written to standard output, everything else to standard error.
 """
 
 import traceback
@@ -34,8 +34,8 @@ With = Annotated[
     Option(
         "--with",
         metavar="FILE.py",
-        help="A Python file with laws, materials, shapes or observables of your own, see "
-        "docs/own.md; it is executed. Give it once for each file.",
+        help="A Python file with user-defined laws, materials, shapes or observables "
+        "(docs/own.md). The file is executed. Can be repeated.",
         show_default=False,
     ),
 ]
@@ -52,9 +52,9 @@ def _viscotack(
 
 @contextmanager
 def wrong_input() -> Iterator[None]:
-    """Turn an error about the input into a paragraph on standard error and exit status 2.
+    """Report invalid input on standard error and exit with status 2.
 
-    An error that nobody in here raised on purpose is a defect: its traceback, and exit status 3.
+    Any unexpected exception is a defect: its traceback is printed, and the exit status is 3.
     """
     try:
         yield

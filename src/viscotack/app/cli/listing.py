@@ -12,11 +12,11 @@ from .commands import application
 
 _GROUPS = {
     "simulate": "Simulate a contact.",
-    "theory": "Ask a closed form.",
-    "material": "From a laboratory's file to a material, and on to other programs.",
-    "test": "From the files of a tack tester or a microscope to pull-off forces and speeds.",
-    "identify": "From measured curves to the interface: work of adhesion and range of attraction.",
-    "campaign": "Run many problems: a plan, a folder that survives every stop, a table.",
+    "theory": "Evaluate a closed-form theory.",
+    "material": "Fit, show, convert and export materials.",
+    "test": "Evaluate files of a tack tester or microscope: pull-off forces and speeds.",
+    "identify": "Fit work of adhesion and range of attraction to measured curves.",
+    "campaign": "Run many problems by a plan; resumable, results as a table.",
 }
 
 

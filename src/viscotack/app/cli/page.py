@@ -1,4 +1,4 @@
-"""The command ``viscotack app``: the page and the API, on this machine."""
+"""The command ``viscotack app``: serve the page and the API on this machine."""
 
 import os
 import secrets
@@ -16,7 +16,7 @@ from .commands import With, application, wrong_input
 
 _LOCAL = ("127.0.0.1", "localhost", "::1")
 _NAMES = ("127.0.0.1", "localhost", "[::1]")
-# A token in the environment is in no list of processes, as one in a flag would be.
+# A token in an option would be visible in the list of processes; one in the environment is not.
 _TOKEN = "VISCOTACK_TOKEN"
 
 
@@ -24,26 +24,26 @@ _TOKEN = "VISCOTACK_TOKEN"
 def app_command(
     case: Annotated[
         Path | None,
-        Argument(metavar="CASE.toml", help="The case to begin with.", show_default=False),
+        Argument(metavar="CASE.toml", help="Case to show first.", show_default=False),
     ] = None,
     host: Annotated[
         str,
-        Option(metavar="ADDRESS", help="Where to listen; another than this machine needs a token."),
+        Option(metavar="ADDRESS", help="Address of the server; a public one needs a token."),
     ] = "127.0.0.1",
-    port: Annotated[int, Option(metavar="N", min=0, max=65535, help="0: one that is free.")] = 8642,
+    port: Annotated[int, Option(metavar="N", min=0, max=65535, help="Port; 0: any free.")] = 8642,
     workers: Annotated[
-        int, Option(metavar="N", min=1, max=256, help="Simulations that go on at once.")
+        int, Option(metavar="N", min=1, max=256, help="Number of parallel simulations.")
     ] = 2,
     browser: Annotated[
         bool, Option("--browser/--no-browser", help="Open the page in the browser.")
     ] = True,
     own: With = None,
 ) -> None:
-    """Open the page: drag numbers, and see theory, surrogate and simulation answer.
+    """Open the web page: theory, surrogate and simulation for interactive input.
 
-    The same server answers programs: /api/docs and /openapi.json say how. It listens to this
-    machine alone. With another --host everybody who reaches it must bring a token: that in the
-    environment as VISCOTACK_TOKEN, or one that is made and printed.
+    The same server provides an HTTP API, described by /api/docs and /openapi.json. By default it
+    accepts requests from this machine only. With another --host every request needs a token: the
+    environment variable VISCOTACK_TOKEN, or a generated one that is printed.
 
     Example: viscotack app examples/from_toml/lens.toml
     """
@@ -81,7 +81,7 @@ def _uvicorn() -> Any:
 
 
 def _token(host: str) -> str:
-    """Return the token that requests must bring; none on this machine, unless one is given."""
+    """Return the required token; "" on this machine unless one is set."""
     given = os.environ.get(_TOKEN, "")
     if given and (len(given) < 16 or not given.isascii() or not given.isprintable()):
         raise InputError(f"{_TOKEN} must have 16 characters or more, without accents or spaces")
@@ -94,13 +94,13 @@ def _listening(host: str, port: int) -> socket.socket:
         return socket.create_server((host, port), family=family)
     except OSError as error:
         raise InputError(
-            f"cannot listen at {host}, port {port}: {error.strerror or error}; take another --port "
-            "or 0 for one that is free"
+            f"cannot listen at {host}, port {port}: {error.strerror or error}; give another "
+            "--port, or 0 for any free one"
         ) from None
 
 
 def _query(case: Path, also: tuple[Any, ...]) -> str:
-    """Return the link's query of a case file; a material that stands in a file of its own too."""
+    """Return the query of a link to a case file, including a material in a separate file."""
     from viscotack.files.toml import read_toml
     from viscotack.operations.declare.state import State
     from viscotack.operations.parts.library import material_table
@@ -110,5 +110,5 @@ def _query(case: Path, also: tuple[Any, ...]) -> str:
     if tables["material"].keys() & {"passport", "file"}:
         tables["material"] = material_table(problem.material)
     state = State(tables, also)
-    state.problem  # noqa: B018  # what names another file, a law or a history, is refused here
+    state.problem  # noqa: B018  # rejects cases that refer to other files
     return state.query

@@ -1,4 +1,4 @@
-"""Operations as commands: every declaration becomes a command with its flags."""
+"""Command-line commands generated from the declarations of operations."""
 
 import inspect
 import json
@@ -20,7 +20,7 @@ from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
 from viscotack.operations.declare.options import Here, Operation, Option, answered, options, take
 from viscotack.operations.declare.questions import OF_FILE, Question
-from viscotack.operations.declare.statement import Stated, door_of
+from viscotack.operations.declare.statement import Stated, indenter_named
 from viscotack.operations.declare.wording import flag
 
 from .commands import AsJson, With, wrong_input
@@ -29,9 +29,7 @@ from .writing import Writing, check_files
 _SETTINGS = {"max_content_width": 100}
 # Seconds between two lines of progress.
 LINES = 10.0
-_CASE = (
-    "A problem in SI with units, instead of the flags of the problem; docs/input.md describes it."
-)
+_CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
 
 
 def command_of(word: str, name: str | None = None) -> Any:
@@ -63,7 +61,7 @@ def command_of(word: str, name: str | None = None) -> Any:
 
 
 def _command(kind: type[Operation], indenter: str | None) -> Callable[..., None]:
-    """Return the function of a command, with the signature that its flags are made from."""
+    """Create the function of a command; Typer reads its options from the signature."""
 
     def command(**said: Any) -> None:
         _run(kind, indenter, said)
@@ -109,7 +107,7 @@ def _of_option(option: Option, indenter: str | None) -> Iterator[inspect.Paramet
         return
     if isinstance(card, File) and card.elsewhere:
         return
-    # all values are text: they are read in one place, with the words of the package
+    # all values are text; the cards convert them
     kind: Any = bool if isinstance(card, Switch) else list[str] if option.many else str
     if card.argument:
         words = typer.Argument(
@@ -139,7 +137,7 @@ def _of_option(option: Option, indenter: str | None) -> Iterator[inspect.Paramet
 
 
 def _of_problem(name: str, card: Stated, indenter: str | None) -> Iterator[inspect.Parameter]:
-    """Yield what a problem is stated by: a file, or the answers to the questions of an indenter."""
+    """Yield the parameters of a problem: a file, or the numbers of an indenter."""
     if card.spelling == "word":
         words = typer.Argument(metavar=card.metavar, help=card.words, show_default=False)
         yield _parameter(f"{name}__what", str, words, needed=True)
@@ -155,10 +153,10 @@ def _questions(card: Stated, indenter: str | None) -> tuple[Question, ...]:
     if indenter == "":
         return OF_FILE
     if indenter is not None:
-        return door_of(indenter).questions
+        return indenter_named(indenter).questions
     asked: dict[str, Question] = {}
     for word in card.indenters:
-        asked = {q.name: q for q in door_of(word).questions} | asked
+        asked = {q.name: q for q in indenter_named(word).questions} | asked
     return tuple(asked.values())
 
 
@@ -175,7 +173,7 @@ def _of_question(name: str, question: Question) -> inspect.Parameter:
 
 
 def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> None:
-    """Ask an operation with the values of its flags; write its files and its answer."""
+    """Run an operation with its options; write its files and its answer."""
     as_json, own = said.pop("json_"), said.pop("with_", None) or ()
     with wrong_input():
         given = _given(kind, indenter, said)
@@ -194,18 +192,18 @@ def carry_out(
     also: tuple[Any, ...],
     as_json: bool,
 ) -> None:
-    """Answer an operation, show how far it is, and write what is wanted of the answer.
+    """Run an operation, show its progress, and write the requested outputs.
 
     Parameters
     ----------
     asked : Operation
-        With its options.
+        The operation with its options.
     files : mapping
-        Output -> the file that it is written to; None where it is not wanted.
+        Output -> file; None if not requested.
     own : iterable of path
-        The files of the user's own nouns.
+        Files with user-defined classes.
     also : tuple of classes
-        These nouns.
+        The user-defined classes.
     as_json : bool
         Whether the answer is printed as one JSON object.
     """
@@ -219,19 +217,19 @@ def carry_out(
 def checked(
     files: Mapping[Output, Path | None], reads: Iterable[str | Path], *, as_json: bool
 ) -> dict[Output, Path | None]:
-    """Return the files that are to be written, those that are usual among them."""
+    """Return the files to write, including default ones."""
     found = {
         output: Path(output.usual) if file is None and output.usual and not as_json else file
         for output, file in files.items()
     }
     if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
-        raise InputError(f"{missing[0]} is missing: where the answer is to be written")
+        raise InputError(f"{missing[0]} is missing; give the output file")
     check_files(found, as_json=as_json, reads=tuple(reads))
     return found
 
 
 def finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) -> None:
-    """Write the files that are wanted of an answer, and print it; ends with its exit status."""
+    """Write the requested files of an answer, print it, and exit with its status."""
     write = Writing()
     for output, file in files.items():
         if output.name in answer.pictures:
@@ -249,7 +247,7 @@ def finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) -
 
 
 def _given(kind: type[Operation], indenter: str | None, said: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what was said, by the names of the options."""
+    """Return the given values by the names of the options."""
     given: dict[str, Any] = {}
     for option in options(kind):
         if isinstance(option.card, Stated):
@@ -260,7 +258,7 @@ def _given(kind: type[Operation], indenter: str | None, said: Mapping[str, Any])
 
 
 def _problem(option: Option, indenter: str | None, said: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the statement of a problem: an indenter by numbers, or a file."""
+    """Return the input for a problem: an indenter with numbers, or a file."""
     card, name = option.card, option.name
     assert isinstance(card, Stated)
     prefix = f"{name}__"
@@ -282,14 +280,14 @@ def _problem(option: Option, indenter: str | None, said: Mapping[str, Any]) -> d
 def _of_file(
     option: Option, what: str, case: Path | None, answers: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return the statement of a file in the place of the word of an indenter."""
+    """Return the input for a problem if a file is given in place of an indenter."""
     card = option.card
     assert isinstance(card, Stated)
     if case is not None:
         raise InputError(f"give one file, got {what} and {case}")
     if card.table and Path(what).suffix.lower() == ".csv":
         if flags := [flag(name) for name in answers]:
-            raise InputError(f"{what} is a table of cases; leave out {', '.join(flags)}")
+            raise InputError(f"{what} is a table of cases; remove {', '.join(flags)}")
         return {card.table: what, option.name: None}
     if not Path(what).suffix:
         raise InputError(f"{card.expected}, got {what!r}")
@@ -298,7 +296,7 @@ def _of_file(
 
 @contextmanager
 def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
-    """Show a bar on standard error while somebody looks at it; yields what moves it."""
+    """Show a progress bar on standard error if it is a terminal; yields its update function."""
     if not sys.stderr.isatty():
         yield _lines()
         return
@@ -311,7 +309,7 @@ def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
         TimeRemainingColumn,
     )
 
-    # the forecast takes the share of the way for that of the work, which it is about
+    # the remaining time assumes that work is proportional to the completed share
     times = (
         TimeElapsedColumn(),
         TextColumn("gone, about"),
@@ -336,7 +334,7 @@ def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
 
 
 def _lines() -> Callable[[Mapping[str, Any]], None]:
-    """Return what prints now and then how far an operation is, where nobody watches a bar."""
+    """Return a function that prints progress lines, for output that is not a terminal."""
     last = monotonic()
 
     def tell(told: Mapping[str, Any]) -> None:

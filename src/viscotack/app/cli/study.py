@@ -1,4 +1,4 @@
-"""The command ``viscotack study``: do what a file asks."""
+"""The command ``viscotack study``: run the operation of a study file."""
 
 from pathlib import Path
 from typing import Annotated
@@ -18,18 +18,18 @@ def study_command(
         Path,
         Argument(
             metavar="STUDY.toml",
-            help='What is asked: operation = "identify rates", its options by name, and a table '
-            "[write] with the files to be written; docs/operations.md describes it.",
+            help='A study: operation = "identify rates", its options by name, and a table [write] '
+            "with the output files; docs/operations.md describes it.",
             show_default=False,
         ),
     ],
     own: With = None,
     as_json: AsJson = False,
 ) -> None:
-    """Do what a study file asks, any operation with its options.
+    """Run the operation of a study file with its options.
 
-    Names of files in it are relative to its folder. The answer is that of the command of the
-    operation.
+    File names in the study are relative to its folder. The output is the same as of the command of
+    the operation.
 
     Example: viscotack study lens.toml
     """

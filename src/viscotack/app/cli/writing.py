@@ -1,4 +1,4 @@
-"""The files that a command writes: refused before the work, told of when they fail after it."""
+"""Output files of commands: checked before the work, and failures reported after it."""
 
 from collections.abc import Callable, Iterable, Mapping
 from itertools import combinations
@@ -29,7 +29,7 @@ def check_files(
     as_json: bool = False,
     reads: Iterable[str | Path] = (),
 ) -> None:
-    """Refuse files that cannot be written before the work is done, not after it.
+    """Raise InputError for output files that cannot be written, before the work starts.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def check_files(
     Raises
     ------
     InputError
-        If a file is wanted twice, or cannot be where or what it is to be.
+        If a file is used twice, has the wrong ending or cannot be written.
     """
     given = {output: file for output, file in files.items() if file is not None}
     for output, file in given.items():
@@ -52,13 +52,13 @@ def check_files(
             if output.kind != "text":
                 what = "a picture" if output.kind == "picture" else "this file"
                 raise InputError(
-                    f"{flag} {file}: {what} is not text and does not go to standard output; give "
-                    "the name of a file"
+                    f"{flag} {file}: {what} is binary and cannot go to standard output; give a "
+                    "file name"
                 )
             if as_json:
                 raise InputError(
-                    f"--json and {flag} {file} both go to standard output; leave out one, or give "
-                    f"{flag} the name of a file"
+                    f"--json and {flag} {file} both go to standard output; remove one, or give "
+                    f"{flag} a file name"
                 )
         else:
             if output.kind == "picture":
@@ -68,17 +68,17 @@ def check_files(
             check_target(file)
         for other in reads:
             if same_file(other, file):
-                raise InputError(f"{flag} {file} is the file that is read; give it another name")
+                raise InputError(f"{flag} {file} is an input file; give another name")
     for (one, first), (other, second) in combinations(given.items(), 2):
         if same_file(first, second):
             raise InputError(
-                f"{one.flag} {first} and {other.flag} {second} are the same file; give each one of "
-                "its own"
+                f"{one.flag} {first} and {other.flag} {second} are the same file; give two "
+                "different names"
             )
 
 
 class Writing:
-    """What a command writes beside its answer: where one file fails, the rest is not lost."""
+    """Writer of the output files of a command; continues with the others if one fails."""
 
     def __init__(self) -> None:
         self._failed = False
@@ -86,7 +86,7 @@ class Writing:
         self._taken = False
 
     def __call__(self, done: str, file: Path | None, writer: Callable[[Target], None]) -> None:
-        """Write a file if it is wanted, and tell on standard error that it is done, or why not."""
+        """Write a file if requested, and report success or failure on standard error."""
         if file is None:
             return
         goes_on = is_standard_output(file)
@@ -105,12 +105,12 @@ class Writing:
                 typer.echo(f"{done} {file}", err=True)
 
     def picture(self, file: Path | None, draw: Callable[[], "Figure"]) -> None:
-        """Draw a figure and write it in the same way."""
+        """Draw a figure and write it."""
         if file is not None:
             self("drew", file, lambda _: plot.save_figure(draw(), file))
 
     def answer(self, text: str) -> None:
-        """Print the answer of the command; on standard error where a table has the other one."""
+        """Print the answer; on standard error if a table is written to standard output."""
         typer.echo(harmless(text), err=self._taken)
 
     def end(self) -> None:
@@ -118,5 +118,5 @@ class Writing:
         if self._failed:
             raise typer.Exit(2)
         if self._reader_left is not None:
-            # the library of the command line ends it in silence, as it does for any other text
+            # Typer ends the command silently
             raise self._reader_left

@@ -1,1 +1,1 @@
-"""What page and API ask: states, quick answers, and jobs in processes that can be ended."""
+"""Engine of page and API: states, fast answers, and jobs in worker processes."""

@@ -1,7 +1,7 @@
-"""The processes of the page: questions wait in lanes for a pool that the event loop drives.
+"""Worker processes of the page: tasks wait in queues for a pool driven by the event loop.
 
-The server computes nothing itself: what takes long, hangs or crashes does so in a process of the
-pool. An idle process has its modules imported, so that a task begins immediately.
+The server process computes nothing itself, so that slow or crashing tasks do not affect it. Idle
+worker processes have their modules imported, so that a task starts immediately.
 """
 
 import asyncio
@@ -15,23 +15,23 @@ from viscotack.pool import Event, Limits, NoWorker, Pool, Setup
 from viscotack.pool.event import Kind
 from viscotack.pool.supervisor import LOOK
 
-# Seconds that a task has to stop by itself before its process is killed.
+# Time allowed for a task to stop before its process is killed [s].
 _GRACE = 0.2
-# Address space of a process [bytes]: more than any answer takes beside the libraries.
+# Address space of a process [bytes].
 _MOST_MEMORY = 4 * 2**30
 _PREPARE, _TASK = (f"viscotack.app.engine.worker:{name}" for name in ("prepare", "answer"))
 
 
 class Refused(ValueError):
-    """A question that has no answer; says why."""
+    """A request has no answer; the message gives the reason."""
 
 
 class Defect(RuntimeError):
-    """A task that failed where it should not; says how."""
+    """A task failed because of a defect."""
 
 
 class TooLong(Refused):
-    """A task that met its time limit."""
+    """A task exceeded its time limit."""
 
 
 @dataclass(eq=False)
@@ -45,16 +45,16 @@ class _Question:
 
 
 class Crew:
-    """The processes of a lane, and the questions that wait for them.
+    """The worker processes of a queue, and the requests that wait for them.
 
     Parameters
     ----------
     workers : int
         Largest number of processes.
     first : str
-        Task whose module the processes import, and warm up, before a question comes.
+        Task whose module the processes import and warm up in advance.
     own : tuple of str
-        Python files with nouns of the user's own.
+        Python files with user-defined classes.
     nice : int
         Added to the nice level of the processes.
     """
@@ -89,27 +89,27 @@ class Crew:
         told: Callable[[dict[str, Any]], None] = lambda news: None,
         begun: Callable[[], None] = lambda: None,
     ) -> dict[str, Any]:
-        """Return the answer of a task.
+        """Run a task and return its answer.
 
-        A caller that is cancelled stops the task, and goes on when its process is free.
+        Cancellation of the caller stops the task and waits until its process is free.
 
         Parameters
         ----------
         task, asked : str, dict
-            What is asked.
+            Name of the task and its input.
         seconds : float
             Time limit [s], waiting for a process not counted.
         told : callable
-            Is given the progress that the task reports.
+            Called with the progress of the task.
         begun : callable
-            Called when a process begins the task.
+            Called when a process starts the task.
 
         Raises
         ------
         Refused
             If the question has no answer, or not in that time (TooLong).
         Defect
-            If it failed where it should not.
+            If the task failed because of a defect.
         """
         outcome = asyncio.get_running_loop().create_future()
         limits = Limits(seconds, _GRACE)
@@ -191,8 +191,8 @@ def _read(event: Event, seconds: float) -> dict[str, Any]:
             raise Refused(event.what)
         case "time limit":
             raise TooLong(
-                f"it took longer than the {seconds:g} s that this server gives it; ask for less "
-                "accuracy or a smaller question, or run viscotack on your own machine"
+                f"exceeded the time limit of {seconds:g} s of this server; request less accuracy "
+                "or a smaller problem, or run viscotack on your own machine"
             )
         case "lost":
             raise Defect(f"its process {event.what}")

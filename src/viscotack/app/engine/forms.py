@@ -1,6 +1,6 @@
-"""What the page asks, read from the cards: a new law, solid or shape is in it by itself.
+"""Input forms of the page, generated from the cards, so that new nouns appear automatically.
 
-The answer is plain data: the page draws fields from it and knows no noun by name.
+The forms are plain data from which the page creates its fields.
 """
 
 from collections.abc import Iterable, Mapping
@@ -47,12 +47,12 @@ _STARTS = {
 
 
 def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
-    """Return all that can be asked, by the tables of a case file.
+    """Return the fields of all tables of a case file.
 
     Parameters
     ----------
     also : iterable of classes
-        Laws, materials and shapes of the user's own.
+        User-defined laws, materials and shapes.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def _shape(word: str, kind: Any) -> dict[str, Any]:
 
 
 def _protocol(units: Mapping[str, str]) -> dict[str, Any]:
-    """Return what a machine does, in the units of a geometry."""
+    """Return the fields of the protocol, in the units of a geometry."""
     test = cards(Retraction)
     starts = []
     for key, kind, words in _STARTS[units["force"]]:

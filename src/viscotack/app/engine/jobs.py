@@ -1,6 +1,6 @@
-"""The engine of page and API: what may be asked, how much at once, and the jobs that go on.
+"""The engine of page and API: tasks, limits and running jobs.
 
-It belongs to one event loop. All that is computed is computed in the processes of :mod:`.crew`.
+It belongs to one event loop. All computations run in the processes of :mod:`.crew`.
 """
 
 import asyncio
@@ -19,28 +19,28 @@ from viscotack.files.whole import write_new
 
 from .crew import Crew, Defect, Refused
 
-# Finished jobs are kept for those who come back, so many and so long [s].
+# Largest number of finished jobs that are kept, and for how long [s].
 _KEPT, _KEPT_FOR = 64, 900.0
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a server gives to those who ask.
+    """Limits of a server.
 
     Attributes
     ----------
     jobs : int
-        Simulations and campaigns that wait or go on, of everybody together.
+        Largest number of waiting and running jobs of all users.
     workers : int
-        Of them so many at once.
+        Number of jobs that run in parallel.
     job_time : float
-        Longest time of a job [s].
+        Time limit of a job [s].
     ask_time : float
-        Longest time of a question that is no job [s].
+        Time limit of a direct request [s].
     cases : int
-        Most cases of a campaign.
+        Largest number of cases of a sweep.
     body : int
-        Longest request [bytes]; one with files may be twenty times as long.
+        Largest request [bytes]; with files twenty times as large.
     """
 
     jobs: int = 120
@@ -57,11 +57,11 @@ class Limits:
 
 
 class TooMany(Refused):
-    """There are as many jobs as there may be."""
+    """The queue of jobs is full."""
 
 
 class Unknown(Refused):
-    """There is no such job, or no more."""
+    """No job has this id."""
 
 
 # Task -> its lane; each lane has processes of its own, so that no simulation holds up a slider.
@@ -88,7 +88,7 @@ class Job:
     Attributes
     ----------
     id : str
-        By which whoever started it, and nobody else, asks for it.
+        Identifier; known only to the client that started the job.
     kind : str
         Word of the operation.
     state : str
@@ -150,14 +150,14 @@ class Job:
 
 
 class Engine:
-    """Everything that can be asked, within limits.
+    """Runs tasks and jobs within limits.
 
     Parameters
     ----------
     limits : Limits
         How much.
     own : iterable of str
-        Python files of whoever runs the server, with nouns of their own.
+        Python files with user-defined classes, chosen by the operator of the server.
     """
 
     def __init__(self, limits: Limits | None = None, own: Iterable[str] = ()) -> None:
@@ -175,7 +175,7 @@ class Engine:
         }
         for crew in self._crews.values():
             crew.begin()
-        # files of the user's own that are wrong are found out by the first question
+        # errors in user-defined files are reported by the first request
         await self.ask("forms", {})
 
     async def end(self) -> None:
@@ -219,8 +219,8 @@ class Engine:
         waiting = sum(not job.over for job in self._jobs.values())
         if waiting >= self.limits.jobs:
             raise TooMany(
-                f"{waiting} jobs wait or go on, as many as this server takes; cancel one, or come "
-                "back when some have ended"
+                f"{waiting} jobs are waiting or running, the limit of this server; cancel one, or "
+                "try again later"
             )
         job = Job(secrets.token_urlsafe(16), asked["operation"], upload=upload)
         self._jobs[job.id] = job
@@ -231,7 +231,7 @@ class Engine:
         """Return a job by its id; Unknown where there is none."""
         self._forget()
         if id not in self._jobs:
-            raise Unknown("there is no such job: it was cancelled, or ended long ago")
+            raise Unknown("there is no such job; it was cancelled or its result has expired")
         return self._jobs[id]
 
     async def cancel(self, id: str) -> Job:
@@ -280,7 +280,7 @@ class Engine:
 
 
 def harmless_name(name: str) -> str:
-    """Return the name of a file without anything that a path, or a shell, would understand."""
+    """Remove characters from a file name that have a meaning in paths or shells."""
     bare = re.split(r"[/\\]", name)[-1]
     name = re.sub(r"[^\w.+\- ()]", "_", bare).lstrip(".")[-100:]
     # a file system counts bytes, up to 255

@@ -1,4 +1,4 @@
-"""Operations as tasks of the worker processes: asked as data, answered as data."""
+"""Operations as tasks of the worker processes, with plain data as input and output."""
 
 import base64
 import io
@@ -21,7 +21,7 @@ _POINTS = "points"
 
 @dataclass(frozen=True)
 class Sent:
-    """The files of a request: what else a name may lead to is not read.
+    """The files of a request; other files are not accessible.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Sent:
     names : frozenset of str
         Their names.
     also : tuple of classes
-        Nouns of whoever runs the server.
+        User-defined classes of the operator of the server.
     """
 
     folder: Path
@@ -53,7 +53,7 @@ class Sent:
 
 
 def warm() -> None:
-    """Do once what takes longer the first time."""
+    """Run once what is slow the first time."""
     from viscotack.methods import solve
     from viscotack.operations.parts.examples import FIRST
     from viscotack.problem.accuracy import LOOSEST_ACCURACY
@@ -64,7 +64,7 @@ def warm() -> None:
 
 
 def run_operation(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the record of an answer, and ``beside`` it what else is wanted.
+    """Run an operation; return the record of the answer, with other outputs in ``beside``.
 
     `asked` has the word of the ``operation``, its options as ``given``, ``files``: the paths that
     were sent, and ``outputs``: names of files, "words" or "drawn".
@@ -73,7 +73,7 @@ def run_operation(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, 
     paths = [Path(file) for file in asked.get("files", ())]
     folder = paths[0].parent if paths else Path()
     place = Sent(folder, frozenset(path.name for path in paths), also)
-    # where files lay says nothing to whoever sent them
+    # paths on the server are removed from messages
     shown = f"{folder}/" if paths else ""
     try:
         wanted = _wanted(kind, asked.get("outputs", ()))

@@ -1,8 +1,8 @@
-"""What is known of a case at once: closed forms, a moving edge, and what was learned.
+"""Fast overview of a case: closed-form theories and surrogates, in milliseconds.
 
-Every part takes milliseconds whatever the case, so that numbers may be dragged: nothing here
-simulates, and no theory is asked that may take seconds. Curves are in SI, force (of a punch the
-mean stress) positive in compression, depth positive into the solid.
+Every part takes milliseconds, so that the page can update while numbers are dragged: no simulation
+and no slow theory is run. Curves are in SI, force (for a punch the mean stress) positive in
+compression, depth positive into the solid.
 """
 
 from dataclasses import replace
@@ -44,7 +44,7 @@ _INPUTS = {AtDepth: "preload", AtForce: "preload_force", AtRadius: "preload_radi
 
 
 def quick(state: State, *, confidence: float = 0.9) -> dict[str, Any]:
-    """Return what is known of a case at once, as plain data.
+    """Evaluate fast theories and surrogates for a case; returns plain data.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def _axes(problem: Problem) -> dict[str, Any]:
 
 
 def _pulled(kind: Kind) -> str:
-    """Return the name of the number by which a kind of problem says how hard one must pull."""
+    """Return the name of the pull-off quantity of a kind of problem: force or stress."""
     return f"pull_off_{kind.name_of('force')}"
 
 
@@ -115,7 +115,7 @@ def _curve(words: str, depth: Any, force: Any, **more: Any) -> dict[str, Any]:
 
 
 def _elastic(problem: Problem, found: dict[str, Any]) -> None:
-    """Put in the curve of the relaxed solid, from the start to where a rigid drive lets go."""
+    """Add the curve of the relaxed solid, from the start to detachment on a rigid drive."""
     solid: Any = {
         "body": problem.body,
         "contact_modulus": problem.material.contact_modulus,
@@ -129,7 +129,7 @@ def _elastic(problem: Problem, found: dict[str, Any]) -> None:
     held = [x for x in contacts if x is not None and x.contact_radius < _LARGEST * unit]
     start = max(held, key=lambda x: x.contact_radius, default=None)
     if start is None:
-        found["notes"].append("JKR has no contact at the start: adhesion does not hold it there")
+        found["notes"].append("JKR has no contact at the start depth or force")
     radii = np.linspace(_USUAL * unit if start is None else start.contact_radius, last, _POINTS)
     found["curves"]["elastic"] = _curve(
         "infinitely slow, short range (JKR)",
@@ -146,7 +146,7 @@ def _elastic(problem: Problem, found: dict[str, Any]) -> None:
 
 
 def _edge(problem: Problem, found: dict[str, Any]) -> None:
-    """Put in the curve of a moving edge on a relaxed bulk, and whether it applies."""
+    """Add the curve of a moving edge on a relaxed bulk, and whether it applies."""
     try:
         curve = edge_curve(problem)
     except InputError:  # of another test or shape, which the advisor says in words
@@ -167,7 +167,7 @@ def _edge(problem: Problem, found: dict[str, Any]) -> None:
 
 
 def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None:
-    """Put in what was learned from simulations, where the case lies in their range."""
+    """Add the surrogate, if the case is in its range."""
     try:
         answer = predict(problem, confidence=confidence, budget=AT_ONCE)
     except OutOfRange as error:
@@ -213,7 +213,7 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
 
 
 def _speeds(problem: Problem, confidence: float) -> dict[str, Any]:
-    """Return the pull-off force at other speeds, all at once, as far as it was learned."""
+    """Return the pull-off force at other speeds, within the range of the surrogate."""
     groups, scales = problem.groups(), problem.scales()
     assert isinstance(groups, Groups) and groups.rate is not None
     least, most = groups.rate * 10**-_DECADES, groups.rate * 10**_DECADES
@@ -262,7 +262,7 @@ def _of_solid(groups: Groups, rates: Array, confidence: float) -> tuple[Array, A
 
 
 def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
-    """Return the pull-off stress at other speeds, all at once, as far as it was learned."""
+    """Return the pull-off stress at other speeds, within the range of the surrogate."""
     groups, speed = problem.groups(), problem.protocol.speed
     assert speed is not None
     here = inputs_of(groups)
@@ -284,7 +284,7 @@ def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
 
 
 def _pad(problem: Problem, found: dict[str, Any]) -> None:
-    """Put in the elastic pad, and the pull-off stress of viscoelastic edges against the speed."""
+    """Add the elastic pad, and the pull-off stress of viscoelastic edges against the speed."""
     geometry, body, speed = problem.geometry, problem.body, problem.protocol.speed
     assert isinstance(geometry, FlatPunch) and isinstance(body, Layer)
     pad = Pad(
@@ -297,7 +297,7 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
     stiffness = -float(np.asarray(pad.elastic_stress(body.thickness))) / float(
         np.asarray(pad.elastic_depth(body.thickness))
     )
-    # no interface bears more than its strength, whatever a crack would ask for
+    # the stress is limited by the strength of the interface
     stress = min(stiffness * -float(np.asarray(pad.elastic_depth(body.thickness))), pad.strength)
     pressed = _pressed(problem, stiffness)
     ways = np.array([pressed, -stress / stiffness])

@@ -1,4 +1,4 @@
-"""What is asked and answered at once or in seconds: states, predictions, advice, materials."""
+"""Tasks of the page that take milliseconds to seconds: states, predictions, advice, materials."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
@@ -33,12 +33,12 @@ _FREQUENCIES, _WIDE = 81, 8.0
 
 
 def warm() -> None:
-    """Do once what takes longer the first time."""
+    """Run once what is slow the first time."""
     quick(State(FIRST))
 
 
 def ask_forms(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return what can be asked, the published materials, and cases to begin from."""
+    """Return the input forms, the published materials and example cases."""
     return forms(also) | {"materials": library(), "examples": EXAMPLES}
 
 
@@ -58,7 +58,7 @@ def ask_state(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]
 
 
 def ask_quick(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return what is known of a state at once, and the state in every form."""
+    """Return the fast overview of a state, and the state in every form."""
     state = State(asked["tables"], also)
     run = {"accuracy": asked["accuracy"], "until": asked["until"]}
     return quick(state, confidence=asked["confidence"]) | {
@@ -82,7 +82,7 @@ def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
 
 
 def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the best answer to a state, the advice in words, and whether a crack curve helps.
+    """Return the best prediction for a state, the advice, and whether a crack curve is useful.
 
     Advice is for spheres that are pulled off at once; other shapes and tests get the answer of
     :func:`viscotack.predict` alone.
@@ -111,7 +111,7 @@ def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, An
 
 
 def ask_theory(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return what the theories that may take seconds say of a state."""
+    """Evaluate the slow theories for a state."""
     problem = State(asked["tables"], also).problem
     return {
         "crack": _crack(problem) if asked["crack"] else None,

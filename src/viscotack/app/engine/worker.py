@@ -1,4 +1,4 @@
-"""What the processes of the page do: tasks by name, and the words for what goes wrong in one."""
+"""Tasks of the worker processes of the page by name, and their error messages."""
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
@@ -31,14 +31,14 @@ def prepare(given: Mapping[str, Any]) -> tuple[Any, ...]:
 def answer(
     asked: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], also: tuple[Any, ...]
 ) -> dict[str, Any]:
-    """Return the answer of a task; InputError, in words for whoever asked, if it has none."""
+    """Run a task; InputError with a reason if it has no answer."""
     task = asked["task"]
     try:
         return getattr(_module(task), TASKS[task][1])(asked["asked"], tell, also)
     except ArithmeticError:
         raise InputError(TOO_LARGE) from None
     except MemoryError:
-        raise InputError("it takes more memory than this server gives to one question") from None
+        raise InputError("the memory limit of this server was exceeded") from None
 
 
 def _module(task: str) -> Any:

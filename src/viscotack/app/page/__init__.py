@@ -1,1 +1,1 @@
-"""The files of the page: its text, its looks and its program, all that a browser gets."""
+"""Static files of the page: HTML, CSS and JavaScript."""

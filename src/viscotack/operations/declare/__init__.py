@@ -1,1 +1,1 @@
-"""How an operation is declared: cards of its options, its answer, and their readings as text."""
+"""Declaration of operations: cards of options, answers, and conversion from and to text."""

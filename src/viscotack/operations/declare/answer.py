@@ -1,4 +1,4 @@
-"""What an operation answers, and what it may write beside it."""
+"""Answers of operations, and the files that they can write."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -9,32 +9,32 @@ if TYPE_CHECKING:
     from viscotack.files.whole import Target
 
 Told = Mapping[str, Any]
-# What may be wanted of every answer beside its files, by HTTP and the page.
+# Outputs besides files that HTTP and the page may request of every answer.
 WORDS, DRAWN = "words", "drawn"
 
 
 @dataclass(frozen=True)
 class Output:
-    """A file that an operation may write.
+    """A file that an operation can write.
 
     Attributes
     ----------
     name : str
-        Of the file among those of the operation: ``csv``, ``plot``.
+        Name of the output: ``csv``, ``plot``.
     words : str
-        What is in it.
+        Description of its content.
     kind : str
-        "text", "picture", or "binary" for what is neither.
+        "text", "picture" or "binary".
     flags : tuple of str
-        Spelling on the command line, where it is not ``--name``.
+        Command-line options, if not ``--name``.
     metavar, done : str
-        What stands for the name in help, and what is said when it is written.
+        Placeholder in the help text, and message after writing.
     needed : bool
-        Whether the operation is asked for this file.
+        Whether the output is required.
     usual : str
-        Where it goes when nobody says.
+        Default destination.
     ending : str
-        That its name must have, ".mat"; "" for any.
+        Required ending of the file name, ".mat"; "" for any.
     """
 
     name: str
@@ -49,43 +49,47 @@ class Output:
 
     @property
     def flag(self) -> str:
-        """The flag that messages name."""
+        """Command-line option that messages name."""
         return next((f for f in self.flags if f.startswith("--")), f"--{self.name}")
 
     @property
     def said(self) -> str:
-        """What is said when it is written."""
+        """Message after the file was written."""
         return self.done or ("drew" if self.kind == "picture" else "wrote")
 
 
 def csv_file(words: str = "Write a table; - is standard output.", name: str = "csv") -> Output:
-    """Return the output that is a table."""
+    """Declare a CSV table as output."""
     return Output(name, words)
 
 
 def picture(words: str = "Draw to a .png, .pdf or .svg file.", name: str = "plot") -> Output:
-    """Return the output that is a picture."""
+    """Declare a figure as output."""
     return Output(name, words, "picture")
 
 
 @dataclass(frozen=True)
 class Caller:
-    """Who asks: what is told while the answer is made, and what is wanted of it.
+    """Context of a request: progress callback, wanted outputs and user-defined classes.
 
     Attributes
     ----------
     tell : callable
-        Is given what an operation tells of itself: ``share`` of its work, what it is ``doing``,
-        ``words`` on how far it is, whether they are ``urgent``. It may raise, which ends the
-        operation.
+        Called with progress data: completed ``share``, current step ``doing``, message ``words``,
+        and whether it is ``urgent``. An exception that it raises ends the operation.
     wants : frozenset of str
         Names of the outputs that will be written.
     also : tuple of classes
-        Laws, materials, shapes and observables of the user's own.
+        User-defined laws, materials, shapes and observables.
     own : tuple of str
-        The files that they stand in.
+        Files that define them.
     folder : Path
-        That names in a study are relative to, where it is written to a stream.
+        Base folder of relative file names in a study that is written to a stream.
+
+    Examples
+    --------
+    >>> Caller(wants=frozenset({"csv"})).also
+    ()
     """
 
     tell: Callable[[Told], None] = lambda told: None
@@ -97,27 +101,27 @@ class Caller:
 
 @dataclass(frozen=True)
 class Answer:
-    """What came of an operation. All but `found` is made when it is asked for.
+    """Result of an operation, returned by :func:`ask`; representations are created on demand.
 
     Attributes
     ----------
     found : object
-        As Python has it.
+        The result as a Python object.
     record : callable
-        Returns it as plain data, numbers in SI with the unit in the name: what ``--json`` prints
-        and HTTP answers.
+        Returns plain data, numbers in SI with the unit in the name, as printed by ``--json`` and
+        returned over HTTP.
     words : callable
-        Returns it as lines that a person reads.
+        Returns text for the terminal.
     files : mapping
-        Name of an output -> what writes it to a target.
+        Name of an output -> function that writes it to a target.
     pictures : mapping
-        Name of an output -> what draws it and returns a figure.
+        Name of an output -> function that returns a figure.
     drawn : callable, optional
-        Returns curves for the page, beside the record.
+        Returns curves for the page.
     notes : tuple of str
-        What is said beside the answer: files that were refused, doubts.
+        Warnings and remarks, such as rejected files.
     status : int
-        Exit status of the command: 1 where the simulation failed, 4 where some cases did.
+        Exit status of the command: 1 if the simulation failed, 4 if some cases failed.
     """
 
     found: Any
@@ -130,5 +134,5 @@ class Answer:
     status: int = 0
 
     def __str__(self) -> str:
-        """Return the words."""
+        """Return the text."""
         return self.words()

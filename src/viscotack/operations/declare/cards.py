@@ -1,8 +1,8 @@
-"""Cards of the options of an operation: what may be given, in words and with its range.
+"""Cards of the options of an operation: description, type, unit and range.
 
-An option is a field of an operation with a card in its annotation. The field's type says the rest:
-``float | None`` may be left out, ``tuple[Path, ...]`` may be given several times. A card converts
-what a user gave, text or number, in one place for every door.
+An option is a field of an operation with a card in its annotation. The type of the field determines
+the rest: ``float | None`` is optional, ``tuple[Path, ...]`` can be repeated. The card converts the
+input of the user, text or number, in the same way for every front end.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -16,46 +16,46 @@ from viscotack.units import parse
 
 
 class Place(Protocol):
-    """Where a request comes from: how names of files are read there."""
+    """Origin of a request; resolves file names."""
 
     @property
     def also(self) -> tuple[Any, ...]:
-        """Nouns of the user's own."""
+        """User-defined classes."""
         ...
 
     def file(self, name: str) -> Path:
-        """Return the path of a file that an option names; InputError where none may be named."""
+        """Return the path of a file named by an option; InputError if it is not accessible."""
         ...
 
     def within(self, path: Path) -> "Place":
-        """Return the place of the names that stand in a file."""
+        """Return the place that resolves the file names inside a file."""
         ...
 
 
 @dataclass(frozen=True)
 class Card:
-    """What all cards have.
+    """Base class of the cards of options.
 
     Attributes
     ----------
     words : str
-        What the option means, a sentence or two.
+        Description of the option, a sentence or two.
     metavar : str
-        What stands for the value in a help text.
+        Placeholder of the value in help texts.
     flags : tuple of str
-        Spelling on the command line, where it is not ``--name``.
+        Command-line options, if not ``--name``.
     argument : bool
-        Whether the command line takes it by its position.
+        Whether it is a positional argument on the command line.
     example : str
-        As a user may give it.
+        Example of a value.
     objects : tuple of classes
-        What Python may give in the place of a text; it is the value as it stands.
+        Classes whose instances Python may pass unchanged.
     late : bool
-        Whether it is read after the others, because that takes a while.
+        Whether it is read after the other options, because reading is slow.
     single : bool
-        Whether a tuple of it is one value, and not several of them.
+        Whether a tuple is a single value, not repeated values.
     form : str
-        Kind of field that a page draws for it.
+        Kind of field on the page.
     """
 
     late: ClassVar[bool] = False
@@ -71,44 +71,44 @@ class Card:
     objects: tuple[type, ...] = field(default=(), kw_only=True)
 
     def value(self, given: Any, place: Place) -> Any:
-        """Return the value of the option: what is given, where that is one of `objects`."""
+        """Convert the input; instances of `objects` are returned unchanged."""
         return given if isinstance(given, self.objects) else self.read(given, place)
 
     def read(self, value: Any, place: Place) -> Any:
-        """Return the value of the option; InputError where it is none."""
+        """Convert the input to the value of the option; InputError if it is invalid."""
         raise NotImplementedError
 
     def written(self, value: Any) -> Any:
-        """Return a value as a study file states it, so that reading it gives the same value."""
+        """Convert a value to the form in a study file; reading it gives the same value."""
         return value
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """What it is stated by, where that has names of its own."""
+        """Names of the inputs, if the option consists of several."""
         return ()
 
     def names(self, given: Any) -> tuple[str, ...]:
-        """Return the files that what a user gave names, which nothing must be written over."""
+        """Return the input files named by the user, which must not be overwritten."""
         return ()
 
     @property
     def schema(self) -> dict[str, Any]:
-        """The JSON schema of a value, as HTTP takes it."""
+        """JSON schema of a value."""
         return {"type": "string", "maxLength": 200_000}
 
 
 @dataclass(frozen=True)
 class Number(Card):
-    """A number; with a unit it may be given as text, "5.19 mm", or as a number in that SI unit.
+    """A number, given as text with a unit, "5.19 mm", or as a number in SI.
 
     Attributes
     ----------
     unit : str
         SI unit; "1" for a pure number.
     above, least, most : float or None
-        Open lower bound, lower and upper bound.
+        Open lower bound, closed lower bound and closed upper bound.
     bare : bool
-        Whether text without a unit is taken to be in that unit, as its words say.
+        Whether text without a unit is accepted and means the SI unit.
     """
 
     form: ClassVar = "number"
@@ -142,9 +142,9 @@ class Number(Card):
 
 
 def number_of(card: Quantity, **more: Any) -> Number:
-    """Return the card of an option for a number that has a card already.
+    """Create the card of an option from the card of a number.
 
-    Keywords are those of `Number`; its words, unit, range and example are those of the card.
+    Description, unit, range and example are taken from the card; keywords are those of `Number`.
     """
     words = f"{card.words[0].upper()}{card.words[1:]}"
     words += f"; must {card.range}" if card.bounded else ""
@@ -156,14 +156,14 @@ def number_of(card: Quantity, **more: Any) -> Number:
 
 @dataclass(frozen=True)
 class Known(Number):
-    """A number that is known from elsewhere, and its standard uncertainty: two options.
+    """A known number and its standard uncertainty: two options.
 
     The value of the field is a pair. A study may state both in a list.
     """
 
     single: ClassVar = True
 
-    uncertainty: str = field(default="Standard uncertainty of it; goes with it.", kw_only=True)
+    uncertainty: str = field(default="Its standard uncertainty; needed with it.", kw_only=True)
 
     def written(self, value: Any) -> Any:
         """Return both numbers with their unit."""
@@ -234,7 +234,7 @@ class Whole(Card):
 
 @dataclass(frozen=True)
 class Text(Card):
-    """Words that the operation reads itself."""
+    """Text that the operation interprets."""
 
     def read(self, value: Any, place: Place) -> str:
         """Return the words."""
@@ -245,7 +245,7 @@ class Text(Card):
 
 @dataclass(frozen=True)
 class Choice(Card):
-    """One of some words."""
+    """One of several words."""
 
     form: ClassVar = "choice"
 
@@ -292,7 +292,7 @@ class File(Card):
     Attributes
     ----------
     elsewhere : bool
-        Whether the command line takes it in the place of another option, and has no flag for it.
+        Whether it replaces another option on the command line and has no option of its own.
     """
 
     form: ClassVar = "file"
@@ -335,7 +335,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class FileOfNames(File):
-    """A file that names other files; of a request over HTTP only those that were sent with it."""
+    """A file that names other files; over HTTP these must be sent with the request."""
 
     def read(self, value: Any, place: Place) -> Placed:
         """Return the path of the file, which the operation reads, and its place."""
@@ -348,14 +348,14 @@ class FileOfNames(File):
 
 @dataclass(frozen=True)
 class Named(Card):
-    """A published name, or else a file; the value is a text that the operation reads.
+    """A published name or a file; the value is text that the operation interprets.
 
     Parameters
     ----------
     published : callable
         Returns the names.
     text : str
-        What a text that is no name begins with and that is content itself, such as ``[material]``.
+        Beginning of a text that is content, not a name, such as ``[material]``.
     """
 
     form: ClassVar = "named"
@@ -391,14 +391,14 @@ class Naming:
 
 @dataclass(frozen=True)
 class Spelled(Card):
-    """Words that may name a file behind or without a keyword, such as ``prony:FILE``.
+    """Text that may contain a file name, with or without a keyword, such as ``prony:FILE``.
 
     Parameters
     ----------
     before : tuple of str
-        Keywords behind which the name of a file stands, with their mark.
+        Keywords, with the separator, that precede a file name.
     endings : tuple of str
-        Of words that are the name of a file as they stand.
+        Endings of file names without keyword.
     """
 
     before: tuple[str, ...] = field(default=(), kw_only=True)

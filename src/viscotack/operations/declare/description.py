@@ -1,4 +1,4 @@
-"""An operation as plain data: for the page's forms, for OpenAPI, and for the reference."""
+"""Operations as plain data, for the forms of the page, OpenAPI and the reference."""
 
 from inspect import cleandoc
 from typing import Any
@@ -9,12 +9,12 @@ from .options import Operation, Option, options, spelled, summary
 
 
 def path(word: str) -> str:
-    """Return where HTTP has an operation: "identify rates" is at ``identify/rates``."""
+    """Return the HTTP path of an operation: ``identify/rates`` for "identify rates"."""
     return word.replace(" ", "/")
 
 
 def described(kind: type[Operation]) -> dict[str, Any]:
-    """Return the words, options and outputs of an operation."""
+    """Return the name, description, options and outputs of an operation."""
     return {
         "word": kind.word,
         "path": path(kind.word),
@@ -47,7 +47,7 @@ def _option(option: Option, kind: type[Operation]) -> dict[str, Any]:
 
 
 def _example(card: Card) -> str:
-    """Return what a field may hold, from the example or the first words in quotes of a card."""
+    """Return the example of a card, or the first quoted text of its description."""
     quoted = card.words.split('"')
     return card.example.strip('"') or (quoted[1] if len(quoted) > 2 else "")
 
@@ -67,7 +67,7 @@ def request_schema(kind: type[Operation], *, sent: bool) -> dict[str, Any]:
     properties["outputs"] = {
         "type": "array",
         "items": {"type": "string", "enum": names},
-        "description": "What is wanted beside the record of the answer.",
+        "description": "Requested outputs besides the record of the answer.",
     }
     if sent:
         properties["attached"] = {

@@ -1,8 +1,8 @@
-"""Operations as data: their options, and the one way from what a user gave to an operation.
+"""Options of operations, and the conversion of user input to an operation.
 
 An operation is a frozen dataclass. Its fields are its options, each with a card; a field whose type
-is a `Part` stands for the options of that part. Command line, HTTP, page, study files and Python
-all hand over a mapping, option -> what was given, to :func:`take`, and nobody else converts.
+is a `Part` contributes the options of that part. All front ends pass a mapping, option -> input, to
+:func:`take`, the only function that converts input.
 """
 
 import re
@@ -20,37 +20,37 @@ from .answer import Answer, Caller, Output
 from .cards import Card, Known, Place
 from .wording import flag, listed
 
-# not where it is a part of a word, as in the name of a file
+# not inside a word, such as a file name
 _FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*(?!\w)")
-# Options that doors have of their own, for every operation.
+# Options that front ends add to every operation.
 OF_DOORS = ("outputs", "attached", "operation", "write", "json", "with")
 
 
 class Part:
-    """Some options that several operations have; a frozen dataclass as well."""
+    """Group of options shared by several operations; a frozen dataclass."""
 
     # of the table that holds them in a study file
     table: ClassVar[str] = ""
 
 
 class Operation:
-    """What a user can ask.
+    """Base class of operations; :func:`operation` returns one by name.
 
-    Subclasses are frozen dataclasses whose docstring is the help: a line that says what is asked,
-    more about it, and an example of the command.
+    Subclasses are frozen dataclasses. Their docstring is the help text: a summary line, details,
+    and an example of the command.
 
     Attributes
     ----------
     word : str
-        Of the command: ``identify rates``.
+        Name of the operation and its command: ``identify rates``.
     outputs : tuple of Output
-        Files that it may write beside its answer.
+        Files that it can write.
     takes_own : bool
-        Whether laws, materials, shapes or observables of the user's own may be named.
+        Whether it accepts user-defined laws, materials, shapes or observables.
     refused : mapping
-        Door -> why this operation is not there: ``{"http": "..."}``.
+        Front end that does not offer the operation -> reason: ``{"http": "..."}``.
     helps : mapping
-        Help of each command, where an operation has several.
+        Help text of each command, if the operation has several.
     """
 
     word: ClassVar[str]
@@ -60,12 +60,12 @@ class Operation:
     helps: ClassVar[Mapping[str, str]] = {}
 
     def answer(self, caller: Caller) -> Answer:
-        """Return the answer; imports what computes it here, so that declarations cost nothing."""
+        """Compute the answer; implementations import numerical modules here, not on top."""
         raise NotImplementedError
 
     @classmethod
     def kept(cls, given: Mapping[str, Any]) -> tuple[str, ...]:
-        """Return the files among what was given whose place no output may take."""
+        """Return the input files, which no output may overwrite."""
         found: list[str] = []
         for option in options(cls):
             value = given.get(option.name)
@@ -75,7 +75,7 @@ class Operation:
 
     @classmethod
     def of(cls, **given: Any) -> Self:
-        """Return the operation with these options: numbers in SI, or texts with units."""
+        """Create the operation from its options: numbers in SI, or text with units."""
         return take(cls, given, Here())
 
 
@@ -84,14 +84,14 @@ Asked = TypeVar("Asked", bound=Operation)
 
 @dataclass(frozen=True)
 class Here:
-    """A request of this machine: files are named as the shell does, or beside a study.
+    """Origin of a local request: file names are relative to the working folder or to a study.
 
     Attributes
     ----------
     folder : Path
-        That relative names are relative to.
+        Base folder of relative names.
     also : tuple of classes
-        Nouns of the user's own.
+        User-defined classes.
     """
 
     folder: Path = Path()
@@ -102,7 +102,7 @@ class Here:
         return self.folder / name
 
     def within(self, path: Path) -> "Here":
-        """Return the place of the names that stand in a file: they lie beside it."""
+        """Return the place for file names inside a file: they are relative to its folder."""
         return Here(path.parent, self.also)
 
 
@@ -113,19 +113,19 @@ class Option:
     Attributes
     ----------
     name : str
-        As Python, HTTP and study files spell it; with dashes on the command line.
+        Name in Python, HTTP and study files; with dashes on the command line.
     card : Card
-        What it is.
+        Description, type, unit and range.
     default : object
-        Where it is left out; `dataclasses.MISSING` where it must be given.
+        Default value; `dataclasses.MISSING` if the option is required.
     many : bool
-        Whether it may be given several times.
+        Whether it can be repeated.
     part : str
-        Field of the operation that holds it; "" for the operation itself.
+        Field of the operation that contains the part; "" for the operation itself.
     table : str
-        Of a study file that holds it; "" for none.
+        Table of a study file that contains the option; "" for none.
     field : str
-        Of the operation or its part that gets the value.
+        Field of the operation or part that receives the value.
     """
 
     name: str
@@ -138,30 +138,30 @@ class Option:
 
     @property
     def needed(self) -> bool:
-        """Whether it must be given."""
+        """Whether the option is required."""
         return self.default is MISSING
 
     @property
     def uncertainty(self) -> bool:
-        """Whether it is the uncertainty of a number that is known from elsewhere."""
+        """Whether the option is the uncertainty of another option."""
         return self.name != self.field
 
     @property
     def words(self) -> str:
-        """What it means."""
+        """Description for the user."""
         card = self.card
         return card.uncertainty if isinstance(card, Known) and self.uncertainty else card.words
 
     @property
     def flag(self) -> str:
-        """As messages name it."""
+        """Spelling in messages."""
         spelled = () if self.uncertainty else self.card.flags
         return next((f for f in spelled if f.startswith("--")), flag(self.name))
 
 
 @lru_cache(maxsize=256)
 def options(kind: type) -> tuple[Option, ...]:
-    """Return the options of an operation, those of its parts among them.
+    """Return the options of an operation, including those of its parts.
 
     Raises
     ------
@@ -202,29 +202,29 @@ def _is_many(hint: Any) -> bool:
 
 
 def take(kind: type[Asked], given: Mapping[str, Any], place: Place) -> Asked:
-    """Return the operation that was asked for: the only conversion of what users give.
+    """Create an operation from user input; the only place where input is converted.
 
     Parameters
     ----------
     kind : class
         The operation.
     given : mapping
-        Name of an option -> text, number, list of these, or what Python has. None and empty lists
-        stand for options that were left out.
+        Name of an option -> text, number, list of these, or Python object. None and empty lists
+        mean that the option is not given.
     place : Place
-        How names of files are read.
+        Resolves file names.
 
     Raises
     ------
     InputError
-        If a name is unknown, options are missing (all are named), a value is none, or options do
-        not go together. Options are spelled ``--name``; :func:`spelled` has other spellings.
+        If a name is unknown, options are missing (all are listed), a value is invalid, or options
+        exclude each other. Messages spell options ``--name``; :func:`spelled` converts them.
     """
     known = {option.name: option for option in options(kind)}
     said = {name: value for name, value in given.items() if not _is_left_out(value)}
     _refuse_unknown(kind, said, known)
     values: dict[str, dict[str, Any]] = {}
-    # what is quickly read comes first: a wrong word is told of before a problem is made
+    # fast options first, so that an invalid one is reported before a problem is built
     for name in sorted(said, key=lambda each: known[each].card.late):
         option, value = known[name], said[name]
         if isinstance(option.card, Known) and isinstance(value, list | tuple):
@@ -239,7 +239,7 @@ def take(kind: type[Asked], given: Mapping[str, Any], place: Place) -> Asked:
         option.flag for option in known.values() if option.needed and option.name not in said
     ]
     if missing:
-        raise InputError(f"{listed(missing)} missing; --help says what they are")
+        raise InputError(f"{listed(missing)} missing; see --help")
     for option in known.values():
         if isinstance(option.card, Known) and not option.uncertainty:
             _pair(option, values.get(option.part, {}))
@@ -255,10 +255,10 @@ def _refuse_unknown(kind: type, given: Mapping[str, Any], known: Mapping[str, Op
     unknown = [name for name in given if name not in known]
     if unknown:
         near = get_close_matches(unknown[0], known, n=1)
-        meant = f"; perhaps {near[0]} is meant" if near else ""
+        meant = f"; did you mean {near[0]}?" if near else ""
         word = getattr(kind, "word", kind.__name__)
         raise InputError(
-            f"{word} has no option {unknown[0]!r:.60}{meant}; there are {', '.join(known)}"
+            f"{word} has no option {unknown[0]!r:.60}{meant}; known options are {', '.join(known)}"
         )
 
 
@@ -282,18 +282,18 @@ def _one(option: Option, value: Any, place: Place) -> Any:
 
 
 def _pair(option: Option, values: dict[str, Any]) -> None:
-    """Make one value of a number and its uncertainty, of which one does not go alone."""
+    """Combine a number and its uncertainty into one value; both or neither must be given."""
     number, uncertainty = values.get(option.name), values.pop(f"{option.name}_uncertainty", None)
     if (number is None) != (uncertainty is None):
         raise InputError(
-            f"{option.flag} and {option.flag}-uncertainty go together; give both or neither"
+            f"{option.flag} and {option.flag}-uncertainty belong together; give both or neither"
         )
     if number is not None:
         values[option.name] = (number, uncertainty)
 
 
 def answered(asked: Operation, caller: Caller) -> Answer:
-    """Answer an operation; refuse numbers with which arithmetic overflows.
+    """Run an operation; InputError if arithmetic overflows.
 
     A plain division by zero is a defect of the operation.
     """
@@ -304,7 +304,7 @@ def answered(asked: Operation, caller: Caller) -> Answer:
 
 
 def spelled(message: str, kind: type[Operation]) -> str:
-    """Return a message in which options have the names of HTTP, study files and Python."""
+    """Convert the option names in a message to the spelling of HTTP, study files and Python."""
     asked = {name for option in options(kind) for name in option.card.asks}
     flags = {f"--{name}": name.replace("-", "_") for name in asked}
     flags |= {option.flag: option.name for option in options(kind)}
@@ -313,16 +313,16 @@ def spelled(message: str, kind: type[Operation]) -> str:
     def name(found: re.Match[str]) -> str:
         return flags.get(found[0], found[0])
 
-    message = message.replace("; --help says what they are", "")
+    message = message.replace("; see --help", "")
     return _FLAG.sub(name, message)
 
 
 def respelled(error: InputError, kind: type[Operation]) -> InputError:
-    """Return an error with its message as :func:`spelled` has it."""
+    """Return an error with its message converted by :func:`spelled`."""
     known = OutOfRange if isinstance(error, OutOfRange) else InputError
     return known(spelled(str(error), kind))
 
 
 def summary(kind: type) -> str:
-    """Return the first sentence of what an operation is."""
+    """Return the first sentence of an operation's docstring."""
     return cleandoc(kind.__doc__ or "").partition("\n\n")[0].replace("\n", " ")

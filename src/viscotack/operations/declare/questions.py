@@ -1,7 +1,7 @@
-"""What a command, or a page, asks to state a problem by numbers; read from the cards of the nouns.
+"""Options that define a problem by numbers, generated from the cards of the nouns.
 
-A :class:`Door` is an indenter that can be stated so. Its :attr:`Door.questions` have names, words,
-units and examples; :func:`stated` makes the problem of the answers.
+An :class:`Indenter` has :attr:`Indenter.questions`, each with name, description, unit and example;
+:func:`stated` builds the problem from the values.
 """
 
 from collections.abc import Iterable, Mapping
@@ -38,17 +38,17 @@ from viscotack.units import parse, positive
 
 from .wording import listed
 
-# What a start is called in a flag.
+# Start -> name of its command-line option.
 STARTS: dict[str, Any] = {
     "preload": AtDepth,
     "preload-force": AtForce,
     "preload-radius": AtRadius,
     "apart": Apart,
 }
-# Contact radius of the start, in the unit of --preload-radius: a mesh for more has no end.
+# Largest contact radius of the start, in the unit of --preload-radius: the mesh size is limited.
 _LARGEST_START = 1000.0
 _SOLID = cards(RetardationPowerLaw)
-# What takes a sphere to SI.
+# Scales that convert a sphere to SI.
 SCALES: dict[str, Quantity] = {
     "radius": cards(Sphere)["radius"].card,
     "contact-modulus": card_of(ContactModulus),
@@ -85,29 +85,28 @@ _OTHER_MATERIALS = (
 
 
 _TEMPERATURE = (
-    'Of a material from a passport, "0 degC", within the range in which it was measured: its times '
-    "shift."
+    'Temperature of a passport material, "0 degC", within its measured range; shifts its times.'
 )
 _ALONE = (
-    "Of answers in SI; without dimensions a rate counts in times of the material. Goes with "
-    "CASE.toml as well."
+    "For results in SI only, because a dimensionless rate is relative to the time of the material. "
+    "Also for CASE.toml."
 )
 
 
 @dataclass(frozen=True)
 class Question:
-    """A number or a few words that help to state a problem.
+    """A number or text that defines part of a problem.
 
     Attributes
     ----------
     name : str
-        Of the flag, without dashes in front.
+        Name of the option, without leading dashes.
     words : str
-        What is asked, with its unit.
+        Description with the unit.
     text : bool
-        Whether the answer is words (a quantity with its unit, a name) and not a number.
+        Whether the value is text (a quantity with its unit, a name), not a number.
     many : bool
-        Whether there may be several answers.
+        Whether it may be repeated.
     """
 
     name: str
@@ -117,25 +116,25 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Door:
-    """An indenter that can be stated by numbers.
+class Indenter:
+    """An indenter that can be defined by numbers.
 
     Attributes
     ----------
     word : str
-        Of its command.
+        Name in the command.
     numbers : mapping
-        What the geometry asks: name of the flag -> card.
+        Numbers of the geometry: name of the option -> card.
     units : mapping
-        What a machine's numbers are in.
+        Units of the numbers of the machine.
     starts : tuple of str
-        Ways to begin.
+        Available starts.
     material : str
-        The solid that is meant where none is stated.
+        Default material.
     in_si : bool
-        Whether the answer may be asked in SI.
+        Whether results in SI are available.
     more : mapping
-        Cards of numbers that may be left out, as `numbers`.
+        Cards of optional numbers, as `numbers`.
     """
 
     word: str
@@ -148,7 +147,7 @@ class Door:
 
     @cached_property
     def questions(self) -> tuple[Question, ...]:
-        """All that can be asked."""
+        """All options of the indenter."""
         solid = "; ".join(
             f"{word}{' (also when left out)' if word == self.material else ''}: {words}"
             for word, words in _MATERIALS.items()
@@ -185,7 +184,7 @@ class Door:
 
 
 def question_of(card: Quantity, unit: str = "") -> str:
-    """Return what a card asks, its unit, its range and an example."""
+    """Return the help text of a card: description, unit, range and example."""
     head, comma, rest = card.words.partition(",")
     words = f"{head[0].upper()}{head[1:]}" + (f", in {unit}" if unit else "") + comma + rest
     symbol = f" ({card.symbol})" if card.symbol else ""
@@ -194,8 +193,8 @@ def question_of(card: Quantity, unit: str = "") -> str:
 
 
 _GLUED = (
-    "The layer is glued to its base and has this Poisson ratio, 0 to 0.5; without it, it slides on "
-    "its base."
+    "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer slides "
+    "on its base."
 )
 _TABOR = {"tabor": cards(Groups)["tabor"].card}
 _LAYER = {
@@ -208,10 +207,10 @@ _LAYER = {
 }
 _PUNCH = plane.SIZES | {"cohesion": cards(Groups)["cohesion"].card}
 
-SPHERE = Door(
+SPHERE = Indenter(
     "sphere", _TABOR, revolution.GROUPS, tuple(STARTS), "power-law", in_si=True, more=_LAYER
 )
-PROFILE = Door(
+PROFILE = Indenter(
     "profile",
     _TABOR | {"profile-exponent": cards(PowerLawProfile)["exponent"].card},
     revolution.GROUPS,
@@ -219,8 +218,10 @@ PROFILE = Door(
     "power-law",
     more=_LAYER,
 )
-DISC = Door("disc", _TABOR, revolution.GROUPS, ("preload", "preload-force", "apart"), "power-law")
-PUNCH = Door("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
+DISC = Indenter(
+    "disc", _TABOR, revolution.GROUPS, ("preload", "preload-force", "apart"), "power-law"
+)
+PUNCH = Indenter("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
 # Of either: what a sphere is asked, and what a punch alone.
 _OF_SPHERE = {question.name for question in SPHERE.questions}
 SPHERE_OR_PUNCH = (*SPHERE.questions, *(q for q in PUNCH.questions if q.name not in _OF_SPHERE))
@@ -228,43 +229,45 @@ SPHERE_OR_PUNCH = (*SPHERE.questions, *(q for q in PUNCH.questions if q.name not
 OF_FILE = (Question("temperature", _TEMPERATURE, text=True),)
 
 
-def stated(door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()) -> Groups | Problem:
-    """Return the problem that the answers state: dimensionless, or in SI when scales are given.
+def stated(
+    indenter: Indenter, answers: Mapping[str, Any], also: Iterable[Any] = ()
+) -> Groups | Problem:
+    """Build the problem: dimensionless, or in SI if scales are given.
 
     Parameters
     ----------
-    door : Door
-        Which indenter.
+    indenter : Indenter
+        The indenter.
     answers : mapping
-        By the names of the questions; None where not given.
+        Values by the names of the options; None if not given.
     also : iterable of classes
-        Laws and materials of the user's own.
+        User-defined laws and materials.
 
     Raises
     ------
     ValueError
-        If an answer is missing, does not go with another, or is impossible.
+        If a value is missing, excluded by another one, or invalid.
     """
     given, nouns = given_of(answers), known(also)
     given |= _scales_of_passport(given, nouns)
     in_si = bool(given.keys() & SCALES.keys())
     if "temperature" in given and not in_si:
         raise InputError(
-            "--temperature changes nothing without dimensions: there --rate counts in times of the "
-            "material, which shift with it; give --radius and --work-of-adhesion, or CASE.toml"
+            "--temperature has no effect on a dimensionless problem, because --rate is relative to "
+            "the time of the material; give --radius and --work-of-adhesion, or CASE.toml"
         )
-    _refuse_missing(door, given, in_si, nouns)
-    solid, unit = material_from({"material": door.material, **given}, nouns)
+    _refuse_missing(indenter, given, in_si, nouns)
+    solid, unit = material_from({"material": indenter.material, **given}, nouns)
     elastic = isinstance(solid, Elastic)
     check_number_of_moves(len(given.get("move", ())))
     moves = tuple(move_from_words(words, PURE_NUMBERS) for words in given.get("move", ()))
     numbers = {
         name.replace("-", "_"): card.checked(f"--{name}", given[name], "1")
-        for name, card in door.numbers.items()
+        for name, card in indenter.numbers.items()
     }
     parts: dict[str, Any] = {
         "material": solid,
-        "start": _start(door, given, numbers),
+        "start": _start(indenter, given, numbers),
         # An elastic solid has no time of its own: without a rate the time unit of a dimensionless
         # answer is that in which the drive travels h0. Seconds need a speed.
         "rate": _positive(given, "rate", None if moves else 1.0),
@@ -272,31 +275,31 @@ def stated(door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()) -> 
         "moves": moves,
         "stiffness": _positive(given, "stiffness", None),
     }
-    if door is PUNCH:
+    if indenter is PUNCH:
         parts |= {"geometry": FlatPunch(numbers["size"]), "body": _layer(given)}
         return Groups(tabor=None, cohesion=numbers["cohesion"], **parts)
-    if door is PROFILE:
+    if indenter is PROFILE:
         q = numbers.pop("profile_exponent")
         parts["geometry"] = PowerLawProfile(1 / q, q)
-    if door is DISC:
+    if indenter is DISC:
         parts["geometry"] = Disc(1.0)
     if "thickness" in given:
         parts["body"] = _layer(given)
     elif "bonded" in given:
-        raise InputError("--bonded is of a layer: give its --thickness as well")
+        raise InputError("--bonded needs a layer; give its --thickness as well")
     groups = Groups(**numbers, **parts)
     return _in_si(groups, given, "s" if elastic else unit) if in_si else groups
 
 
 def _layer(given: Mapping[str, Any]) -> Layer:
-    """Return the layer that the answers state."""
+    """Build the layer from the values."""
     glued = "bonded" in given
     base = Bonded(poisson_ratio=given["bonded"]) if glued else Frictionless()
     return Layer(_LAYER["thickness"].checked("--thickness", given["thickness"], "1"), base)
 
 
 def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple[Material, str]:
-    """Return the reduced material, and the unit of its times if a file states one, else "1"."""
+    """Return the reduced material, and the time unit given by its file, else "1"."""
     nouns = known() if nouns is None else nouns
     name = given.get("material", "power-law")
     if is_passport(name):
@@ -304,8 +307,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
         return _solid_of(given, nouns).reduced(), "1"
     if "temperature" in given:
         raise InputError(
-            "--temperature is for a material from a passport, which says how times shift; give "
-            "--material FILE.toml"
+            "--temperature needs a passport with a shift law; give --material FILE.toml"
         )
     kind = _kind_of_material(name, nouns)
     word, _, rest = name.partition(":")
@@ -313,7 +315,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
     numbers = material_numbers(kind)
     for flag in ("modulus-ratio", "exponent"):
         if flag in given and flag not in numbers:
-            raise InputError(f"--{flag} does not go with --material {word}; leave it out")
+            raise InputError(f"--{flag} is not an option of --material {word}; remove it")
     values: dict[str, Any] = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
     if kind is Prony:
         branches, unit = read_prony(rest)
@@ -323,7 +325,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
         if k > 1:
             raise InputError(
                 f"--modulus-ratio is the rubbery over the glassy modulus, in (0, 1], got {k:g}; "
-                f"perhaps {1 / k:.4g} is meant"
+                f"did you mean {1 / k:.4g}?"
             )
         values["glassy_modulus"] = 1 / k
     if "tau0" in cards(kind):
@@ -334,24 +336,24 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
 
 
 def is_passport(material: Any) -> bool:
-    """Return whether a material is stated by a passport: an object, or the name of its file."""
+    """Whether a material is given by a passport: an object or a file name."""
     return isinstance(material, Passport) or material.endswith(".toml")
 
 
 def passport_in(material: Any, also: Iterable[Any] = ()) -> Passport:
-    """Return the passport by which a material is stated."""
+    """Return the passport of a material."""
     return material if isinstance(material, Passport) else read_passport(material, also=also)
 
 
 def refuse_beside(material: Any, given: Mapping[str, Any], flags: Iterable[str]) -> None:
-    """Refuse what a passport states already."""
+    """Raise InputError for options that the passport already defines."""
     if beside := [f"--{flag}" for flag in flags if flag in given]:
         name = material.name if isinstance(material, Passport) else material
-        raise InputError(f"{name} states the whole material; leave out {listed(beside)}")
+        raise InputError(f"{name} defines the whole material; remove {listed(beside)}")
 
 
 def _kind_of_material(name: Any, nouns: Nouns) -> Any:
-    """Return the class of a material that a flag names, None for a passport."""
+    """Return the class of the named material, None for a passport."""
     if is_passport(name):
         return None
     word, _, rest = name.partition(":")
@@ -404,24 +406,26 @@ def _positive(given: Mapping[str, Any], name: str, otherwise: float | None) -> f
     return positive(f"--{name}", given[name], "1") if name in given else otherwise
 
 
-def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool, nouns: Nouns) -> None:
-    """Name all that is missing at once."""
-    solid = {"material": door.material, **given}
+def _refuse_missing(
+    indenter: Indenter, given: Mapping[str, Any], in_si: bool, nouns: Nouns
+) -> None:
+    """Raise InputError that lists all missing options."""
+    solid = {"material": indenter.material, **given}
     elastic = solid["material"] == Elastic.word
     moved = bool(given.get("move"))
     rate = ["rate"] if not moved and (in_si or not elastic) else []
     needs = material_needs(solid, nouns)
-    missing = [f"--{name}" for name in (*door.numbers, *needs, *rate) if name not in given]
+    missing = [f"--{name}" for name in (*indenter.numbers, *needs, *rate) if name not in given]
     start = ""
-    if not given.keys() & set(door.starts):
-        start = f"exactly one of {', '.join(f'--{name}' for name in door.starts)}"
+    if not given.keys() & set(indenter.starts):
+        start = f"exactly one of {', '.join(f'--{name}' for name in indenter.starts)}"
     if missing:
         of_solid = any(name not in given for name in needs)
         why = f" for --material {solid['material']}" if of_solid else ""
-        more = f", and {start}, of which none is given" if start else ""
-        raise InputError(f"{listed(missing)} missing{why}{more}; --help says what they are")
+        more = f"; also give {start}" if start else ""
+        raise InputError(f"{listed(missing)} missing{why}{more}; see --help")
     if start:
-        raise InputError(f"give {start}, got none; --help says what they are")
+        raise InputError(f"give {start}, got none; see --help")
 
 
 def _solid_of(given: Mapping[str, Any], nouns: Nouns) -> Material:
@@ -452,7 +456,7 @@ def shift_deviation_of(answers: Mapping[str, Any], also: Iterable[Any] = ()) -> 
 
 
 def _scales_of_passport(given: Mapping[str, Any], nouns: Nouns) -> dict[str, Any]:
-    """Return what a passport says of the scales, where the answer is wanted in SI."""
+    """Return the scales that a passport defines, if the result is requested in SI."""
     name = given.get("material", "")
     if not is_passport(name) or not given.keys() & SCALES.keys():
         return {}
@@ -465,8 +469,10 @@ def _scales_of_passport(given: Mapping[str, Any], nouns: Nouns) -> dict[str, Any
     return scales if isinstance(solid, Elastic) else scales | {"tau0": f"{solid.time_unit!r} s"}
 
 
-def _start(door: Door, given: Mapping[str, Any], numbers: Mapping[str, float]) -> Start | Apart:
-    name = one_of(given, door.starts)
+def _start(
+    indenter: Indenter, given: Mapping[str, Any], numbers: Mapping[str, float]
+) -> Start | Apart:
+    name = one_of(given, indenter.starts)
     kind = STARTS[name]
     (field,) = cards(kind).values()
     value = field.card.checked(f"--{name}", given[name], "1")
@@ -481,13 +487,13 @@ def _refuse_large(name: str, start: Start | Apart, tabor: float, exponent: float
     (value,) = vars(start).values()
     if radius > _LARGEST_START and tabor < (least := revolution.SIMULATED_TABOR[0]):
         raise InputError(
-            f"--tabor must be at least {least:g} for a simulation, got {tabor:g}; below take "
-            "theory.bradley"
+            f"--tabor must be at least {least:g} for a simulation, got {tabor:g}; use "
+            "theory.bradley below"
         )
     if radius > _LARGEST_START:
         raise InputError(
-            f"--{name} {value:g}, at --tabor {tabor:g}, is a contact of radius {radius:.3g} "
-            f"(pi R^2 dg0/E0*)^(1/3), and a simulation takes up to {_LARGEST_START:g}; give less"
+            f"--{name} {value:g} at --tabor {tabor:g} gives a contact radius of {radius:.3g} "
+            f"(pi R^2 dg0/E0*)^(1/3), above the limit of {_LARGEST_START:g}; give less"
         )
 
 
@@ -497,7 +503,7 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
     if len(lengths) != 1:
         raise InputError(
             "for SI give exactly one of --equilibrium-gap and --work-of-adhesion, "
-            f"got {'both' if lengths else 'none'}; the Tabor number tells the other"
+            f"got {'both' if lengths else 'none'}; the Tabor number determines the other"
         )
     needed = ["radius", "contact-modulus", "poisson-ratio", *(["tau0"] if unit == "1" else [])]
     require(given, needed, " to go to SI")
@@ -519,11 +525,11 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
 def refuse_time(given: Mapping[str, Any], unit: str) -> None:
     """Refuse a time beside a material whose times have a unit, "1" being none."""
     if unit != "1" and "tau0" in given:
-        raise InputError(f"--tau0 is not needed, the unit of time is {unit}; leave it out")
+        raise InputError(f"--tau0 is not needed because the time unit is {unit}; remove it")
 
 
 def one_of(given: Mapping[str, Any], names: Iterable[str]) -> str:
-    """Return which one of some flags is given; refuse none and several."""
+    """Return the one option that is given; InputError for none or several."""
     found = [name for name in names if name in given]
     if len(found) != 1:
         got = " and ".join(f"--{name}" for name in found) or "none"
@@ -533,7 +539,7 @@ def one_of(given: Mapping[str, Any], names: Iterable[str]) -> str:
 
 
 def require(given: Mapping[str, Any], names: Iterable[str], why: str = "") -> None:
-    """Refuse flags of which some are missing, and say which."""
+    """Raise InputError that lists the missing options."""
     missing = [f"--{name}" for name in names if name not in given]
     if missing:
-        raise InputError(f"{listed(missing)} missing{why}; --help says what they are")
+        raise InputError(f"{listed(missing)} missing{why}; see --help")

@@ -1,7 +1,7 @@
-"""The state of the page: a case in words and numbers with units, and all the ways to write it.
+"""State of the page: the tables of a case, and their forms as link, file, command and Python code.
 
-A :class:`State` is the tables of a case file. It is a link, a file, a command line and a piece of
-Python, and all of them give the same digits, because all of them make the same problem.
+A :class:`State` contains the tables of a case file. Link, file, command line and Python code
+generated from it define the same problem and give the same digits.
 """
 
 import json
@@ -28,15 +28,15 @@ Tables = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class State:
-    """A case as its tables say it.
+    """A case, as the tables of a case file.
 
     Parameters
     ----------
     tables : mapping
-        Name of a table -> its keys and values, as in a case file: texts with units, pure numbers,
-        lists of these.
+        Name of a table -> its keys and values, as in a case file: text with units, dimensionless
+        numbers, lists of these.
     also : tuple of classes
-        Laws, materials and shapes of the user's own that it may name.
+        User-defined laws, materials and shapes.
 
     Raises
     ------
@@ -65,7 +65,7 @@ class State:
                 f"got {tables!r:.80}"
             )
         if sum(len(table) for table in tables.values()) > _MOST_KEYS:
-            raise InputError(f"{_WHERE} has more than {_MOST_KEYS} keys; a case has a few dozen")
+            raise InputError(f"{_WHERE} has more than {_MOST_KEYS} keys")
         plain = {
             str(name): {str(key): _plain(value) for key, value in table.items()}
             for name, table in tables.items()
@@ -77,7 +77,7 @@ class State:
 
     @cached_property
     def problem(self) -> Problem:
-        """The problem in SI; ValueError where the tables state none."""
+        """The problem in SI; ValueError if the tables do not define one."""
         return case_of_tables(self.tables, where=_WHERE, also=self.also)
 
     @property
@@ -118,7 +118,7 @@ class State:
         if self.also:
             return (
                 "import viscotack as vt\n\n"
-                "# a case with a noun of your own: also= has the classes of its file\n"
+                "# also= contains the user-defined classes of the case\n"
                 'problem = vt.read_case("case.toml", also=also)\n'
                 f"result = vt.solve(problem{flags})\nprint(vt.summary(result))\n"
             )
@@ -131,7 +131,7 @@ class State:
 
 
 def state_of_toml(text: str, also: Iterable[Any] = ()) -> State:
-    """Return the state that a case file states.
+    """Read a state from the text of a case file.
 
     Raises
     ------
@@ -143,9 +143,9 @@ def state_of_toml(text: str, also: Iterable[Any] = ()) -> State:
 
 
 def state_of_query(query: str, also: Iterable[Any] = ()) -> State:
-    """Return the state that the query of a link states.
+    """Read a state from the query of a link.
 
-    Keys without a point in them belong to the page and not to the case, and are passed over.
+    Keys without a dot belong to the page, not to the case, and are ignored.
     """
     _check_length(query)
     tables: dict[str, dict[str, Any]] = {}
@@ -159,12 +159,12 @@ def state_of_query(query: str, also: Iterable[Any] = ()) -> State:
 def _check_length(text: str) -> None:
     if len(text) > _MOST_TEXT:
         raise InputError(
-            f"{_WHERE} has {len(text):,} characters, more than the {_MOST_TEXT:,} that one may have"
+            f"{_WHERE} has {len(text):,} characters, more than the limit of {_MOST_TEXT:,}"
         )
 
 
 def _value(text: str) -> Any:
-    """Return what a text in a link says: a list, a pure number, or text."""
+    """Convert a text in a link to a list, a number or text."""
     if not text.startswith("[") and not _NUMBER.fullmatch(text):
         return text
     try:
@@ -174,7 +174,7 @@ def _value(text: str) -> Any:
 
 
 def _plain(value: Any, depth: int = 0) -> Any:
-    """Return a value of a table; text that is a pure number becomes one, as files write it."""
+    """Check a value of a table; numeric text is converted to a number."""
     if isinstance(value, list | tuple) and depth < 3:
         return [_entry(entry, depth) for entry in value]
     if isinstance(value, bool) or not isinstance(value, str | int | float):
@@ -198,7 +198,7 @@ def _key(name: str) -> str:
 
 
 def _called(noun: Any, indent: int) -> str:
-    """Return how Python makes a noun, a number a line, what equals its default left out."""
+    """Return the Python code that creates a noun, one number a line, without default values."""
     inner = " " * (indent + 4)
     lines = []
     for field in fields(noun):

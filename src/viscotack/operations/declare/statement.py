@@ -1,4 +1,4 @@
-"""The problem of an operation: stated by numbers, by a case file or its tables, or as an object."""
+"""Problems as options: defined by numbers, a case file, its tables, or a Python object."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ from .wording import flag
 if TYPE_CHECKING:
     from viscotack.problem import Case
 
-    from .questions import Door, Question
+    from .questions import Indenter, Question
 
 # Words of what can be stated by numbers.
 INDENTERS = ("sphere", "punch", "profile", "disc")
@@ -30,16 +30,16 @@ _NAMING = {
 
 @dataclass(frozen=True)
 class Statement:
-    """A problem, and how well it is known.
+    """A problem and the uncertainty of its material times.
 
     Attributes
     ----------
     problem : Problem or Groups
-        In SI or without dimensions.
+        In SI or dimensionless.
     deviation : float
         Standard deviation of log10 of the times of its material, from its shift with temperature.
     given : object
-        As it was given.
+        The input of the user.
     """
 
     problem: "Case"
@@ -48,12 +48,12 @@ class Statement:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is said where an answer does not hold how well times are known."""
+        """Warning for answers that do not include the uncertainty of the material times."""
         if self.deviation == 0:
             return ()
         return (
-            f"times of the material are known to {self.deviation:.2g} decades, from its shift with "
-            "temperature, which this answer does not hold; viscotack predict does",
+            f"the material times are uncertain by {self.deviation:.2g} decades because of the "
+            "temperature shift; this answer does not include that, viscotack predict does",
         )
 
 
@@ -68,14 +68,15 @@ class Stated(Card):
     Attributes
     ----------
     indenters : tuple of str
-        That may be stated by numbers.
+        Indenters that can be defined by numbers.
     spelling : str
-        Of the command line: the indenter is a command of its own, a word, or always the one; or
-        only a case file is taken.
+        On the command line the indenter is a subcommand ("command"), an argument or fixed, or only
+        a case file is accepted ("case").
     whole : bool
-        Whether any problem of a case file will do, whatever its indenter.
+        Whether a case file with any indenter is accepted.
     table, expected : str
-        Of a word: the option that gets the name of a CSV file in its place, and what is expected.
+        Option that receives the name of a CSV file given in place of the problem, and the text of
+        the error message for other arguments.
     """
 
     late: ClassVar = True
@@ -109,7 +110,7 @@ class Stated(Card):
         return Statement(State(value, place.also).problem, given=value)
 
     def written(self, value: Statement) -> Any:
-        """Return the problem as it was given, or its record."""
+        """Return the input of the user, or the record of the problem."""
         if isinstance(value.given, Mapping):
             said = {name: entry for name, entry in value.given.items() if entry is not None}
             return {
@@ -125,7 +126,9 @@ class Stated(Card):
     @property
     def asks(self) -> tuple[str, ...]:
         """The questions of its indenters."""
-        asked = (question.name for word in self.indenters for question in door_of(word).questions)
+        asked = (
+            question.name for word in self.indenters for question in indenter_named(word).questions
+        )
         return tuple(dict.fromkeys(asked))
 
     def names(self, given: Any) -> tuple[str, ...]:
@@ -149,17 +152,14 @@ class Stated(Card):
         given = given_of(value)
         flags = [flag(name) for name in given if name not in (_CASE, _TEMPERATURE, _INDENTER)]
         if flags:
-            raise InputError(f"{case} states the whole problem; leave out {', '.join(flags)}")
+            raise InputError(f"{case} defines the whole problem; remove {', '.join(flags)}")
         kelvin = temperature_of(given)
         beside = place.within(case).file
         problem = read_case(case, also=place.also, temperature=kelvin, beside=beside)
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
             command = found if found in INDENTERS else "case"
-            raise InputError(
-                f"{case} states a {found}, which has commands of its own: viscotack simulate "
-                f"{command} {case}"
-            )
+            raise InputError(f"{case} contains a {found}; use viscotack simulate {command} {case}")
         deviation = shift_deviation(case, temperature=kelvin, also=place.also)
         return Statement(problem, deviation, {**given, _CASE: case} if kelvin else case)
 
@@ -171,30 +171,30 @@ class Stated(Card):
             raise InputError(
                 f"indenter must be one of {', '.join(self.indenters)}, got {word!r:.60}"
             )
-        door = door_of(word)
+        indenter = indenter_named(word)
         given = {n.replace("_", "-"): v for n, v in given_of(value).items() if n != _INDENTER}
-        asked = {question.name: question for question in door.questions}
+        asked = {question.name: question for question in indenter.questions}
         unknown = [name for name in given if name not in asked]
         if unknown:
-            raise InputError(f"a {word} is not asked {', '.join(map(flag, unknown))}; leave it out")
+            raise InputError(f"a {word} has no option {', '.join(map(flag, unknown))}; remove it")
         given = {name: _answered(asked[name], answer) for name, answer in given.items()}
         for name, card in _NAMING.items():
             if name in given:
                 given[name] = card.value(given[name], place)
-        problem = stated(door, given, place.also)
+        problem = stated(indenter, given, place.also)
         said = {n.replace("-", "_"): v for n, v in given.items()}
         return Statement(problem, shift_deviation_of(given, place.also), {_INDENTER: word, **said})
 
 
-def door_of(word: str) -> "Door":
-    """Return the indenter of a word, as it is stated by numbers."""
+def indenter_named(word: str) -> "Indenter":
+    """Return an indenter by name."""
     from .questions import DISC, PROFILE, PUNCH, SPHERE
 
-    return {door.word: door for door in (SPHERE, PUNCH, PROFILE, DISC)}[word]
+    return {indenter.word: indenter for indenter in (SPHERE, PUNCH, PROFILE, DISC)}[word]
 
 
 def indenter_of(problem: Any) -> str:
-    """Return the word of the indenter of a problem in SI, as commands have it."""
+    """Return the name of the indenter of a problem in SI, as used in commands."""
     from viscotack.geometry import Cone, MeasuredProfile
 
     is_profile = isinstance(problem.geometry, Cone | MeasuredProfile)
@@ -213,7 +213,7 @@ def _checked(problem: Any) -> Any:
 
 
 def _answered(question: "Question", answer: Any) -> Any:
-    """Return an answer, of a question that has several as a list."""
+    """Check a value; repeated values become a list."""
     if question.name in _NAMING and isinstance(answer, _NAMING[question.name].objects):
         return answer
     several = list(answer) if isinstance(answer, list | tuple) else [answer]

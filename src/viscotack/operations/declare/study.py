@@ -1,7 +1,7 @@
-"""Operations in TOML files: ``operation = "identify rates"``, and its options.
+"""Study files: an operation with its options in TOML, ``operation = "identify rates"``.
 
-Options of a part stand in a table of their own; quantities are texts with units; names of files
-are relative to the folder of the study. A table ``[write]`` names the files to be written.
+Options of a part are in a separate table; quantities are text with units; file names are relative
+to the folder of the study. A table ``[write]`` lists the output files.
 """
 
 import os
@@ -26,16 +26,16 @@ _OPERATION, _WRITE = "operation", "write"
 
 @dataclass(frozen=True)
 class Asked:
-    """What a study asks.
+    """Content of a study file.
 
     Attributes
     ----------
     operation : Operation
-        With its options.
+        The operation with its options.
     write : mapping
         Name of an output -> file.
     kept : tuple of Path
-        The files that it reads, which must not be written.
+        Input files, which must not be overwritten.
     """
 
     operation: Operation
@@ -51,34 +51,34 @@ def read_study(
     also: tuple[Any, ...] = (),
     place: Place | None = None,
 ) -> Asked:
-    """Return what a study file asks.
+    """Read a study file.
 
     Parameters
     ----------
     path : path
         The file.
     known : callable
-        Returns the operation of a word.
+        Returns the class of an operation by name.
     usual : str
-        Word of the operation where the file has none, as those that earlier versions wrote.
+        Default operation, for files written by earlier versions.
     also : tuple of classes
-        Nouns of the user's own.
+        User-defined classes.
     place : Place, optional
-        Of the request that named the file; else this machine.
+        Origin of the request; default: this machine.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     InputError
-        If it is not TOML, or states no operation; with the name of the file.
+        If it is not TOML or defines no operation. The message contains the file name.
     """
     path = Path(path)
     table = dict(read_toml(path))
     try:
         word = table.pop(_OPERATION, usual)
         if not isinstance(word, str) or not word:
-            raise InputError('operation is missing: which one, such as operation = "predict"')
+            raise InputError('operation is missing; write for example operation = "predict"')
         kind = known(word)
         write = table.pop(_WRITE, {})
         given = _flat(kind, table)
@@ -93,13 +93,13 @@ def read_study(
 
 
 def _flat(kind: type[Operation], table: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options of a study, those in tables of parts among them."""
+    """Return the options of a study, including those in the tables of parts."""
     tables = {option.table for option in options(kind)} - {""}
     given: dict[str, Any] = {}
     for name, value in table.items():
         inner = value if name in tables and isinstance(value, Mapping) else {name: value}
         if twice := given.keys() & inner.keys():
-            raise InputError(f"{', '.join(sorted(twice))} is stated twice")
+            raise InputError(f"{', '.join(sorted(twice))} is given twice")
         given |= inner
     return given
 
@@ -107,11 +107,11 @@ def _flat(kind: type[Operation], table: Mapping[str, Any]) -> dict[str, Any]:
 def _files(kind: type[Operation], write: Any, folder: Path) -> dict[str, Path]:
     names = [output.name for output in kind.outputs]
     if not isinstance(write, Mapping) or not all(isinstance(x, str) and x for x in write.values()):
-        raise InputError(f"[{_WRITE}] has names of files, such as {names[0] if names else 'csv'}")
+        raise InputError(f"[{_WRITE}] must list file names, such as {names[0] if names else 'csv'}")
     unknown = [name for name in write if name not in names]
     if unknown:
         raise InputError(
-            f"{kind.word} writes no {unknown[0]!r:.60}; there are {', '.join(names) or 'none'}"
+            f"{kind.word} has no output {unknown[0]!r:.60}; known are {', '.join(names) or 'none'}"
         )
     # "-" is standard output in every folder
     return {
@@ -121,7 +121,7 @@ def _files(kind: type[Operation], write: Any, folder: Path) -> dict[str, Path]:
 
 
 def study_file(operation: Operation, beside: Path = Path()) -> Callable[["Target"], None]:
-    """Return what writes an operation as a study, to a file or as one that lies in a folder."""
+    """Return a function that writes an operation as a study file."""
 
     def write(target: "Target") -> None:
         from viscotack.files.whole import write_whole
@@ -134,7 +134,7 @@ def study_file(operation: Operation, beside: Path = Path()) -> Callable[["Target
 
 
 def study_text(operation: Operation, folder: str | os.PathLike[str] = ".") -> str:
-    """Return an operation as a study file for a folder: reading it gives the same operation.
+    """Return the text of a study file for a folder; reading it gives the same operation.
 
     Numbers are written with all their digits. Options that have their defaults are left out.
     """
@@ -166,7 +166,7 @@ def _written_one(option: Option, value: Any, folder: Path) -> Any:
 
 
 def _relative(value: Any, folder: Path) -> Any:
-    """Return what is written with the paths in it relative to the folder of the study."""
+    """Make the paths in a value relative to the folder of the study."""
     if isinstance(value, Mapping):
         return {name: _relative(entry, folder) for name, entry in value.items()}
     if isinstance(value, Naming):

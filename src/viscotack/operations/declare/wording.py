@@ -1,4 +1,4 @@
-"""How messages spell options and lists of words."""
+"""Spelling of options and lists in messages."""
 
 from collections.abc import Sequence
 

@@ -1,1 +1,1 @@
-"""Options, inputs and records that several operations have."""
+"""Options, inputs and records shared by several operations."""

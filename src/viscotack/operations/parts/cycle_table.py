@@ -31,7 +31,7 @@ def table_of_cycles(result: Result, rows: list[dict[str, Any]]) -> list[str]:
 
 
 def _columns(result: Result) -> dict[str, tuple[str, str]]:
-    """Return what the table shows: words -> key of a row, and unit."""
+    """Return the columns of the table: heading -> key of a row, and unit."""
     found = {}
     for name, output in result.problem.outputs.cycles.items():
         unit = output.unit

@@ -1,4 +1,4 @@
-"""The files of a DMA, relaxation or creep test, and what they may not say themselves."""
+"""Options for the files of a DMA, relaxation or creep test."""
 
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -21,57 +21,57 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Dma(Part):
-    """What may be said of the files of a DMA, or of another test of a solid."""
+    """Options that describe the files of a DMA or another test of a material."""
 
     table: ClassVar = "read"
 
     test: Annotated[
         str | None,
-        Choice(
-            "What the file holds; else its columns say.", choices=("dma", "relaxation", "creep")
-        ),
+        Choice("Kind of test; default: by the columns.", choices=("dma", "relaxation", "creep")),
     ] = None
     format: Annotated[
-        str | None, Text("Of the file, where it is not found out.", metavar="NAME")
+        str | None, Text("Format of the file, if it is not detected.", metavar="NAME")
     ] = None
     kind: Annotated[
         str | None,
-        Text("Tensile or shear, where the file does not say.", metavar="E|G", example="E"),
+        Text(
+            "Tensile or shear modulus, if the file does not state it.", metavar="E|G", example="E"
+        ),
     ] = None
     temperature: Annotated[
         float | None,
         Number(
-            "Of the test, where the file does not say.",
+            "Temperature of the test, if the file does not state it.",
             unit="K",
             metavar="T",
             example="20 degC",
         ),
     ] = None
     frequency_unit: Annotated[
-        str | None, Text("Hz or rad/s, where the file does not say.", example="Hz")
+        str | None, Text("Hz or rad/s, if the file does not state it.", example="Hz")
     ] = None
     modulus_unit: Annotated[
-        str | None, Text("Such as MPa, where the file does not say.", example="MPa")
+        str | None, Text("Unit such as MPa, if the file does not state it.", example="MPa")
     ] = None
     time_unit: Annotated[
-        str | None, Text("Such as s, where the file does not say.", example="s")
+        str | None, Text("Unit such as s, if the file does not state it.", example="s")
     ] = None
     temperature_unit: Annotated[
         str | None,
         Text(
-            "degC, K or degF, where a column or the numbers above columns have none.",
+            "degC, K or degF, if columns or header lines do not state it.",
             example="degC",
         ),
     ] = None
     temperature_in_name: Annotated[
-        bool, Switch("The temperature stands in the name of each file, as in foam_-25C.csv.")
+        bool, Switch("Read the temperature from the name of each file, as in foam_-25C.csv.")
     ] = False
-    decimal: Annotated[
-        str | None, Text("Decimal mark, where 1,234 leaves it open.", metavar=",|.")
-    ] = None
+    decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
+        None
+    )
 
     def measured(self, files: tuple[Path, ...]) -> "Measured":
-        """Return what files hold: sweeps of one material, or tests over time."""
+        """Read the files: sweeps of one material, or tests over time."""
         from viscotack.lab import read, read_creeps, read_dma, read_relaxations
 
         said: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}

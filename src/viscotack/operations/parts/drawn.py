@@ -1,4 +1,4 @@
-"""Curves of a laboratory's files as the page draws them."""
+"""Curves of measured files as data for the page."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""Cases to begin from: what a newcomer sees, and what the processes do first."""
+"""Example cases for new users, also used to warm up worker processes."""
 
 from typing import Any
 

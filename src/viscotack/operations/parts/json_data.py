@@ -1,4 +1,4 @@
-"""Numbers on their way out: plain lists, None where there is none."""
+"""Conversion of numbers to JSON: plain lists, None for missing values."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ _DRAWN = 7
 
 
 def plain(value: Any) -> Any:
-    """Return a value as JSON has it: arrays as lists, nan and infinity as None.
+    """Convert a value to JSON types: arrays to lists, NaN and infinity to None.
 
     Examples
     --------

@@ -87,7 +87,7 @@ def _words(answer: Mapping[str, Any]) -> str:
     for method, count in answer["methods"].items():
         lines.append(f"  {method:<14}{count:>8}")
     if answer["unanswered"]:
-        lines.append(f"  {'no answer':<14}{answer['unanswered']:>8}  the column why says it")
+        lines.append(f"  {'no answer':<14}{answer['unanswered']:>8}  reasons in the column why")
     return "\n".join(lines)
 
 

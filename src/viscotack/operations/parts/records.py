@@ -1,4 +1,4 @@
-"""What a laboratory's files say, as one object: for ``--json`` and for the API alike."""
+"""Records of measured files and fits, for ``--json`` and the API."""
 
 from dataclasses import asdict
 from math import isfinite
@@ -66,7 +66,7 @@ def cycle_row(cycle: Any) -> dict[str, Any]:
 
 
 def tests_record(found: Any) -> dict[str, Any]:
-    """Return what a survey of tack tests found, and what it refused."""
+    """Return the cycles and rejections of a survey of tack tests."""
     tests = [
         {
             "file": one.record.source.path,
@@ -84,7 +84,7 @@ def tests_record(found: Any) -> dict[str, Any]:
 
 
 def slow_record(fit: Any) -> dict[str, Any]:
-    """Return what a slow test says of the interface."""
+    """Return the interface parameters identified from a slow test."""
     fits = [
         {
             "model": one.model,
@@ -108,7 +108,7 @@ def slow_record(fit: Any) -> dict[str, Any]:
 
 
 def rates_record(fit: Any) -> dict[str, Any]:
-    """Return what a rate series says of the interface."""
+    """Return the interface parameters identified from a rate series."""
     return {
         "work_of_adhesion_J_m2": fit.work_of_adhesion,
         "equilibrium_gap_m": fit.equilibrium_gap,
@@ -130,7 +130,7 @@ def rates_record(fit: Any) -> dict[str, Any]:
 
 
 def _growth_record(found: Any) -> dict[str, Any]:
-    """Return how an interface grows with speed."""
+    """Return the growth of the interface with speed."""
     grows = isfinite(found.reference_speed)
     return {
         "strengthening": found.strengthening,

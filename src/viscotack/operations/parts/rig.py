@@ -1,4 +1,4 @@
-"""The files of a rig, and what they may not say themselves."""
+"""Options for the files of a tack tester or microscope."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Files = Annotated[
     tuple[Path, ...],
     File(
-        "What the rig wrote: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
+        "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
         "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
         "test.",
         metavar="FILE...",
@@ -45,28 +45,28 @@ class Sign(Choice):
 
 @dataclass(frozen=True, kw_only=True)
 class Rig(Part):
-    """What may be said of the files of a rig, and of the rig that wrote them."""
+    """Options that describe the files of a rig and the rig itself."""
 
     table: ClassVar = "read"
 
-    format: Annotated[str | None, Text("Of the files, where it is not found out.")] = None
-    force_unit: Annotated[str | None, Text("Such as mN or g, where a file does not say.")] = None
-    length_unit: Annotated[str | None, Text("Such as um, where a file does not say.")] = None
-    time_unit: Annotated[str | None, Text("Such as s, where a file does not say.")] = None
+    format: Annotated[str | None, Text("Format of the files, if it is not detected.")] = None
+    force_unit: Annotated[str | None, Text("Unit such as mN, if not in the file.")] = None
+    length_unit: Annotated[str | None, Text("Unit such as um, if not in the file.")] = None
+    time_unit: Annotated[str | None, Text("Unit such as s, if not in the file.")] = None
     force_column: Annotated[
-        str | None, Text("Heading of the force, where it is not found.", metavar="NAME")
+        str | None, Text("Heading of the force column, if not detected.", metavar="NAME")
     ] = None
     position_column: Annotated[
         str | None,
-        Text("Heading of the gap, depth or travel, where there are several.", metavar="NAME"),
+        Text("Heading of the gap, depth or travel column, if there are several.", metavar="NAME"),
     ] = None
-    decimal: Annotated[
-        str | None, Text("Decimal mark, where 1,234 leaves it open.", metavar=",|.")
-    ] = None
+    decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
+        None
+    )
     nominal_speed: Annotated[
         float | None,
         Number(
-            'The speed that was set, "10 um/s", where a file has no time; it is not checked.',
+            'Nominal speed, "10 um/s", if a file has no time; it is not checked.',
             unit="m/s",
             metavar="SPEED",
         ),
@@ -74,8 +74,8 @@ class Rig(Part):
     compliance: Annotated[
         float | None,
         Number(
-            'How far the rig itself yields, "2 um/N": measured on a stiff sample. Taken off the '
-            "depth. A cantilever named by its file does so without being asked.",
+            'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
+            "For a cantilever with a stiffness in its file the correction is automatic.",
             unit="m/N",
             metavar="LENGTH/FORCE",
         ),
@@ -83,7 +83,7 @@ class Rig(Part):
     compliance_uncertainty: Annotated[
         float,
         Number(
-            "Standard uncertainty of it; it goes into depths and works.",
+            "Standard uncertainty of the compliance; propagated to depths and works.",
             unit="m/N",
             metavar="LENGTH/FORCE",
         ),
@@ -91,22 +91,20 @@ class Rig(Part):
     into: Annotated[
         int,
         Sign(
-            "Whether larger positions are deeper, where neither heading nor signal says.",
+            "Whether larger positions are deeper, if heading and signal do not show it.",
             metavar="+|-",
         ),
     ] = 0
     compression: Annotated[
         int,
         Sign(
-            "Sign of a compression in the files; refused where the signal says otherwise.",
+            "Sign of compression in the files; rejected if the signal contradicts it.",
             metavar="+|-",
         ),
     ] = 0
     retraction_only: Annotated[
         bool,
-        Switch(
-            "Take curves without an approach from outside: zero of force from after the pull-off."
-        ),
+        Switch("Accept curves without approach; the force zero is then taken after pull-off."),
     ] = False
 
     @property
@@ -123,7 +121,7 @@ class Rig(Part):
         return {name: getattr(self, name) for name in names}
 
     def survey(self, files: tuple[Path, ...]) -> "Survey":
-        """Return what files of tests say; InputError where no cycle says anything."""
+        """Read and evaluate the files; InputError if no cycle can be evaluated."""
         from viscotack.lab.tack import survey
 
         found = survey(files, reading=self.reading, evaluation=self.evaluation)

@@ -1,4 +1,4 @@
-"""Simulations that tell how far they are, and what is drawn of them."""
+"""Simulations with progress reports, and their data for the page."""
 
 from collections.abc import Callable, Mapping
 from time import perf_counter
@@ -40,7 +40,7 @@ def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: An
 
 
 def drawn_of(result: Result) -> dict[str, Any]:
-    """Return what the page draws of a result: columns, energies, profiles."""
+    """Return the data of a result for the page: columns, energies, profiles."""
     return {
         "columns": {name: drawn(values) for name, values in columns(result).items()},
         "energy": _energy(result),
@@ -64,7 +64,7 @@ def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
 
 
 class _Told:
-    """What a run tells of itself, some twenty times a second."""
+    """Progress reports of a run, about twenty times a second."""
 
     def __init__(self, tell: Tell, units: tuple[float, float, float, float]) -> None:
         self._tell, self._units = tell, units
@@ -91,13 +91,13 @@ class _Told:
 
 
 def _units_of(problem: Any) -> tuple[float, float, float, float]:
-    """Return what turns time, depth, force and contact radius of a result into what is told."""
+    """Return the factors for time, depth, force and contact radius in progress reports."""
     kind: Kind = problem.outputs
     groups, scales = problem.groups(), problem.scales()
 
     def factor(source: str) -> float:
         series = kind.of(source)
-        # forces are told positive in compression, those of a punch too
+        # forces are positive in compression, for a punch as well
         sign = 1.0 if source == "force" else series.factor(groups)
         return sign * (1.0 if scales is None else getattr(scales, series.unit.scale))
 
@@ -105,7 +105,7 @@ def _units_of(problem: Any) -> tuple[float, float, float, float]:
 
 
 def _energy(result: Result) -> dict[str, Any] | None:
-    """Return where the work of the drive went, as changes since the start, in SI where known."""
+    """Return the energy balance as changes since the start, in SI if the problem is."""
     if result.energy is None:
         return None
     kind, scales, energy = result.problem.outputs, result.scales, result.energy

@@ -1,4 +1,4 @@
-"""From tests at several temperatures to one curve at one temperature."""
+"""Options for the master curve: time-temperature superposition of tests."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +19,7 @@ _MOVES = ("auto", "none", "free")
 
 @dataclass(frozen=True)
 class Moving(Card):
-    """How far moduli move: a word, or a coefficient of volume expansion [1/K]."""
+    """Option for the vertical shift: a word, or a volume expansion coefficient [1/K]."""
 
     def read(self, value: Any, place: Place) -> str | float:
         """Return the word or the coefficient."""
@@ -40,14 +40,14 @@ class Moving(Card):
 
 @dataclass(frozen=True, kw_only=True)
 class Shifting(Part):
-    """How tests at several temperatures become one curve; temperatures in K."""
+    """Options for the shift of tests at several temperatures; temperatures in K."""
 
     table: ClassVar = "shift"
 
     reference_temperature: Annotated[
         float | None,
         Number(
-            'Temperature of the master curve, "20 degC"; needed for sweeps at several.',
+            'Temperature of the master curve, "20 degC"; required for several temperatures.',
             unit="K",
             metavar="T",
         ),
@@ -56,7 +56,7 @@ class Shifting(Part):
         float | None,
         Number(
             "Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "
-            '"-115 degC". Without any shift it is found from the overlap of the sweeps.',
+            '"-115 degC". By default the shift is fitted to the overlap of the sweeps.',
             unit="K",
             metavar="T",
         ),
@@ -75,23 +75,23 @@ class Shifting(Part):
     shift_by: Annotated[
         str | None,
         Choice(
-            "What must superpose, where shifts are found from overlap; left out with --vertical: "
-            "the most that the data carry.",
+            "Quantity that must superpose if shifts are fitted. Default without --vertical: chosen "
+            "by the data.",
             choices=("both", "storage", "loss", "tan"),
         ),
     ] = None
     vertical: Annotated[
         str | float | None,
         Moving(
-            "How far moduli move with temperature: auto, as far as the data fix it; none; "
-            'free; or by density and temperature, with a volume expansion of "6e-4 1/K".',
+            "Vertical shift with temperature: auto (if the data determine it), none, free, or by "
+            'density and temperature with a volume expansion of "6e-4 1/K".',
             metavar="WORD|EXPANSION",
         ),
     ] = None
     leave_out: Annotated[
         tuple[float, ...],
         Number(
-            'Leave out the sweep at this temperature, "-30 degC". Give it once for each.',
+            'Exclude the sweep at this temperature, "-30 degC". Can be repeated.',
             unit="K",
             metavar="T",
         ),
@@ -112,7 +112,7 @@ class Shifting(Part):
             )
 
     def law(self) -> Any:
-        """Return the law or table that is given; None where shifts are to be found."""
+        """Return the given shift law or table; None if shifts are fitted."""
         from viscotack.materials.shift import WLF
 
         if self.glass_transition is not None:
@@ -216,7 +216,7 @@ def _others(temperature: Any, asked: float, file: str) -> Any:
 
 
 def _below(temperature: Any, glass: float) -> list[str]:
-    """Return that WLF was used where a glass need not follow it."""
+    """Warn if WLF was used below the glass transition."""
     count = int(np.sum(temperature < glass))
     if not count:
         return []

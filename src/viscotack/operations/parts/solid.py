@@ -1,4 +1,4 @@
-"""A solid that an operation is given: published, in a passport, as a table, or by its numbers."""
+"""Options for a material: a published name, a passport, a table, or numbers."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -79,7 +79,7 @@ _NUMBERS = {question.name: question.words for question in SPHERE.questions}
 
 @dataclass(frozen=True, kw_only=True)
 class Reduced(Part):
-    """A solid without dimensions: by a word and its numbers, or in a file."""
+    """Options for a dimensionless material: a model with its numbers, or a file."""
 
     material: Annotated[
         str | Passport | None,
@@ -95,7 +95,7 @@ class Reduced(Part):
 
     @property
     def given(self) -> dict[str, Any]:
-        """What was said, by flag."""
+        """Given options by name."""
         said = {
             "material": self.material,
             "modulus-ratio": self.modulus_ratio,

@@ -1,4 +1,4 @@
-"""What outputs are written by: rows as CSV, texts."""
+"""Writers of outputs: rows as CSV, and text."""
 
 import csv
 import io
@@ -12,7 +12,7 @@ Writer = Callable[["Target"], None]
 
 
 def rows_as_csv(rows: Sequence[dict[str, Any]]) -> Writer:
-    """Return what writes rows of the same keys as a CSV table with a heading."""
+    """Return a function that writes rows with the same keys as a CSV table with a header."""
 
     def text() -> str:
         stream = io.StringIO(newline="")
@@ -25,7 +25,7 @@ def rows_as_csv(rows: Sequence[dict[str, Any]]) -> Writer:
 
 
 def as_text(text: Callable[[], str]) -> Writer:
-    """Return what writes a text, made when it is written."""
+    """Return a function that creates and writes a text."""
 
     def write(target: "Target") -> None:
         from viscotack.files.whole import write_whole

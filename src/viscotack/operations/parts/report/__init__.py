@@ -1,4 +1,4 @@
-"""One page for a lab: what was measured, what it says, what to expect, and how that was found."""
+"""Report of a study as a web page: data, interface, forecast and method."""
 
 from .rendering import page
 

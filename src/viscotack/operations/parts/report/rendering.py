@@ -1,4 +1,4 @@
-"""The page of a study as HTML that needs nothing beside it.
+"""Rendering of the report of a study as a single HTML file.
 
 Its words and their order stand in ``page.html``, its looks in ``page.css``.
 """
@@ -92,7 +92,7 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
 
 
 def _growth(found: Answer) -> list[tuple[str, str]]:
-    """Return how the interface grows with speed, nothing where that was not asked."""
+    """Return the growth of the interface with speed; empty if it was not fitted."""
     grown = found.fit.growth
     if grown is None:
         return []
@@ -108,7 +108,7 @@ def _growth(found: Answer) -> list[tuple[str, str]]:
 
 
 def _shares(found: Answer) -> list[tuple[str, ...]]:
-    """Return who takes the energy of the edge at the speeds of the series."""
+    """Return the shares of bulk and interface in the energy at the edge, by speed."""
     grown = found.fit.growth
     return [
         (
@@ -154,7 +154,7 @@ def _cycle(cycle: Cycle) -> tuple[str, ...]:
 
 
 def _decisions(found: Answer) -> list[str]:
-    """Return what was decided on the way from the files, each sentence once."""
+    """Return the notes on the evaluation of the files, without repetitions."""
     notes = (note for cycle in found.survey.cycles for note in cycle.source.notes)
     return list(dict.fromkeys(notes))
 

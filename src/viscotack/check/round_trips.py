@@ -1,4 +1,4 @@
-"""The ways by which a noun comes in: records, case files, flags, plans of campaigns, results."""
+"""Round trips of a noun through records, case files, command-line options and campaign plans."""
 
 import inspect
 import json
@@ -33,13 +33,13 @@ _TABLES: Mapping[str, Mapping[str, Any]] = {
 
 
 def classes_of(noun: Any) -> tuple[type, ...]:
-    """Return the class of a noun if the package does not have it, for ``also=``."""
+    """Return the class of a noun for ``also=`` if it is user-defined, else ()."""
     kind = type(noun)
     return () if known().types.get(kind.__name__) is kind else (kind,)
 
 
 def through_record(noun: Any) -> Iterator[Finding]:
-    """Check that a noun is written as a dictionary and read back."""
+    """Check that a noun is unchanged after conversion to a dictionary and back."""
     text = json.dumps(to_dict(noun))
     back = from_dict(json.loads(text), also=classes_of(noun))
     yield holds(
@@ -48,7 +48,7 @@ def through_record(noun: Any) -> Iterator[Finding]:
 
 
 def numbers_of(noun: Any) -> dict[str, Any]:
-    """Return the numbers of a noun as a case file states them."""
+    """Return the numbers of a noun as text with units, as in a case file."""
     found: dict[str, Any] = {}
     for name, field in cards(type(noun)).items():
         value, unit = getattr(noun, name), field.card.unit
@@ -64,7 +64,7 @@ def numbers_of(noun: Any) -> dict[str, Any]:
 
 
 def case_text(**tables: Mapping[str, Any]) -> str:
-    """Return the text of a case file: a sphere, with tables of other nouns in place of its own."""
+    """Return the text of a case file of a sphere with some of its tables replaced."""
     lines: list[str] = []
     for name, values in (dict(_TABLES) | tables).items():
         if values:
@@ -73,13 +73,13 @@ def case_text(**tables: Mapping[str, Any]) -> str:
 
 
 def through_case_file(noun: Any, part: str, tables: Mapping[str, Mapping[str, Any]]) -> Finding:
-    """State a noun in a case file and compare what is read with it."""
+    """Write a noun to a case file, read it back and compare."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "case.toml"
         write_whole(path, case_text(**tables).encode())
         back = getattr(read_case(path, also=classes_of(noun)), part)
-    # a power-law profile is stated by a height, which rounds its coefficient
-    name = "case file: the tables state the noun"
+    # a power-law profile is given by a height, which rounds its coefficient
+    name = "case file: reading returns the noun"
     return holds(name, back == noun or _near(back, noun), repr(noun), repr(back))
 
 
@@ -91,18 +91,18 @@ def _near(one: Any, other: Any) -> bool:
 
 
 def through_flags(noun: Any, part: str, flags: Mapping[str, Any]) -> Finding:
-    """State a reduced noun by flags and compare what is understood with it."""
+    """Give a reduced noun by command-line options, parse them and compare."""
     given = {"tabor": 1.0, "preload": 1.0, "rate": 1.0, "material": "elastic"} | dict(flags)
     try:
         back = getattr(stated(SPHERE, given, also=classes_of(noun)), part)
     except InputError as error:
         own = bool(classes_of(noun))
-        return holds(f"flag: --{part}", not own, "the noun by its word", f"refused: {error}")
-    return holds("flag: the word and its numbers state the noun", back == noun, noun, back)
+        return holds(f"option: --{part}", not own, "the noun by its name", f"rejected: {error}")
+    return holds("option: parsing returns the noun", back == noun, noun, back)
 
 
 def through_campaign(noun: Any, tables: Mapping[str, Mapping[str, Any]]) -> Iterator[Finding]:
-    """Check that a plan varies the problem that the noun is in."""
+    """Check that a plan can vary a problem that contains the noun."""
     files = []
     for kind in classes_of(noun):
         source = Path(inspect.getsourcefile(kind) or "")
@@ -111,7 +111,7 @@ def through_campaign(noun: Any, tables: Mapping[str, Mapping[str, Any]]) -> Iter
         except (InputError, OSError):
             names = set()
         if kind.__name__ not in names:
-            return  # the class does not stand in a file of its own, which a plan needs
+            return  # a plan needs a class that is defined in a file
         files.append(str(source))
     with tempfile.TemporaryDirectory() as folder:
         write_whole(Path(folder) / "case.toml", case_text(**tables).encode())
