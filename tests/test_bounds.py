@@ -97,9 +97,9 @@ def test_tables_have_a_bound(tmp_path, capsys):
     words = refused(capsys, "--rate", "1", "--law", f"table:{table}")
     assert "table.csv: at most 10,000 rows" in words
     gap = [0.5 + 1e-4 * i for i in range(10_001)]
-    with pytest.raises(InputError, match="at most 10,000 gaps, got 10,001; leave out rows"):
+    with pytest.raises(InputError, match="at most 10,000 gaps, got 10,001; remove rows"):
         Tabulated.of_points(gap, [0.0] * len(gap))
-    with pytest.raises(InputError, match="at most 10,000 gaps, got 10,001; leave out rows"):
+    with pytest.raises(InputError, match="at most 10,000 gaps, got 10,001; remove rows"):
         Tabulated(1.0, 1.0, tuple((x, 0.0) for x in gap))
     with pytest.raises(InputError, match="at most 10,000 branches, got 10,001; ten a decade"):
         branches = [(1.0, 1.0 + i) for i in range(10_001)]

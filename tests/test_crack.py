@@ -124,10 +124,13 @@ def test_a_scalar_gives_a_float_and_an_array_keeps_its_shape(theory):
         (lambda t: t.amplification([1.0, -2.0], material=standard(0.1)), "speed.*-2.0"),
         (lambda t: t.amplification(np.inf, material=standard(0.1)), "speed must be finite"),
         (lambda t: t.speed(0.9, material=standard(0.1)), "at least 1, got 0.9"),
-        (lambda t: t.speed([2.0, 10.0], material=standard(0.1)), "stay below.* 10.*infinite"),
+        (
+            lambda t: t.speed([2.0, 10.0], material=standard(0.1)),
+            "below .* 10, reached at infinite",
+        ),
         (
             lambda t: t.speed(1.5, material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)),
-            "stay below",
+            "must be below",
         ),
         (lambda t: t.speed(9.999999, material=power_law(0.01, 0.1)), "only at a speed beyond"),
     ],

@@ -81,7 +81,7 @@ def test_doubt_about_the_material_widens_the_answer(exact, fit):
         for one in (exact, fit)
     )
     assert wide > 1.05 * narrow
-    assert "taken as exact" in exact.words[-1] and "taken as exact" not in fit.words[-1]
+    assert "assumed exact" in exact.words[-1] and "assumed exact" not in fit.words[-1]
 
 
 def test_times_in_doubt_are_speeds_in_doubt(forward):
@@ -121,7 +121,7 @@ def test_the_posterior_agrees_with_the_profile(fit):
 
 
 def test_what_cannot_be_forecast_is_refused(fit):
-    with pytest.raises(InputError, match="go together"):
+    with pytest.raises(InputError, match="must be given together"):
         forecast_rates(fit, [1e-4], dwell=1.0)
     with pytest.raises(InputError, match="positive speeds"):
         forecast_rates(fit, [-1e-4])

@@ -171,7 +171,7 @@ def test_a_series_by_a_soft_machine_is_corrected_by_its_ratios(monkeypatch):
 
 def test_a_series_without_information_is_refused():
     one = series(forces(200e-9, SPEEDS[:1]), speeds=SPEEDS[:1])
-    with pytest.raises(InputError, match="two speeds and more"):
+    with pytest.raises(InputError, match="pull-offs at two or more speeds"):
         identify_rates(one, **CASE)
     two = series([4e-3, 5e-3], speeds=SPEEDS[:2])
     with pytest.raises(InputError, match="holds for none of the searched ranges"):
@@ -244,7 +244,7 @@ def test_whole_curves_narrow_a_series_and_must_be_there():
     # two pull-offs leave two ranges, a hundred times apart, and say so; both are in the interval
     ends = alone.intervals["equilibrium_gap"]
     assert ends.split and ends.low < 1e-9 and ends.high > 200e-9
-    assert "two ranges" in " ".join(alone.words)
+    assert "two separate ranges" in " ".join(alone.words)
     ends = whole.intervals["equilibrium_gap"]
     assert not ends.split and 150e-9 < ends.low < 200e-9 < ends.high < 260e-9
     bare = [PullOff(one.speed, one.force, one.preload) for one in series]

@@ -239,7 +239,7 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
         ("--size, --thickness, --cohesion and --modulus-ratio missing", ["punch", *RATE]),
         ("a punch has no option --tabor, --radius", [*PUNCH, "--tabor", "1", "--radius", "1 mm"]),
         ("a sphere has no option --size", [*SPHERE, *RATE, "--size", "1"]),
-        ("rate is 1e+09 h0/tau0, and 0.001 to", [*PUNCH, "--rate", "1e9"]),
+        ("rate is 1e+09 h0/tau0, outside the training range", [*PUNCH, "--rate", "1e9"]),
         ("--rate missing", SPHERE),
         ("the machine has a stiffness of 2", [*SPHERE, *RATE, "--stiffness", "2"]),
         ("confidence must be one of 0.5", [*SPHERE, *RATE, "--confidence", "90"]),

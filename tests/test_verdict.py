@@ -88,7 +88,7 @@ def test_a_force_that_theory_rules_out_is_not_given(problem, factor, stopped):
 
 @pytest.mark.parametrize(
     ("floor", "code", "said"),
-    [(0.2, 0, ""), (3.0, 0, "more than the 0.002 that were asked for"), (11.0, 1, "")],
+    [(0.2, 0, ""), (3.0, 0, "above the required 0.002"), (11.0, 1, "")],
     ids=["met", "missed", "not resolved"],
 )
 def test_the_command_line_says_that_an_accuracy_was_missed(floor, code, said, capsys, monkeypatch):

@@ -47,7 +47,7 @@ class Quantity:
     >>> Quantity("m", "R", "radius of the sphere", above=0).checked("radius", -0.005)
     Traceback (most recent call last):
     ...
-    viscotack.errors.InputError: radius must be positive, got -0.005 m
+    viscotack.errors.InputError: radius must be positive, got -5 mm
     """
 
     unit: str

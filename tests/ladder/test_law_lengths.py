@@ -133,7 +133,8 @@ def test_the_flank_of_a_tip_is_the_integral_over_its_area(exponent):
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_energy_and_traction_of_one_evaluation_are_those_of_two(law):
-    energy, traction = energy_and_traction(law, GAPS)
+    quick = isinstance(law, LennardJones | Exponential)
+    energy, traction = law.energy_and_traction(GAPS) if quick else energy_and_traction(law, GAPS)
     np.testing.assert_array_equal(energy, law.energy(GAPS))
     np.testing.assert_array_equal(traction, law.traction(GAPS))
 

@@ -68,7 +68,7 @@ def test_where_two_peaks_are_equal_within_the_error_the_work_is_not_told():
     # the stated error of the depth reaches to the other peak
     first, second = peaks(result)
     assert result.error_estimate["depth"] == pytest.approx(first.depth - second.depth)
-    with pytest.raises(ValueError, match=r"two peaks .* the work is \S+, .* or \S+, "):
+    with pytest.raises(ValueError, match=r"two peaks .* the work is either \S+, .* or \S+, "):
         work_to_pull_off(result)
     answer = summary(result)
     assert answer["work_to_pull_off"] is None

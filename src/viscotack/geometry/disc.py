@@ -40,8 +40,8 @@ class Disc:
     Examples
     --------
     >>> stamp = Disc(radius=1e-3, edge_width=20e-6, edge_height=10e-6)
-    >>> stamp.gap([0.5e-3, 0.99e-3, 1e-3]).tolist() == [0.0, 2.5e-6, 10e-6]
-    True
+    >>> [f"{height * 1e6:.1f} um" for height in stamp.gap([0.5e-3, 0.99e-3, 1e-3])]
+    ['0.0 um', '2.5 um', '10.0 um']
     """
 
     word: ClassVar[str] = "disc"

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.cards import Pairs, conform
@@ -145,9 +145,9 @@ class MeasuredProfile:
         return float(np.sum(weight * s * z) / np.sum(weight * s * s))
 
     @cached_property
-    def _inner(self) -> PchipInterpolator:
+    def _inner(self) -> scipy.interpolate.PchipInterpolator:
         r, z = np.array(self.points).T
-        return PchipInterpolator(r * r, z)
+        return scipy.interpolate.PchipInterpolator(r * r, z)
 
     @cached_property
     def _rim(self) -> tuple[float, float]:

@@ -63,7 +63,7 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
     Examples
     --------
     >>> [choice["word"] for choice in forms()["shape"]]
-    ['sphere', 'cone', 'profile', 'wavy-sphere', 'punch']
+    ['sphere', 'cone', 'profile', 'wavy-sphere', 'disc', 'punch']
     """
     nouns = known(also)
     return {

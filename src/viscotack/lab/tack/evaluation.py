@@ -224,7 +224,7 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
             raise InputError(
                 f"the force stays at {readable(value, 'N', digits=6)}, its largest {word}, for "
                 f"{len(longest)} points while the drive moves: "
-                "the sensor or its amplifier is at the end of its range"
+                "the sensor or its amplifier is saturated"
             )
 
 
@@ -259,21 +259,21 @@ def _pull_off(
         raise InputError("the force is smallest at the start of the retraction: no pull-off")
     if zero > _ZERO * value:
         raise InputError(
-            f"the zero of the force is known within {_force(zero)} only, the pull-off is "
-            f"{_force(value)}: a tilt or drift too large for the free parts of the curve"
+            f"the uncertainty of the force zero is {_force(zero)}, but the pull-off is "
+            f"{_force(value)}: tilt or drift is too large for the free parts of the curve"
         )
     before, behind = -float(force[at - 1]), -float(force[at + 1])
     if max(before, behind) < (1 - _LONE) * value:
         raise InputError(
-            f"the pull-off of {_force(value)} is a single point, its neighbours are at "
-            f"{_force(before)} and {_force(behind)}: a spike, or recorded too slowly"
+            f"the pull-off of {_force(value)} is a single point, with neighbours at "
+            f"{_force(before)} and {_force(behind)}: a spike, or a low recording rate"
         )
     between = max(abs(value - before), 0.0) / 2
     found = Measured(value, float(np.sqrt(noise**2 + zero**2 + between**2)))
     if found.uncertainty > _ZERO * value:
         raise InputError(
-            f"the pull-off of {_force(value)} is known within {_force(found.uncertainty)} only: "
-            "too few points at it for the noise and the speed"
+            f"the pull-off of {_force(value)} has an uncertainty of {_force(found.uncertainty)}: "
+            "too few points near it for this noise and speed"
         )
     return found
 
@@ -289,8 +289,8 @@ def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
     back = np.diff(depth)
     if np.sum(back[back > 0]) > _SLIDING * np.ptp(way) + np.ptp(way) * 0.5:
         raise InputError(
-            f"with a compliance of {readable(compliance, 'm/N')} the depth grows while the "
-            "drive retracts: that is more than rig and sample have together"
+            f"with a compliance of {readable(compliance, 'm/N')} the depth increases while "
+            "the drive retracts: it exceeds the total compliance of rig and sample"
         )
 
 

@@ -26,8 +26,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize_scalar
-from scipy.special import struve
+import scipy
 
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
@@ -59,7 +58,7 @@ def depth(
     R, A, wave, E, w = _checked(radius, amplitude, wavelength, contact_modulus, work_of_adhesion)
     a = at_least(0, _LENGTH, contact_radius=contact_radius)
     k = 2 * np.pi / wave
-    waves = np.pi / 2 * A * k * a * struve(0, k * a)
+    waves = np.pi / 2 * A * k * a * scipy.special.struve(0, k * a)
     return plain(a**2 / R + waves - np.sqrt(2 * np.pi * a * w / E))
 
 
@@ -84,7 +83,13 @@ def force(
     R, A, wave, E, w = _checked(radius, amplitude, wavelength, contact_modulus, work_of_adhesion)
     a = at_least(0, _LENGTH, contact_radius=contact_radius)
     k = 2 * np.pi / wave
-    waves = np.pi * E * A * a * (k * a * struve(0, k * a) - struve(1, k * a))
+    waves = (
+        np.pi
+        * E
+        * A
+        * a
+        * (k * a * scipy.special.struve(0, k * a) - scipy.special.struve(1, k * a))
+    )
     return plain(4 / 3 * E * a**3 / R + waves - np.sqrt(8 * np.pi * E * a**3 * w))
 
 
@@ -121,7 +126,7 @@ def pull_off(
     most = max(float(adhesion), float(1.5 * np.pi * 2 * np.pi / wave * A * R), float(wave))
     a = np.linspace(0.0, most, max(int(_PER_WAVE * most / wave), 256))
     least = int(np.argmin(force(a, **case)))
-    found: Any = minimize_scalar(
+    found: Any = scipy.optimize.minimize_scalar(
         lambda x: force(x, **case),
         bounds=(a[max(least - 1, 0)], a[least + 1]),
         method="bounded",
