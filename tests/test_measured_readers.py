@@ -284,9 +284,7 @@ def test_a_modulus_of_unknown_kind_is_refused_until_it_is_given(file):
 
 
 def test_a_kind_that_contradicts_the_file_is_refused(file):
-    with pytest.raises(
-        ValueError, match="of tension .E., but --kind G requests shear"
-    ):
+    with pytest.raises(ValueError, match="of tension .E., but --kind G requests shear"):
         read_dma(file(lab_files.plain()), kind="G")
 
 
