@@ -101,7 +101,7 @@ def test_tables_have_a_bound(tmp_path, capsys):
         Tabulated.of_points(gap, [0.0] * len(gap))
     with pytest.raises(InputError, match="at most 10,000 gaps, got 10,001; remove rows"):
         Tabulated(1.0, 1.0, tuple((x, 0.0) for x in gap))
-    with pytest.raises(InputError, match="at most 10,000 branches, got 10,001; ten a decade"):
+    with pytest.raises(InputError, match="at most 10,000 branches, got 10,001; ten per decade"):
         branches = [(1.0, 1.0 + i) for i in range(10_001)]
         Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
 
