@@ -204,7 +204,10 @@ def kind_of_columns(names: set[str]) -> str:
         f"{kind.name}: {', '.join([*kind.columns, ' or '.join(kind.choices)])}"
         for kind in KINDS.values()
     )
-    raise InputError(f"unknown columns ({', '.join(sorted(names))}); known kinds are {known}")
+    raise InputError(
+        f"unknown columns ({', '.join(sorted(names))}): no kind of case has exactly these; "
+        f"known kinds are {known}"
+    )
 
 
 def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kind:

@@ -75,7 +75,7 @@ class Ledger:
     replaced: tuple[Part, ...] = ()
 
     def record(self) -> dict[str, Any]:
-        """Return the ledger as plain words and numbers."""
+        """Return the ledger as a dictionary of strings and numbers, for JSON."""
         return asdict(self)
 
     @classmethod

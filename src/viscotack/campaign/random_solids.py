@@ -1,17 +1,19 @@
-r"""Random linear solids by number: the same number is the same solid, today and elsewhere.
+r"""Random linear solids by number: a number defines the same solid in every run on every machine.
 
-A solid is its creep over the relaxed one,
+A solid is defined by its creep compliance over the relaxed compliance,
 
 .. math:: c(t) = k + (1 - k) \sum_j w_j (1 - e^{-t/\tau_j}), \quad \sum_j w_j = 1,
 
-with at most 40 retardation times: one for standard solids, a few at random places for Prony series,
-and three a decade for smooth spectra, where their sum and the integral agree to 1e-5. Weights are
-drawn as shares of the compliance, or as shares of its LOGARITHM between glass and rubber: spectra
-of rubbers climb evenly there, and shares of the compliance would put the whole climb into the
-first arm.
+with at most 40 retardation times: one for standard solids, 2 to 12 random times for Prony series,
+and three per decade for smooth spectra, whose sum agrees with the integral over the spectrum to
+1e-5. The weights are drawn as fractions of the rise of the compliance from glass to rubber, or as
+fractions of the rise of its logarithm. Rubbers need the second choice: the logarithm of their
+compliance rises uniformly, whereas fractions of the compliance put nearly the whole rise of the
+logarithm into the first retardation time.
 
-Numbers below ``STRETCHED`` are drawn from the mixture below; from there on they are stretched
-exponentials (Kohlrausch), a family kept apart to judge by.
+Numbers below ``STRETCHED`` give solids of the families in ``_FAMILIES``. Numbers from ``STRETCHED``
+give stretched exponentials (Kohlrausch), a separate family for tests of models trained on the
+others.
 """
 
 from __future__ import annotations

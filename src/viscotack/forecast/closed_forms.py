@@ -493,8 +493,8 @@ def _detached(groups: Groups, slowest: float, state: _State | None) -> Estimate:
         )
     else:
         why = (
-            f"the start is {state.margin:.3g} times the contact radius at pull-off; valid from "
-            f"{1.2 if at_least(mu, 2) else 2:g} times"
+            f"the contact radius at the start is {state.margin:.3g} times that at pull-off; valid "
+            f"from {1.2 if at_least(mu, 2) else 2:g} times"
         )
     return Estimate(name, force, None, False, why)
 
@@ -513,9 +513,8 @@ def _fitted(groups: Groups, preload: str) -> Estimate:
     elif preload == "raises":
         why = "Eq. 4.24 was fitted to heavier preloads"
     else:
-        return Estimate(
-            name, force, _FIT_ERROR, True, "the fit of crack speed to rate, and Persson-Brener"
-        )
+        why = "crack speed from the rate by the fit of Eq. 4.24, force by Persson-Brener"
+        return Estimate(name, force, _FIT_ERROR, True, why)
     return Estimate(name, force, None, False, why)
 
 

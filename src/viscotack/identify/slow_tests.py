@@ -65,7 +65,10 @@ class SlowTest:
         if self.against not in ("radius", "depth"):
             raise InputError(f"against must be 'radius' or 'depth', got {self.against!r}")
         if self.force.shape != self.at.shape or self.force.ndim != 1:
-            raise InputError("force and at must be one-dimensional arrays of one length")
+            raise InputError(
+                "force and at must be one-dimensional arrays of the same length, got shapes "
+                f"{self.force.shape} and {self.at.shape}"
+            )
         if self.force.size < _FEWEST:
             raise InputError(f"a fit needs at least {_FEWEST} points, got {self.force.size}")
         if not np.all(np.isfinite(self.force) & np.isfinite(self.at)):

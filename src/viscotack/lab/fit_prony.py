@@ -236,7 +236,7 @@ def _criterion(data: Observed, times: Array, weights: Array) -> float:
 
 
 def _slopes(data: Observed, times: Array, weights: Array) -> Array:
-    """Return the change of the logarithms over their noise with each weight."""
+    """Return the derivatives of ln(fitted value) by each weight, divided by the noise."""
     basis = _basis(data, times)
     return basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
 

@@ -92,7 +92,7 @@ def _of_rows(
     for number, row in enumerate(rows, start=1):
         unknown = set(row) - set(keys)
         if unknown:
-            raise file.error(f"a cell {min(unknown)!r} without a header", number)
+            raise file.error(f"a cell {min(unknown)!r} without an entry in ColumnHeaders", number)
         step = next((str(row[key]) for key in _STEPS if key in row), "")
         steps.setdefault(step, []).append((number, [_text(row.get(key)) for key in keys]))
     for step in steps.values():

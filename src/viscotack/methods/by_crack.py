@@ -328,8 +328,8 @@ def _answer(
     if grows(groups.traction) and energy > _LAST * crack.largest:
         raise OutOfRange(
             f"the energy at the edge is {energy:.4g} times the work of adhesion; steady cracks "
-            f"of this interface are known up to {crack.largest:.4g}; pull more slowly, or "
-            "simulate the problem"
+            f"of this interface are computed only up to {crack.largest:.4g} times; reduce the "
+            "retraction speed, or simulate the problem"
         )
     effective = float(_effective(groups, energy, interface))
     if effective < LEAST_TABOR:

@@ -57,9 +57,8 @@ def groups_of(problem: Any) -> Groups:
         )
     if np.isfinite(detail(groups.geometry)):
         raise OutOfRange(
-            "the theory of a contact with a crack for its edge is one of shapes that rise ever "
-            f"more steeply from the tip, and a {groups.geometry.word} does not; `viscotack "
-            "simulate` answers it"
+            "the steady-crack contact model covers only shapes that rise ever more steeply from "
+            f"the tip, got a {groups.geometry.word}; use `viscotack simulate`"
         )
     return groups
 

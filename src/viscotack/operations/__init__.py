@@ -69,7 +69,10 @@ def declared() -> Mapping[str, Declared]:
 
 
 def _declared_in(module: ModuleInfo) -> Iterator[Declared]:
-    """Yield the operations of a module: by its text here, by import in a folder of the user."""
+    """Yield the operations that a module declares.
+
+    A module of this package is parsed, not imported; a module in a folder of the user is imported.
+    """
     source = Path(__file__).with_name(f"{module.name}.py")
     if not source.is_file():
         for kind in _kinds(module.name):

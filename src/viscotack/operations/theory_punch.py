@@ -187,7 +187,7 @@ class OfPad(Operation):
         problem = read_case(case.path, beside=case.inside.file)
         if not isinstance(problem.geometry, FlatPunch):
             raise InputError(
-                f"{case.path} states a {problem.geometry.word}, which has commands of its own"
+                f"{case.path} states a {problem.geometry.word}; this command needs a flat punch"
             )
         return problem
 

@@ -85,7 +85,10 @@ def _row(field: Field) -> tuple[str, ...]:
 
 
 class _Models:
-    """Pydantic models of the classes for the schema: fields, cards and a type."""
+    """Pydantic models from which the schema is generated, one for each class of a problem.
+
+    A model has the fields of its class, described by their cards, and a field ``type``.
+    """
 
     def __init__(self, nouns: Nouns) -> None:
         self._nouns = nouns

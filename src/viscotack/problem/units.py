@@ -15,15 +15,15 @@ class InSI:
     Attributes
     ----------
     length : float
-        h_0 [m].
+        Unit of gaps and depths, h_0 [m].
     work : float
-        Delta-gamma_0 [J/m^2].
+        Unit of work per area, Delta-gamma_0 [J/m^2].
     force : float
-        Of the protocol: a force [N], or a stress [Pa].
+        Unit of the forces [N] of a protocol; for a punch, unit of its stresses [Pa].
     contact_radius : float
-        Of the protocol [m].
+        Unit of the contact radii of a protocol [m].
     along, height : float
-        Of distances along the surface, and of heights of a shape [m].
+        Units of distances along the surface, and of heights of a shape [m].
     """
 
     length: float

@@ -105,7 +105,7 @@ class Refusal(BaseModel):
 
 
 class Answer(BaseModel):
-    """Response; its names are the same as of ``--json`` on the command line."""
+    """Response; its keys are those of the ``--json`` output of the command line."""
 
     model_config = ConfigDict(extra="allow")
 

@@ -16,7 +16,8 @@ _COMMANDS = (
 def application() -> Any:
     """Return the application with all its commands.
 
-    The library of the command line takes a while to import; ``import viscotack`` never pays it.
+    The command-line library is imported only here, because its import is slow; ``import viscotack``
+    does not import it.
     """
     from .commands import application
     from .listing import add_commands

@@ -170,8 +170,8 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
         if other.time[0] < one.time[-1]:
             raise InputError(
                 f"{other.source.path}: it begins at {other.time[0]:g} s, before the end of the "
-                f"previous interval at {one.time[-1]:g} s; intervals need the time of the whole "
-                "test"
+                f"previous interval at {one.time[-1]:g} s; give the times of all "
+                "intervals from the start of the test"
             )
     sizes = [part.contact_radius for part in parts]
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()

@@ -79,7 +79,11 @@ class Card:
     shift: Shift | None = None
 
     def elastic(self, tensile: float) -> tuple[float, float]:
-        """Return the Young's modulus [Pa] and Poisson ratio to export for a tensile modulus."""
+        """Convert a tensile modulus of the material to the exported constants.
+
+        Returns the Young's modulus [Pa] and the Poisson ratio. Without a bulk modulus both are
+        unchanged.
+        """
         if self.bulk_modulus is None:
             return tensile, self.material.poisson_ratio
         K, G = self.bulk_modulus, tensile / 3

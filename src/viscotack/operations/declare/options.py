@@ -121,7 +121,8 @@ class Option:
     many : bool
         Whether it can be repeated.
     part : str
-        Field of the operation that contains the part; "" for the operation itself.
+        Field of the operation that holds the part to which the option belongs; "" for an option of
+        the operation itself.
     table : str
         Table of a study file that contains the option; "" for none.
     field : str

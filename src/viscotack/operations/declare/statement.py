@@ -125,7 +125,7 @@ class Stated(Card):
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """The questions of its indenters."""
+        """Names of the questions that its indenters ask, without duplicates."""
         asked = (
             question.name for word in self.indenters for question in indenter_named(word).questions
         )

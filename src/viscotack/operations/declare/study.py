@@ -134,9 +134,10 @@ def study_file(operation: Operation, beside: Path = Path()) -> Callable[["Target
 
 
 def study_text(operation: Operation, folder: str | os.PathLike[str] = ".") -> str:
-    """Return the text of a study file for a folder; reading it gives the same operation.
+    """Return the text of a study file that defines the operation and is saved in a folder.
 
-    Numbers are written with all their digits. Options that have their defaults are left out.
+    Reading the file gives the same operation. Paths are written relative to the folder, numbers
+    with all their digits. Options with default values are left out.
     """
     lines = [f"{_OPERATION} = {toml_value(operation.word)}"]
     tables: dict[str, list[str]] = {}

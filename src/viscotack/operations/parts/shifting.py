@@ -139,8 +139,8 @@ class Shifting(Part):
         self._ask_reference(file, known)
         if law is None and np.ptp(sweeps.angular_frequency) == 0 and several:
             raise InputError(
-                f"{file}: a temperature ramp at one frequency, nothing overlaps that could tell "
-                'the shift; give --glass-transition "-115 degC", --wlf or --shift-file'
+                f"{file} is a temperature ramp at one frequency, so nothing overlaps that could "
+                'tell the shift; give --glass-transition "-115 degC", --wlf or --shift-file'
             )
         curve = master_curve(
             sweeps,

@@ -51,7 +51,7 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
 def speed(amplification: Values, *, material: _crack.Material) -> Number:
     r"""Return the dimensionless speed at which an amplification is reached.
 
-    The amplification must be at least 1 and below glassy over rubbery modulus.
+    The amplification must be at least 1 and less than the ratio of glassy to rubbery modulus.
 
     Examples
     --------

@@ -454,7 +454,11 @@ class _Step:
         return travel < 0
 
     def rate(self, a: float) -> float:
-        """Return the rate of the radius at the end; second order in an unchanged direction."""
+        """Return the rate of the radius at the end of the step.
+
+        It is of second order in the time step if the edge keeps its direction; otherwise it is the
+        mean rate of the step.
+        """
         mean, before = (a - self._before.radius) / self._dt, self._before
         if mean * before.travel <= 0:
             return mean

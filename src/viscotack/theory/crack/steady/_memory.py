@@ -1,15 +1,19 @@
 r"""Memory of the solid along a steady crack: its modes as matrices.
 
-In the frame of the crack, the time of a material point corresponds to its position. An opening
-crack advances to -x, so each mode lags behind the opening e of the relaxed solid, :math:`l_j d_j' =
-e - d_j` with :math:`l_j = v \tau_j`, and the opening is :math:`w = c e + \sum w_j d_j`. A closing
-crack advances to +x. Its universal quantity is w, as e is ahead of an opening crack, because the
-contact forces w to zero. By the correspondence principle
+In the frame of the crack, the time of a material point corresponds to its position.
+
+An opening crack advances to -x. The tractions :math:`\sigma` would cause an opening e of the
+relaxed solid. Each mode :math:`d_j` lags behind e, :math:`l_j d_j' = e - d_j` with :math:`l_j = v
+\tau_j`, and the opening of the solid is :math:`w = c e + \sum w_j d_j`. The far field of e does not
+depend on the memory, because the material ahead of the tip has not crept.
+
+A closing crack advances to +x. Here the far field of w does not depend on the memory, because the
+contact forces w to zero behind the tip. By the correspondence principle
 
 .. math:: -\frac{1}{2\pi} PV \int \frac{w'(s)}{x - s} ds = c \, \sigma + \sum_j w_j T_j, \quad
           l_j T_j' = T_j - \sigma,
 
-so the memory acts on the tractions, which are zero where the material comes from.
+so the memory acts on the tractions, which are zero in the material that enters from the open side.
 """
 
 from __future__ import annotations

@@ -398,6 +398,10 @@ def _grown_of(law: Traction, modes: Modes, growing: Any) -> _grown.Grown:
 
 
 def _slow_of(elastic: Solution, grid: _mesh.Mesh) -> float:
-    """Return the integral of -sigma' w' over the elastic crack, from the means of the elements."""
+    """Return the integral of -sigma' w'^2 dx over the elastic crack.
+
+    The prime of sigma is its derivative by w, that of w its derivative by x; so the integrand is
+    -(d sigma/dx)(dw/dx).
+    """
     slope = np.diff(elastic.gap) / grid.dx
     return -float(np.sum(np.diff(elastic.traction) * (slope[1:] + slope[:-1]) / 2))
