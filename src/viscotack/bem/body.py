@@ -1,4 +1,4 @@
-"""A soft body at one instant, and what a step, a jump or a new mesh makes of it."""
+"""State of a soft body at one instant, and its change by a step, a jump or a new mesh."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ from viscotack.bem.span import least_gap, room
 from viscotack.bem.surface import Surface
 from viscotack.materials import Modes
 
-# An iteration that gains less than this part of the energy is the last of a step: the force is then
-# within 1e-7, and steps at large Tabor numbers take three times fewer iterations.
+# The iterations of a step end when one reduces the energy by less than this fraction. The force is
+# then accurate to 1e-7, and steps at large Tabor numbers take three times fewer iterations.
 _LEAST_GAIN = 1e-10
 
 
-# So many instants are remembered to predict the next one.
+# Number of previous instants stored for prediction.
 _TRAIL = 4
 
 
 @dataclass(frozen=True, eq=False)
 class Passed:
-    """What is remembered of an instant, to predict the next and to integrate over the way there.
+    """Data of a past instant, used to predict the next one and to integrate over the steps.
 
     Attributes
     ----------
     seen : Snapshot
-        What is kept of it.
+        Recorded quantities of the instant.
     heat : ndarray, shape (M,)
-        Heat that each mode makes per time [output force times h0].
+        Rate of heat of each mode [output force times h0 per time].
     """
 
     seen: Snapshot
@@ -49,9 +49,9 @@ class Passed:
 
 @dataclass(frozen=True, eq=False)
 class Rates:
-    """Rates of change over the last step; they only serve to predict the next.
+    """Rates of change over the last step, used only to predict the next step.
 
-    At rest they are zero and not known: no step is judged by them.
+    At rest the rates are zero and marked as unknown, so they are not used in the error estimate.
     """
 
     relaxed: npt.NDArray
@@ -63,16 +63,16 @@ class Rates:
 
 @dataclass(frozen=True, eq=False)
 class Extra:
-    """What an interface that grows with the opening speed adds at an instant.
+    """Additional traction of a rate-dependent interface at one instant.
 
     Attributes
     ----------
     opening : Opening
-        How fast the gap opens.
+        Opening speed of the gap.
     nodal : ndarray, shape (N,)
-        Nodal forces beyond those at rest, tension positive.
+        Nodal forces in excess of the quasi-static ones, tension positive.
     flank : float
-        Force beyond that at rest on the flank [output unit], tension positive.
+        Force on the flank in excess of the quasi-static one [output unit], tension positive.
     """
 
     opening: Opening
@@ -82,29 +82,29 @@ class Extra:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Everything at one instant: what is kept of it, and what the next step needs.
+    """Complete solver state at one instant: recorded quantities and data for the next step.
 
-    The trail has the last instants with this one; after rest, this one alone.
+    `trail` holds the last few instants including this one; after a rest only this one.
     """
 
     seen: Snapshot
     surface: Surface
     gap: npt.NDArray
-    relaxed: npt.NDArray  # e: the displacement this pressure would cause in the relaxed solid
+    relaxed: npt.NDArray  # e: displacement of the relaxed solid under this pressure
     nodal: npt.NDArray  # F: nodal forces
     memory: Memory
     rates: Rates
     trail: tuple[Passed, ...]
-    extra: Extra | None = None  # None where the law is one of the gap alone
+    extra: Extra | None = None  # None if the law depends on the gap alone
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A step that was tried: the state after it, and how good it is.
+    """Result of a trial step: the state after it and its error estimate.
 
-    The error is that of a pressure linear in time, as a displacement [h0]; zero where the rates
-    before the step are not known, infinite where no stable equilibrium was found. The bend says
-    by which part opening speeds that change in the step change the attraction.
+    `error` is the error of assuming a pressure linear in time, as a displacement [h0]. It is zero
+    if the rates before the step are unknown, infinite if no stable equilibrium was found. `bend` is
+    the relative change of the attraction due to the change of opening speeds in the step.
     """
 
     after: State
@@ -115,16 +115,16 @@ class Trial:
 
     @property
     def lost(self) -> bool:
-        """Whether iterations ran out, nothing else being known."""
+        """Whether no equilibrium was found and the contact was not released."""
         return not (np.isfinite(self.error) or self.released)
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """What stays the same during a run: the contact and the modes of its solid.
+    """Constant data of a run: the contact and the retardation modes of the solid.
 
-    The law of the contact is the one at rest; `growing` is it where it grows with the opening
-    speed, else None.
+    The traction law of the contact is the quasi-static one. `growing` is the rate-dependent law if
+    the traction grows with the opening speed, otherwise None.
     """
 
     contact: Contact
@@ -138,7 +138,7 @@ class Body:
         return np.asarray(self.modes.times)
 
     def first(self, start: Relaxed) -> State:
-        """Return the relaxed state: every mode has come to rest."""
+        """Return the relaxed state, in which every mode is in equilibrium."""
         gap, surface = start.gap, start.surface
         e = gap - (surface.rigid_gap - start.depth)
         faces = surface.interface.at(self.contact.law, gap)
@@ -149,7 +149,7 @@ class Body:
         return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, opening)
 
     def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
-        """Return what a step leads to."""
+        """Advance the state by one trial time step."""
         surface, stepped = state.surface, None
         law: Any = self.contact.law
         if state.extra is not None:
@@ -197,9 +197,9 @@ class Body:
         return Trial(after, error, balance.iterations, balance.released, bent)
 
     def remeshed(self, state: State, nodes: npt.NDArray, hold: Hold) -> State | Balance:
-        """Return the state on other nodes, or the balance that is none where it finds no other.
+        """Return the state on new nodes, or the unstable balance if no equilibrium was found.
 
-        Displacements are carried over, and the gaps are brought into balance again.
+        Displacements are interpolated to the new nodes; the gaps are then solved for again.
         """
         surface, old = self.contact.surface(nodes), state.surface.position
 
@@ -226,7 +226,8 @@ class Body:
         machine, balance, speed = self.net(hold, state), None, None
         law: Any = self.law(opening)
         if opening is not None and opening.length:
-            # speeds must change with the gaps: frozen ones attract what closes as if it opened
+            # update speeds with the gaps: frozen speeds would give closing gaps the traction of
+            # opening
             law = Stepped.again(self.contact.law, self.growing, guess, opening)
             balance, speed = driven(surface, law, free, c, guess, machine)
         if balance is None:
@@ -251,7 +252,7 @@ class Body:
         return Frozen(self.contact.law, 1 + self.growing.growth(opening.speed))
 
     def at_rest(self, state: State) -> State:
-        """Return the state without rates, where the last ones tell nothing of the next."""
+        """Return the state with rates reset, where the previous rates do not apply."""
         extra = state.extra
         if extra is not None:
             extra = replace(extra, opening=extra.opening.forgotten())
@@ -265,13 +266,13 @@ class Body:
         return Passed(seen, surface.unit * (self.weights / self.times * each))
 
     def _faces(self, surface: Surface, balance: Balance, opening: Opening | None) -> Faces:
-        """Return the interface of a balance with the law at these opening speeds, frozen."""
+        """Return the interface of a balance with the law frozen at these opening speeds."""
         if opening is None:
             return balance.faces
         return surface.interface.at(self.law(opening), balance.gap)
 
     def net(self, hold: Hold, state: State) -> Hold:
-        """Return the hold less the force on the flank, which no node carries; it hardly changes."""
+        """Return the hold minus the flank force, which is not on any node and changes slowly."""
         if hold.rigid:
             return hold
         law = self.law(None if state.extra is None else state.extra.opening)
@@ -291,7 +292,7 @@ class Body:
         opening: Opening | None,
         before: tuple[Passed, ...] = (),
     ) -> State:
-        """Return the state at an instant, with what is to be seen of it, after the ones before."""
+        """Assemble the state at an instant with its recorded quantities and the earlier trail."""
         law, gap, nodal = self.law(opening), faces.gap, -faces.tension
         resting, extra, at_rest = faces, None, self.contact.law
         if opening is not None:
@@ -318,6 +319,6 @@ def _at_rest(gap: npt.NDArray) -> Rates:
 
 
 def _shifted(state: State, distance: float) -> npt.NDArray:
-    """Return the gap as it would be if its profile moved outwards by a distance."""
+    """Return the gap with its profile shifted outwards by a distance."""
     x = state.surface.position
     return np.interp(x - distance, x, state.gap)

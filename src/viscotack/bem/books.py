@@ -1,8 +1,8 @@
-"""What a march keeps of each step: where it was, and where the work at the indenter went.
+"""Recorded history of a simulation: snapshots and the energy balance after each step.
 
-The spring of the machine is not booked here: what it stores is :math:`F^2/(2K)` at every instant,
-the work of the drive is that at the indenter and the change of that energy, and both add the same
-to either side of the balance.
+The spring of the machine is not included in the energy balance. It stores :math:`F^2/(2K)` at every
+instant. The work of the drive equals the work at the indenter plus the change of this energy, so
+the spring adds the same amount to both sides of the balance.
 """
 
 from __future__ import annotations
@@ -14,17 +14,18 @@ import numpy.typing as npt
 
 from viscotack.result import Event
 
-# The imbalance of the energies is measured by their largest term, but by no less than this: at the
-# start all of them are zero [output force times the range of the law].
+# The energy imbalance is divided by the largest energy term, but by no less than this value,
+# because all terms are zero at the start [output force times the range of the law].
 SMALLEST_ENERGY = 0.1
-# Pull-off is behind when the force has risen again by this part of its minimum and of the unit of
-# force: a force that has just become tensile is as large as what nodes add to it.
+# Pull-off has passed when the force has risen again by this fraction of its minimum plus one unit
+# of force. The unit is added because a small tensile force is comparable to the discretisation
+# error.
 _RISEN = 0.03
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """One instant; energies in the output unit of force times h0."""
+    """Recorded quantities at one instant; energies in output force times h0."""
 
     time: float
     depth: float  # [h0]
@@ -36,28 +37,28 @@ class Snapshot:
 
     @property
     def rings(self) -> int:
-        """How many parts the contact has: rings, or a disc at the axis; 0 without an edge."""
+        """Number of parts of the contact: rings, or a disc at the axis; 0 without an edge."""
         return len(self.inner) // 2 + 1 if self.edge > 0 else 0
 
     @property
     def hole(self) -> float:
-        """The inner edge of the outermost part [unit of the mesh], 0 of a disc; nan without one."""
+        """Inner edge of the outermost part [unit of the mesh], 0 for a disc; nan without edge."""
         return max(self.inner, default=0.0) if self.edge > 0 else np.nan
 
     @property
     def stored(self) -> float:
-        """All energy of the contact that is not lost."""
+        """Recoverable energy of the contact: elastic plus interface energy."""
         return self.elastic + self.interface
 
     @property
     def held(self) -> float:
-        """Return what there is of energy in the contact, whatever its sign."""
+        """Sum of the magnitudes of elastic and interface energy."""
         return abs(self.elastic) + abs(self.interface)
 
 
 @dataclass(frozen=True, eq=False)
 class Books:
-    """Where the work at the indenter went so far; heat by mode, and that in the interface."""
+    """Cumulative energy terms: work at the indenter, heat by mode, jumps, transfer, interface."""
 
     work: float
     heat: npt.NDArray
@@ -66,7 +67,7 @@ class Books:
     interface: float = 0.0
 
     def entered(self, work: float, heat: npt.NDArray, interface: float = 0.0) -> Books:
-        """Return the books after a step in which the indenter did work, and heat was left."""
+        """Return the terms after a step with this work of the indenter and this heat."""
         return replace(
             self,
             work=self.work + work,
@@ -75,13 +76,13 @@ class Books:
         )
 
     def imbalance(self, start: Snapshot, now: Snapshot) -> float:
-        """Return the work that is nowhere to be found."""
+        """Return the energy imbalance: work minus stored, dissipated and lost energy."""
         stored = now.stored - start.stored
         heat = float(self.heat.sum()) + self.interface
         return self.work - stored - heat - self.jumps - self.transfer
 
     def largest(self, start: Snapshot, now: Snapshot) -> float:
-        """Return the largest term, the measure of the imbalance."""
+        """Return the largest energy term, the scale of the imbalance."""
         stored = now.elastic - start.elastic, now.interface - start.interface
         heat = float(self.heat.sum())
         terms = (self.work, *stored, heat, self.interface, self.jumps, self.transfer)
@@ -90,17 +91,17 @@ class Books:
 
 @dataclass(frozen=True)
 class Lowest:
-    """The least force of a leg so far, and how many steps have been made since."""
+    """Smallest force of a leg so far, and the number of steps since."""
 
     force: float = np.inf
     since: int = 0
 
     def after(self, force: float) -> Lowest:
-        """Return the least force after one more step."""
+        """Return the smallest force after a further step."""
         return Lowest(force) if force < self.force else replace(self, since=self.since + 1)
 
     def behind(self, force: float) -> bool:
-        """Return whether this was the pull-off, for the force at present."""
+        """Return whether the smallest force was the pull-off, given the present force."""
         risen = min(force, 0.0) - self.force
         return self.since > 2 and risen > _RISEN * (abs(self.force) + 1)
 
@@ -116,13 +117,13 @@ class Profile:
 
 @dataclass(eq=False)
 class History:
-    """What the march passed through: a snapshot and the books after each step.
+    """History of a simulation: a snapshot and the energy terms after each step.
 
-    `least_energy` is what the imbalance of the energies is measured by at least [output force times
-    h0], `stiffness` that of the spring of the machine [output force/h0], None without one. `legs`
-    has the number of the leg that led to each snapshot, `pressed` the pressure [dg/h0] that no law
-    withstood, where the outcome is "shut", `reason` what the time limit says, `left` how many legs
-    a dead load that has let go left.
+    Main attributes: `least_energy`, the smallest scale of the energy imbalance [output force times
+    h0]; `stiffness`, the spring stiffness of the machine [output force/h0], None without a spring;
+    `legs`, the number of the leg of each snapshot; `pressed`, the pressure [dg/h0] that exceeded
+    the repulsion of the law if the outcome is "shut"; `reason`, the message of the time limit;
+    `left`, the number of remaining legs when a dead load detached the contact.
     """
 
     least_energy: float
@@ -142,10 +143,10 @@ class History:
     nodes: int = 0
 
     def measure(self, books: Books, now: Snapshot) -> float:
-        """Return what an imbalance at an instant is measured by: the largest energy.
+        """Return the energy scale of the imbalance at an instant: the largest energy term.
 
-        Behind a soft spring the edge snaps from node to node, and loses a little each time: there
-        it is no less than what the contact holds, as far as the spring has given or taken that.
+        With a soft spring the edge snaps from node to node and loses a little energy each time. The
+        scale is then at least the energy of the contact, limited to the change of spring energy.
         """
         first = self.snapshots[0]
         largest = max(books.largest(first, now), self.least_energy)
@@ -155,7 +156,7 @@ class History:
         return max(largest, min(now.held, spring))
 
     def imbalances(self) -> npt.NDArray:
-        """Return the missing energy at each snapshot over what it is measured by until then."""
+        """Return the relative energy imbalance at each snapshot, over the largest scale so far."""
         first = self.snapshots[0]
         pairs = list(zip(self.books, self.snapshots, strict=True))
         missing = np.array([b.imbalance(first, s) for b, s in pairs])

@@ -1,7 +1,8 @@
-"""What a simulation takes: refusals in words, before any work is done.
+"""Input limits of a simulation, checked before any computation starts.
 
-Numbers may be large or small beyond anything physical, and answers are those of the limits; but not
-so large that arithmetic, the clock, the nodes or the patience of whoever waits come to an end.
+Values far outside the physical range are allowed and give the results of the limiting cases. Values
+are rejected if they exceed floating-point range, time resolution, mesh size or a reasonable run
+time.
 """
 
 from __future__ import annotations
@@ -33,20 +34,20 @@ from viscotack.protocol import (
 )
 from viscotack.traction import effective_range
 
-# The size of the numbers of a test; their squares and cubes are numbers still.
+# Range of the magnitudes of a test; their squares and cubes must not overflow.
 _SMALLEST, _LARGEST = 1e-100, 1e100
-# A softer machine is a dead load to all digits, and is marched as one by name only.
+# A softer machine equals a dead load in double precision; it must be stated as a dead load.
 _SOFTEST = 1e-9
-# Half width and thickness of a punch, and one beside the other.
+# Limits of half width and thickness of a punch, and of their ratio.
 _NARROWEST, _WIDEST = 1e-9, 1e9
-# Range of a law beside that of Lennard-Jones.
+# Range of a law relative to that of Lennard-Jones.
 _SHORTEST, _LONGEST = 1e-6, 1e6
 # Radius [that of the outputs] of a contact of revolution; depth [h0] of a punch, which has none.
 LARGEST_RADIUS = 1000.0
 _DEEPEST_PUNCH = 1e7
 # A contact that is held where it is moves by no more than this part of its travel.
 _MOVED = 1e-2
-# So many first steps of a leg may have gone before it: the clock has 16 digits.
+# Largest time before a leg in units of its first step: time has 16 digits.
 _TICKS = 1e14
 
 

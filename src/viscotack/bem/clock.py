@@ -1,4 +1,4 @@
-"""The wall time that a run may take; looked at in every iteration, wherever that is made."""
+"""Wall-time limit of a run, checked in every iteration of the solver."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from contextvars import ContextVar
 from math import inf
 from time import perf_counter
 
-# When time is up, and how long that was [s]; each thread has its own.
+# Time at which the limit ends, and its length [s]; each thread has its own value.
 _END: ContextVar[tuple[float, float]] = ContextVar("end", default=(inf, inf))
 
 
 class TimeUp(Exception):
-    """A run has met its time limit; in words."""
+    """A run has reached its time limit."""
 
     def __init__(self, seconds: float) -> None:
         super().__init__(f"the time limit of {seconds:g} s was met")
@@ -39,7 +39,7 @@ def limited(seconds: float | None) -> Iterator[None]:
 
 
 def met() -> TimeUp | None:
-    """Return what says so when the time is over."""
+    """Return the exception if the time limit has been reached, otherwise None."""
     end, seconds = _END.get()
     return TimeUp(seconds) if perf_counter() > end else None
 

@@ -1,15 +1,16 @@
-r"""Balance of the surface at one instant: gaps at which tractions and displacements agree.
+r"""Equilibrium of the surface at one instant: gaps at which tractions and elastic forces balance.
 
-With the stiffness S of the relaxed solid, the compliance c of this instant or step and the gap b
-that depth and past alone would leave, the gap g makes the energy
+Let S be the stiffness of the relaxed solid, c the compliance of this instant or step, and b the gap
+due to depth and loading history alone. The equilibrium gap g makes the energy
 
 .. math:: \Pi(g) = \frac{1}{2c} (g-b)^T S\, (g-b) + \sum_i A_i\, \varphi(g_i)
 
 stationary; :math:`\varphi` is the interface energy of the traction law. The tangent
-S/c + diag(A phi'') is symmetric, and its Cholesky factor exists exactly where the state is stable.
-:func:`descend` is Newton's method on this energy, always downhill: from a good guess it stays on
-the branch in two or three iterations, mostly with the factor of the first; from a bad one, or where
-a branch ends, it finds the stable state that a contact without inertia would.
+S/c + diag(A phi'') is symmetric, and its Cholesky factor exists if and only if the state is stable.
+:func:`descend` minimises this energy by Newton's method with line search. From a good initial guess
+it converges on the same branch in two or three iterations, mostly with the factor of the first.
+From a poor guess, or past the end of a branch, it finds the stable state that a contact without
+inertia would reach.
 """
 
 from __future__ import annotations
@@ -32,33 +33,33 @@ _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 
 # Newton converges quadratically: a last change of 1e-6 of the room leaves an error near 1e-12.
 _LAST_CHANGE = 1e-6
-# What is added to an unstable tangent, as parts of its most negative curvature.
+# Stiffness added to an unstable tangent, as fractions of its most negative curvature.
 _STIFFER = (1e-3, 1e-2, 1e-1)
-# The least of that curvature, as part of the stiffness of a node.
+# Lower bound of that curvature, as a fraction of the largest nodal stiffness.
 _SLIGHT = 1e-9
-# A last change of a part x of the room may leave this part of the tractions unbalanced, and so many
-# x^2. A smooth law leaves less than half of that; the kinks of another leave 1e-5 after a tiny
-# change, which the audit of the energies would take for a jump.
+# After a last relative change x, the unbalanced fraction of the tractions may be at most
+# _UNBALANCED + _CURVED x^2. A smooth law leaves less than half of that. The kinks of a piecewise
+# law leave 1e-5 after a tiny change, which the energy balance would interpret as a jump.
 _UNBALANCED = 1e-6
 _CURVED = 30.0
-# A gap [h0] that is gone: a law that repels without bound lets none come near, and where another is
-# pressed harder than it repels, every step closes the gap further.
+# Gaps [h0] below this are closed. A law with unbounded repulsion never comes near this value. If a
+# law with bounded repulsion is pressed harder than it repels, every step closes the gap further.
 GONE = 1e-6
-# A factor is kept for the next iteration where an undamped one has left less than this part of the
-# unbalanced forces. It converges linearly, so what it may leave in the end is this part of the
-# tractions, about what Newton would: the books feel it in first order. Where gaps no longer change,
-# the last iteration has a factor of its own.
+# A factor is reused in the next iteration if an undamped iteration has reduced the unbalanced
+# forces below this fraction. Convergence is then linear, so the final residual is limited to this
+# fraction of the tractions, about that of Newton: the energy balance depends on it in first order.
+# When gaps no longer change, the last iteration computes a new factor.
 _KEPT, _KEPT_LEAVES = 0.1, 1e-8
-# A step may close at most this part of the room at a node: beyond, the repulsion explodes.
+# Largest relative closing of a node per iteration; the repulsion diverges beyond.
 _LARGEST_CLOSING = 0.3
 
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """A gap and a depth, how many iterations they took, and whether they are stable.
+    """Equilibrium gap and depth, the number of iterations, and whether the state is stable.
 
-    `faces` is the interface at these gaps. `released` says that a dead load has pulled the surfaces
-    apart: nothing holds it.
+    `faces` is the interface at these gaps. `released` is true if a dead load has pulled the
+    surfaces apart, so that no equilibrium exists.
     """
 
     gap: npt.NDArray
@@ -71,11 +72,11 @@ class Balance:
 
 @dataclass(frozen=True, eq=False)
 class _Elastic:
-    """The elastic energy of solid and machine, v M v/2 + f v, with v the gap beyond the free one.
+    """Elastic energy of solid and machine, v M v/2 + f v, with v the gap minus the free gap.
 
-    A rigid machine fixes the depth. Behind a spring the depth is where the energy is least,
-    delta = (P - s v)/(K + k) with s = S 1/c and K = 1 S 1/c, which leaves a matrix M that is S/c
-    less a part of rank one.
+    A rigid machine fixes the depth. With a spring, the depth minimises the energy,
+    delta = (P - s v)/(K + k) with s = S 1/c and K = 1 S 1/c. Eliminating it gives a matrix M that
+    is S/c minus a matrix of rank one.
     """
 
     matrix: npt.NDArray
@@ -116,34 +117,34 @@ def elastic_energy(
 
 
 def factored(solid: _Elastic, curvature: Band) -> npt.NDArray | None:
-    """Return the factor of the tangent, None where it is not stable."""
+    """Return the Cholesky factor of the tangent, None if it is not positive definite."""
     return _factor(solid.matrix, curvature)
 
 
 def solved(factor: Any, right: npt.NDArray) -> npt.NDArray:
-    """Return what a factored tangent makes of a right side."""
+    """Solve a linear system with a factored tangent."""
     return _potrs(factor, right, lower=1)[0]
 
 
 def _factor(stiffness: npt.NDArray, curvature: Band):
-    """Return the Cholesky factor of stiffness + curvature, or None where it is not stable."""
+    """Return the Cholesky factor of stiffness + curvature, None if not positive definite."""
     tangent, next_diagonal = stiffness.copy(), len(stiffness) + 1
     entries = tangent.reshape(-1)
     entries[::next_diagonal] += curvature.diagonal
     if curvature.beside is not None:  # only the upper half is used
         entries[1::next_diagonal] += curvature.beside
-    # rows are columns to LAPACK, and the upper half is the lower one
+    # LAPACK uses column order, so the upper half here is its lower half
     factor, info = _potrf(tangent.T, lower=1, overwrite_a=1, clean=0)
     return None if info else factor
 
 
 def _stiffened(stiffness: npt.NDArray, curvature: Band):
-    """Return the factor of a tangent made just stiff enough to be positive definite.
+    """Return the factor of a tangent with just enough added stiffness to be positive definite.
 
-    The first stiffness that serves is taken, because a step goes as far along the unstable
-    direction as the stiffness lets it.
+    The smallest sufficient stiffness is used, because the added stiffness limits how far a step
+    moves along the unstable direction.
     """
-    # out of the range of a law there is no curvature, and under a dead load nothing else either
+    # outside the range of a law the curvature is zero; under a dead load nothing else resists
     diagonal, beside = curvature
     softest = max(-float(np.min(diagonal)), _SLIGHT * float(np.max(np.diag(stiffness))))
     for share in _STIFFER:
@@ -151,7 +152,7 @@ def _stiffened(stiffness: npt.NDArray, curvature: Band):
         if factor is not None:
             return factor
     factor = _factor(stiffness, Band(np.maximum(diagonal, 0.0)))
-    # under a dead load the solid alone does not resist all of them
+    # under a dead load the solid alone does not resist every displacement
     return _factor(stiffness, Band(diagonal + 1.1 * softest)) if factor is None else factor
 
 
@@ -166,20 +167,21 @@ def descend(
     least_gain: float = 0.0,
     most_iterations: int = 500,
 ) -> Balance:
-    """Return the stable equilibrium downhill from a guess.
+    """Minimise the energy from an initial guess and return the stable equilibrium.
 
-    The free gap is the one at depth zero. Where the tangent is not positive definite it is
-    stiffened, which keeps the direction downhill; the line search is in energy. Done when the gaps
-    no longer change, or sooner when an iteration gains less than this part of the energy: at large
-    Tabor numbers the energy hardly depends on where the edge is, and iterations would go on along
-    that valley. Not stable if they ran out.
+    The free gap is the gap at depth zero. If the tangent is not positive definite, stiffness is
+    added so that the search direction remains downhill; the line search uses the energy. The
+    iteration ends when the gaps no longer change, or when an iteration reduces the energy by less
+    than the fraction `least_gain`. At large Tabor numbers the energy depends very little on the
+    edge position, and without `least_gain` the iteration would continue along that flat valley. If
+    the iterations run out, the returned balance is marked as not stable.
     """
     solid = _Elastic.of(surface.stiffness / compliance, free_gap, hold)
     face, gap, span = surface.interface, guess, effective_range(law)
     elastic, pull = solid.at(gap)
     faces = face.at(law, gap)
     energy = elastic + faces.energy
-    # Near the minimum the round-off of the two sums decides, not the slope.
+    # Scale of the round-off of the two sums, which dominates the slope near the minimum.
     size = abs(elastic) + abs(faces.energy)
     residual = pull + faces.tension
     left, factor, stable, kept = float(np.abs(residual).sum()), None, False, False
@@ -206,15 +208,15 @@ def descend(
             part *= 0.5
         last = stable and largest < _LAST_CHANGE
         if last and part < 1.0 and (iteration == most_iterations or np.array_equal(trial, gap)):
-            # So small a change of a stable state gains less than the round-off of the energies,
-            # sums of large terms that cancel where a soft spring is far out: they have no say here,
-            # and would refuse it for ever.
+            # Such a small change of a stable state reduces the energy by less than its round-off:
+            # with a soft spring, large terms cancel in the sums. The line search would reject it
+            # in every iteration, so the change is accepted without it.
             gap = gap + change
             return Balance(gap, face.at(law, gap), solid.depth(gap), iteration, True)
         gap, energy, residual = trial, trial_energy, pull + faces.tension
         before, left = left, float(np.abs(residual).sum())
         whole = stable and part == 1.0
-        # no more unbalanced than a smooth law is after such a change
+        # limit: the residual that a smooth law leaves after such a change
         most = _KEPT_LEAVES if kept else _UNBALANCED + _CURVED * largest**2
         balanced = left < most * float(np.abs(faces.tension).sum())
         little = -slope < least_gain * size
@@ -223,7 +225,7 @@ def descend(
         smallest = int(gap.argmin())
         if gap[smallest] < GONE:
             return Balance(gap, faces, solid.depth(gap), iteration, False)
-        opens = change[smallest] > 0  # a load that grows brings them together from there
+        opens = change[smallest] > 0  # a growing load closes the gap from here
         if hold.stiffness == 0 and opens and released(gap, span):
             return Balance(gap, faces, solid.depth(gap), iteration, False, released=True)
         kept = whole and not last and left < _KEPT * before

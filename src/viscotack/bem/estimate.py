@@ -1,8 +1,8 @@
-"""How large the errors of a simulation are: a coarser companion tells.
+"""Error estimate of a simulation, from a second run with coarser settings.
 
-Every error is of second order, so that settings whose errors are four times as large differ by
-three times the error. Errors may cancel in the difference, and none falls far below what the
-settings are made for: hence a margin, and a floor.
+Every error is of second order. A run with errors four times as large differs from the main run by
+three times the error of the main run. Errors may cancel in the difference, and no error is much
+smaller than the accuracy of the settings. The estimate therefore has a safety factor and a floor.
 """
 
 from __future__ import annotations
@@ -30,23 +30,23 @@ from viscotack.result.observables import (
 )
 from viscotack.result.parts import move_numbers, moves_of, waits
 
-# The companion of a run is less accurate by this factor.
+# Ratio of the errors of the coarser run to those of the main run.
 COARSER = 4.0
-# The difference to the companion over COARSER - 1 counts so many times ...
+# Safety factors on the difference of the two runs over COARSER - 1 ...
 _MARGIN = {"force": 3.0, "work": 3.5, "time": 3.4, "depth": 3.3}
-# ... and these parts of the accuracy count at least, as errors may cancel in the difference: of the
-# number, and of the travel in tension for the depth.
+# ... and smallest errors as fractions of the accuracy, because errors may cancel in the difference.
+# They are relative to the value itself; for the depth, to the travel in tension.
 _FLOOR = {"force": 0.2, "work": 0.4, "time": 1.0, "depth": 0.4}
-# An error of the force moves its minimum, and what the drive does beside it is lost or won. So many
-# times the accuracy is taken for that error where it changes over the depths of the contact.
+# An error of the force moves its minimum, and what the drive does beside it is lost or won. Error
+# of the force, in units of the accuracy, assumed where it changes over the depths of the contact.
 _MOVED = {"work": 0.85, "depth": 0.5}
-# Of an elastic solid all of that counts so many times: nothing but the nodes holds its edge, whose
-# places on them have errors that do not fall with the second order.
+# Additional factor for elastic solids: only the nodes hold the edge, and the error of its position
+# on the nodes does not decrease with second order.
 _ELASTIC = 1.6
 # Springs side by side snap off node by node: their errors are of first order in the distance of the
 # nodes, which is sqrt(2) times as large in the companion (tests/ladder/test_bodies.py).
 _SPRINGS = 3.0
-# An error as large as the number: nothing is known of it.
+# Relative error 1: the value is unknown.
 _ALL = 1.0
 
 

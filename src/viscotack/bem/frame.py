@@ -1,8 +1,8 @@
-r"""The step of a travelling edge: what the solid remembers in the frame of the crack.
+r"""Time step in the frame of a moving crack edge: integration of the retardation modes.
 
-Where an edge travels, the pressure at a place changes as the crack passes by: fast, although in the
-frame of the crack hardly anything changes. So a step of length dt in which the edge goes from
-:math:`a_0` to :math:`a_1` takes, at the share :math:`\theta` of the step,
+When the edge moves, the pressure at a fixed point changes fast as the crack passes, although it
+hardly changes in the frame of the crack. A step of length dt, in which the edge moves from
+:math:`a_0` to :math:`a_1`, therefore assumes at the fraction :math:`\theta` of the step
 
 .. math:: e(r, \theta) = (1-\theta)\, e_0(r + \varphi s_0) + \theta\, e_1(r + \varphi s_1),
 
@@ -48,8 +48,8 @@ _getrf, _getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 _ALONG = 0.3
 # The edge goes no farther in a step than this part of that: the profile must not fold.
 _FARTHEST = 0.15
-# Parts of a step: so many distances of nodes are travelled in one, or this part of the lag to the
-# end. A travel of less than _NONE such distances is none.
+# Substeps: travel per substep in node distances, or as a fraction of the distance to the end of the
+# step. A travel below _NONE node distances is treated as zero.
 _PART, _LAGGING, _NONE = 0.25, 0.05, 0.02
 # The way bends by no more than this part of the travel.
 _MOST_BENT = 0.9
@@ -170,7 +170,7 @@ def _shares(travel: float) -> npt.NDArray:
 
 
 def _recursion(modes: Modes, dt: float, theta: npt.NDArray) -> tuple[npt.NDArray, npt.NDArray]:
-    """Return what is left of each mode after a step, and its weights of e at the shares."""
+    """Return the decay factor of each mode over a step, and the weights of e at the shares."""
     tau = np.asarray(modes.times)[:, None]
     x = np.diff(theta) * dt / tau
     decay = np.exp(-x)

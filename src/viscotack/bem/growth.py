@@ -32,12 +32,12 @@ has the potential
 and the frozen-rate tangent S/c + A F sigma_0' is its second derivative. Where that is positive
 definite, the state is the least of an energy, as with a law of the gap, and is left no sooner than
 the machine moves it on: slow motion. Where it is not, a disturbance grows, at a finite rate: a
-disturbance y that has grown for a time dt has done the work y (S/c + A F sigma_0') y/2 and made
-the heat y (A sigma_0^+ G'/dt) y/2, and it goes on as fast as the two add up to nothing. That is a
-crack that runs, which a law of the gap would have jump; no balance ends there. So a state is lost
-only where the consistent tangent is not positive definite, which is the second derivative of what
-is spent in the step, and that is the test of a step; a jump is left where the interface does not
-grow, in closing, or where it grows by so little that the shortest step sees none of it.
+disturbance y that has grown for a time dt has done the work y (S/c + A F sigma_0') y/2 and made the
+heat y (A sigma_0^+ G'/dt) y/2, and it proceeds at the speed at which the two add up to zero. That
+is a crack that runs, which a law of the gap would have jump; no balance ends there. So a state is
+lost only where the consistent tangent is not positive definite, which is the second derivative of
+what is spent in the step, and that is the test of a step; a jump is left where the interface does
+not grow, in closing, or where it grows by so little that the shortest step sees none of it.
 
 New nodes are balanced with the potential of the last step: it is the end of that step that is made
 again on them. The frozen one may have no least there.

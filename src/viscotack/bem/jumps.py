@@ -1,9 +1,9 @@
-"""Where a branch of equilibrium ends: telling a jump from a step, and going after it.
+"""Jumps at the end of an equilibrium branch: detection, new state and energy loss.
 
-Drive work must reappear as elastic and interface energy and heat. Where it does not, however short
-the step and although the solid already answers as stiffly as it can, the branch has ended: the
-contact jumps to the next stable state downhill in energy, and what it loses is booked. Under a dead
-load there may be no such state: the contact is pulled apart.
+The work of the drive must equal the change of elastic and interface energy plus heat. If it does
+not even for a step so short that the solid responds instantaneously, the branch has ended. The
+contact then jumps to the next stable state of lower energy, and the lost energy is recorded. Under
+a dead load such a state may not exist; the contact then detaches.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ from viscotack.bem.shut import pressed_shut
 from viscotack.bem.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
 from viscotack.result import Event
 
-# The way down from the end of a branch may take so many iterations.
+# Maximum number of iterations from the end of a branch to the next stable state.
 _PATIENCE = 500
-# No equilibrium is there when none was found in so many steps, each twice as long as the last.
+# Number of steps, each twice as long as the last, after which the search for equilibrium fails.
 _LOOKS = 8
-# What is lost on new nodes after a step that has lost nothing is a jump from so many times the
-# tolerated imbalance on.
+# If a step loses no energy itself, a loss on new nodes counts as a jump above this multiple of the
+# tolerated imbalance.
 _CLEARLY = 5.0
-# A step that creates more energy than so many times what may go missing is no jump, but too long:
-# it is made so much shorter, so many times.
+# A step that creates more energy than this multiple of the tolerated imbalance is too long, not a
+# jump; factor by which it is shortened, and maximum number of cuts.
 _CREATED, _CUT, _MOST_CUTS = 25.0, 0.4, 8
-# After a jump the edge may be far from the fine nodes: so many meshes go after it.
+# Maximum number of remeshings after a jump, when the edge may be far from the fine nodes.
 _MOST_MESHES = 200
 
 
 def shortest_step(run: Run, at: Place, s: Step, cuts: int = _MOST_CUTS) -> Place:
-    """Return where a step leads that can be no shorter: where that is too far, it is a jump.
+    """Advance by the shortest possible step; if that step is too long, treat it as a jump.
 
-    A jump loses energy. A step that creates some is cut after all, up to so many times.
+    A jump loses energy. A step that creates energy is shortened further, at most `cuts` times.
     """
     s, trial = _way_down(run, at, s)
     if trial.released:
@@ -64,11 +64,11 @@ def shortest_step(run: Run, at: Place, s: Step, cuts: int = _MOST_CUTS) -> Place
 
 
 def followed(run: Run, at: Place) -> Place:
-    """Return the march with the fine nodes around its edge, what that costs being booked.
+    """Remesh around the edge and record the energy lost by remeshing.
 
-    Coarse nodes may hold an edge that has run out of the fine ones where nothing else does, behind
-    a soft spring for example. New nodes then tip it over the brink, and it is a jump. Where that
-    would create energy, the march goes on with the nodes it has.
+    Coarse nodes may pin an edge that has left the fine ones, where no other force holds it, for
+    example with a soft spring. On new nodes the contact then becomes unstable, and the change is
+    recorded as a jump. If this would create energy, the present nodes are kept.
     """
     moved, gone = _chased(run, at)
     now, then = at.seen, moved.seen
@@ -78,7 +78,7 @@ def followed(run: Run, at: Place) -> Place:
         return replace(moved, books=replace(books, transfer=books.transfer + gone))
     if gone < -_CREATED * run.settings.imbalance * run.history.measure(books, now):
         return _staying(at)
-    # it lies behind the step that is kept, and before the next
+    # the jump lies between the recorded step and the next
     behind = replace(then, time=float(np.nextafter(now.time, np.inf)))
     run.history.events.append(_event(now, behind, gone))
     return replace(
@@ -90,17 +90,17 @@ def followed(run: Run, at: Place) -> Place:
 
 
 def _went_far(run: Run, moved: Place, now: Snapshot) -> bool:
-    """Return whether new nodes have moved a contact that no rigid machine holds like a jump."""
+    """Return whether remeshing moved a contact, not held by a rigid machine, as by a jump."""
     then = moved.seen
     return (now.edge > 0) != (then.edge > 0) or abs(then.depth - now.depth) > travel(run, moved)
 
 
 def _way_down(run: Run, at: Place, s: Step) -> tuple[Step, Trial]:
-    """Return the shortest step, or where it finds nothing one that looks from a little later on.
+    """Try the shortest step; if no equilibrium is found, try slightly longer ones.
 
-    Where a branch has only just ended, the way down begins so flat that round-off decides how
-    many iterations it takes. Later it is steep; what the solid does meanwhile is next to
-    nothing, its compliance being the instantaneous one.
+    Just past the end of a branch the energy is so flat that round-off determines the number of
+    iterations. A little later it is steep. The solid hardly relaxes meanwhile, because its
+    compliance is still the instantaneous one.
     """
     trial = tried(run, at, s, _PATIENCE)
     at = replace(at, state=run.body.at_rest(at.state))
@@ -115,12 +115,12 @@ def _way_down(run: Run, at: Place, s: Step) -> tuple[Step, Trial]:
 
 
 def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
-    """Return the march after a jump: at rest, with fine nodes where the edge has come to be."""
+    """Return the solver state after a jump: at rest, with fine nodes around the new edge."""
     missing, tolerated = attempt.missing, attempt.tolerated
-    # A jump loses energy. Where the step itself has lost none, and only went far, what new
-    # nodes cost must not look like one.
+    # A jump loses energy. If the step itself lost none and only moved far, the energy lost by
+    # remeshing must not be reported as a jump.
     least = tolerated if missing > tolerated else _CLEARLY * tolerated
-    if run.history.stiffness is not None:  # a snap from node to node is none to speak of
+    if run.history.stiffness is not None:  # ignore snaps from node to node
         least = max(least, run.settings.imbalance * at.seen.held)
     after = replace(
         arrived(at, attempt),
@@ -137,15 +137,16 @@ def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
 
 
 def _chased(run: Run, at: Place) -> tuple[Place, float]:
-    """Return the march with fine nodes where its edge comes to rest, and what is lost on the way.
+    """Remesh until the edge stays inside the fine nodes; also return the energy lost.
 
-    The work at the indenter, which a spring or a dead load moves, is booked; what is lost is not.
+    The work at the indenter, which a spring or a dead load moves, is recorded here; the lost energy
+    is recorded by the caller.
     """
     left: list[Mesh] = []
     missing = 0.0
     for _ in range(_MOST_MESHES):
         edges = at.seen.edge, at.seen.inner
-        # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
+        # where the gap is flat the edge depends on the mesh and may oscillate between two meshes
         if not at.mesh.left_by(*edges) or any(mesh.had(*edges) for mesh in left):
             break
         left.append(at.mesh)
@@ -159,10 +160,10 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
 
 
 def _on_new_nodes(run: Run, at: Place) -> Place:
-    """Return the march on nodes around its edge, where it was if it finds no balance on them.
+    """Remesh around the edge; keep the present nodes if no equilibrium is found on new ones.
 
-    That happens on the brink of a jump, or where edges come so close that panels are too uneven for
-    a compliance that is positive definite: the march then goes on with the nodes it has.
+    This happens close to a limit point, or if edges are so close to each other that uneven panels
+    give a compliance that is not positive definite.
     """
     try:
         moved = around_edge(run.body, at)
@@ -171,21 +172,21 @@ def _on_new_nodes(run: Run, at: Place) -> Place:
     if isinstance(moved, Place):
         run.history.meshes += 1
         return moved
-    if moved.released:  # a dead load had nothing left that holds it
+    if moved.released:  # no equilibrium is left under the dead load
         _let_go(run, at.seen, at.seen.time)
     return _staying(at)
 
 
 def _staying(at: Place) -> Place:
-    """Return the march on the nodes it has, which count as those around its edge."""
+    """Keep the present nodes and mark them as centred on the edge."""
     return replace(at, mesh=replace(at.mesh, edge=at.seen.edge, inner=at.seen.inner))
 
 
 def _let_go(run: Run, now: Snapshot, time: float) -> None:
-    """End with a contact that a dead load pulls apart: nothing stops it, and nothing is kept.
+    """End the run because a dead load has detached the contact.
 
-    The elastic energy is lost; what the load gains by falling further has no bound. Where there was
-    no contact, there was nothing that bore the load.
+    The elastic energy is lost; the further work of the load is unbounded and not recorded. If there
+    was no contact before, the outcome is "unheld".
     """
     if not now.edge > 0:
         run.history.outcome = "unheld"

@@ -1,8 +1,8 @@
-"""How large the error of a hysteresis is: a coarser companion and the books tell.
+"""Error estimate of a hysteresis, from a coarser run and the energy balance.
 
-What solid, interface and jumps have lost over a cycle is summed apart from the work at the
-indenter; by what the two miss each other is an error in itself, and so is what was lost in moving
-from mesh to mesh.
+The losses of solid, interface and jumps over a cycle are summed independently of the work at the
+indenter. The difference between the two is one part of the error; the energy lost by remeshing is
+another.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from viscotack.result.parts import Span, spans
 # Shares in the error: of the difference to the companion over what its errors exceed those of the
 # run by; of the energy that is missing after the cycle; of what moving between meshes took; and of
 # the hysteresis times the accuracy. Each alone is small by chance now and then.
-# `benchmarks/energy_books.py --hysteresis` says how often the sum covers the error.
+# `benchmarks/energy_books.py --hysteresis` counts how often the sum covers the error.
 _DIFFERENCE, _MISSING, _MESHES, _FLOOR = 1.5, 1.0, 0.5, 0.15
 
 

@@ -1,4 +1,4 @@
-r"""What the machine imposes: a depth, a load, or a drive behind a spring; and its legs.
+r"""Boundary condition of the machine: depth, dead load or drive with spring; and loading legs.
 
 The drive at D pushes the indenter, at depth :math:`\delta`, through a spring k with the force
 :math:`P = k (D - \delta)`. A rigid machine has an infinite k, and a dead load none: there P itself
@@ -18,7 +18,7 @@ from viscotack.bem.books import Snapshot
 
 @dataclass(frozen=True)
 class Hold:
-    """What is imposed at one instant; forces here are sums of nodal forces.
+    """Boundary condition at one instant; forces here are sums of nodal forces.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Leg:
         return replace(self, rate=(self.drive - now) / self.duration)
 
     def hold(self, began: Snapshot, elapsed: float, unit: float) -> Hold:
-        """Return what is imposed a time after the beginning, for a unit of force of the surface."""
+        """Return the boundary condition a time after the start; `unit`: force per nodal force."""
         if self.dead_load:
             return Hold(0.0, load=(began.force + self.rate * elapsed) / unit)
         if self.rigid:

@@ -1,10 +1,11 @@
-"""The march: a soft body through the legs of a history, step by step.
+"""Time integration of a soft body through the legs of a loading history.
 
-The machine takes hold of the contact at the beginning of a leg. Then a step is tried, and shorter
-ones until one will do: in the frame of the crack where the edge travels (:mod:`.travelling`), else
-in that of the solid (:mod:`.steps`); where none can be shorter, what is wrong with it is a jump
-(:mod:`.jumps`). After each step it is judged whether the leg, or the march, has come to its end,
-and whether the fine nodes must follow the edge (:mod:`.remesh`). :mod:`.books` has what is kept.
+A leg begins with the machine attached to the contact in its present state. The time loop then tries
+a step and shortens it until it is accepted. Steps are taken in the frame of the moving crack where
+the edge travels (:mod:`.travelling`), otherwise in the frame of the solid (:mod:`.steps`). If even
+the shortest step fails, the solver treats it as a jump (:mod:`.jumps`). After each step the solver
+checks whether the leg or the whole run has ended, and whether the fine nodes must follow the edge
+(:mod:`.remesh`). Module :mod:`.books` defines the recorded quantities.
 """
 
 from __future__ import annotations
@@ -33,9 +34,9 @@ from viscotack.bem.steps import arrived, clipped, is_shortest, shortened, tried,
 from viscotack.bem.travelling import ahead, travelled
 from viscotack.materials import Modes
 
-# A depth, a force or an edge has been met within this, in its unit.
+# Absolute tolerance within which a target depth, force or edge counts as reached, in its unit.
 _MET = 1e-9
-# Part of the force by which a dead load changes at once where it begins at the brink.
+# Relative change of a dead load in its first step if it begins at a limit point.
 _NOTICED = 1e-3
 
 
@@ -54,17 +55,20 @@ def march(
     progress: Callable[[float], None] | None = None,
     watch: Callable[[Snapshot], None] | None = None,
 ) -> History:
-    """Take a body at rest through the legs and return its history.
+    """Integrate a relaxed body through all legs and return the history.
 
-    `until` is "pull-off" (past the largest tension of the last leg, see :mod:`.later`) or
-    "detached" (surfaces apart). `stiffness` is that of the spring of the machine [output force/h0].
-    The law of the contact is the one at rest; `growing` is it where it grows with the opening
-    speed.
+    `until` is "pull-off" (stop after the largest tension of the last leg, see :mod:`.later`) or
+    "detached" (stop when the surfaces have separated). `stiffness` is the spring stiffness of the
+    machine [output force/h0]. The traction law of the contact is the quasi-static law; `growing` is
+    the rate-dependent law if the traction grows with the opening speed, otherwise None.
 
-    The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound on steps
-    was met, "time" when that on time was, "shut" when the surfaces were pressed together harder
-    than the law repels, "lost" when no equilibrium was found, or "unheld" where a dead load has no
-    contact that bears it.
+    The outcome is one of these words:
+
+    - "pull-off", "detached" or "end" (of the last leg): the run is complete;
+    - "steps" or "time": the limit on steps or on wall time was reached;
+    - "shut": the surfaces were pressed together harder than the law can repel;
+    - "lost": no equilibrium was found;
+    - "unheld": no contact exists that can carry the dead load.
     """
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
     body = Body(contact, modes, np.asarray(modes.weights), growing)
@@ -81,7 +85,7 @@ def march(
             if progress is not None:
                 progress(_share(run, at))
             if watch is not None:
-                for snapshot in history.snapshots[told:]:  # none where no further step was found
+                for snapshot in history.snapshots[told:]:  # empty if no further step was found
                     watch(snapshot)
     except TimeUp as limit:
         history.outcome, history.reason = "time", str(limit)
@@ -89,7 +93,7 @@ def march(
 
 
 def _first(run: Run, start: Relaxed, grading: Grading) -> Place:
-    """Return where the march is before the machine takes hold of it."""
+    """Return the initial solver state, before the machine is attached."""
     state, leg = run.body.first(start), run.legs[0]
     mesh = Mesh(
         finest=grading,
@@ -104,7 +108,7 @@ def _first(run: Run, start: Relaxed, grading: Grading) -> Place:
 
 
 def _begun(run: Run, at: Place, number: int) -> Place:
-    """Begin a leg: the machine takes hold of the contact as it is."""
+    """Begin a leg: attach the machine to the contact in its present state."""
     before = at.seen
     leg = _noticed(run.legs[number].beginning(before), before)
     begun = replace(
@@ -117,7 +121,7 @@ def _begun(run: Run, at: Place, number: int) -> Place:
         lowest=Lowest(),
     )
     if leg.dead_load and leg.rate == 0 and not before.edge > 0:
-        run.history.outcome = "unheld"  # attraction grows as the surfaces near: it tips either way
+        run.history.outcome = "unheld"  # unstable: attraction grows as the surfaces approach
         return begun
     turns = number > 0 and leg.outwards and not at.leg.outwards
     if turns and begun.seen.edge > 0:
@@ -127,10 +131,10 @@ def _begun(run: Run, at: Place, number: int) -> Place:
 
 
 def _noticed(leg: Leg, before: Snapshot) -> Leg:
-    """Return a leg whose first change of a dead load is more than what balances left over.
+    """Return a leg whose first change of dead load exceeds the residual of the equilibrium.
 
-    Surfaces apart that attract each other are at the brink under a dead load: a load that grows
-    tips them together, and round-off must not tip them the other way.
+    Separated surfaces that attract each other are at a limit point under a dead load. A growing
+    load makes them jump together; round-off must not make them jump apart instead.
     """
     if not (leg.dead_load and leg.rate > 0) or before.edge > 0:
         return leg
@@ -139,7 +143,7 @@ def _noticed(leg: Leg, before: Snapshot) -> Leg:
 
 
 def _stepped(run: Run, at: Place) -> Place:
-    """Return where the next step leads, made shorter until it will do or can be no shorter."""
+    """Advance by one step, shortened until it is accepted or cannot be shortened further."""
     while True:
         at = clipped(run, at)
         goal = ahead(run, at)
@@ -161,7 +165,7 @@ def _stepped(run: Run, at: Place) -> Place:
 
 
 def _judged(run: Run, at: Place, until: str) -> Place:
-    """See whether the leg, or the march, has come to its end, and whether nodes must follow."""
+    """Check whether the leg or the run has ended, and remesh if the edge has left the nodes."""
     history, last = run.history, at.number == len(run.legs) - 1
     if last and at.leg.opens and separated(at.state.gap, run.body.contact.span):
         history.outcome = "detached"
@@ -179,14 +183,14 @@ def _judged(run: Run, at: Place, until: str) -> Place:
 
 
 def _narrowed(run: Run, at: Place) -> bool:
-    """Return whether the crack has become so short that its nodes must be finer."""
+    """Return whether the cohesive zone has become too short for the present nodes."""
     if not (at.mesh.narrows and at.seen.edge > 2 * at.mesh.grading.spacing):
         return False
     return at.mesh.too_coarse(opening(at.state, run.body.contact))
 
 
 def _share(run: Run, at: Place) -> float:
-    """Return the done share of the way, from 0 to 1: of its legs, all being alike."""
+    """Return the completed fraction of the run, 0 to 1; all legs have the same weight."""
     edge, leg, whole = at.seen.edge, at.leg, at.leg.missing(at.began)
     if isfinite(leg.duration):
         part = 1 - at.left / leg.duration

@@ -1,17 +1,18 @@
-r"""What the solid remembers: one displacement field for each of its retardation modes.
+r"""Internal variables of the solid: one displacement field per retardation mode.
 
 The creep compliance is a short sum of exponentials (:class:`viscotack.materials.Modes`), so that
-the hereditary integral of Eq. 4.15 needs no history. With e(t) the displacement that the present
-pressure would cause in the relaxed solid, mode j follows :math:`\tau_j \dot d_j = e - d_j`, and the
-surface is displaced by :math:`u = c\, e + \sum_j w_j d_j` (c: instantaneous compliance). For an e
-that is linear over a step dt, with :math:`x = dt/\tau` and :math:`\varphi = (1-e^{-x})/x`, exactly
+the hereditary integral of Eq. 4.15 needs no stored history. Let e(t) be the displacement that the
+present pressure would cause in the relaxed solid. Mode j follows :math:`\tau_j \dot d_j = e - d_j`,
+and the surface displacement is :math:`u = c\, e + \sum_j w_j d_j` (c: instantaneous compliance). If
+e is linear over a step dt, with :math:`x = dt/\tau` and :math:`\varphi = (1-e^{-x})/x`, then
+exactly
 
 .. math:: d^+ = e^{-x} d + (\varphi - e^{-x})\, e + (1-\varphi)\, e^+ .
 
-The state is carried as displacements, not as stresses: in contact they are smooth where the crack
-has not been yet, so that a mesh that follows the edge loses next to nothing when it moves, even for
-k = 1e-4. The forces z that belong to d obey the same recursion and are kept for the energy audit:
-the heat of mode j in a step is :math:`w_j \int (e-d_j)\cdot(F-z_j)\,dt/\tau_j`, integrated exactly.
+The state variables are displacements, not stresses. Ahead of the crack, inside the contact, they
+are smooth, so remeshing around the moving edge adds almost no error, even for k = 1e-4. The forces
+z conjugate to d obey the same recursion and are stored for the energy balance. The heat of mode j
+in a step is :math:`w_j \int (e-d_j)\cdot(F-z_j)\,dt/\tau_j`, integrated exactly.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ class Step:
     drive : ndarray, shape (M, 2)
         phi - exp(-x) and 1 - phi of each mode.
     curvature : float
-        Displacement per unit of the error of a linear e: what the step control weighs.
+        Displacement per unit deviation of e from linear; used by the step-size control.
     """
 
     weights: npt.NDArray
@@ -62,20 +63,20 @@ def step(modes: Modes, length: float) -> Step:
         compliance=modes.instantaneous + float(w @ (1 - phi)),
         decay=decay,
         drive=np.array([phi - decay, 1 - phi]).T,
-        # A parabola of unit height over the step leaves x/6 in a slow mode, 1/x in a fast one.
+        # A parabola of unit height over the step adds x/6 to a slow mode and 1/x to a fast one.
         curvature=float(w @ (x / (6 + x * x))),
     )
 
 
 @dataclass(frozen=True, eq=False)
 class Memory:
-    """The displacement d and the force z of every mode, shape (M, N)."""
+    """Displacement d and force z of every mode, shape (M, N)."""
 
     displacement: npt.NDArray
     force: npt.NDArray
 
     def inherited(self, s: Step, e: npt.NDArray) -> npt.NDArray:
-        """Return the displacement at the end of a step that the past alone causes."""
+        """Return the displacement at the end of a step due to the loading history alone."""
         return (s.weights * s.decay) @ self.displacement + float(s.weights @ s.drive[:, 0]) * e
 
     def advanced(self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray):
@@ -87,7 +88,7 @@ class Memory:
         return Memory(recur(self.displacement, e, e1), recur(self.force, F, F1))
 
     def heat(self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray):
-        """Return the heat of each mode in that step, shape (M,) [dg beta^2]."""
+        """Return the heat dissipated by each mode in that step, shape (M,) [dg beta^2]."""
         y, f = e - self.displacement, F - self.force
         x = s.length / s.times
         # y(s) = y exp(-s) + v (1 - exp(-s)) with v = (e1 - e)/x; integrals of the three products
@@ -95,7 +96,7 @@ class Memory:
         start = np.einsum("ij,ij->i", y, f)
         mixed = (y @ (F1 - F)) / x
         ramp = float((e1 - e) @ (F1 - F)) / x**2
-        # the last one loses its digits for short steps, where its series has them
+        # the last integral loses digits by cancellation for short steps; use its series there
         series = x**3 / 3 - x**4 / 4 + 7 * x**5 / 60
         square = np.where(x < 1e-3, series, x - one - one**2 / 2)
         return s.weights * (start * two + mixed * one**2 + ramp * square)

@@ -32,12 +32,12 @@ from viscotack.errors import InputError
 
 # Of a mesh: a matrix of these has 130 MB, and a run holds several.
 MOST_NODES = 4000
-# Away from a scar that the edge has left, nodes may grow so many times as fast as outside the edge,
-# but no faster than this: no pressure is there any more, only what slow modes remember.
+# Away from the initial edge, panels may grow faster than outside the present edge by this factor,
+# up to this rate: there is no pressure, only the displacement of slow modes.
 _HEALED, _FASTEST_GROWTH = 2.0, 0.25
 
 
-# Nodes make way for others where they are so many times as far from each other.
+# Nodes are replaced by finer ones where their distance is larger by this factor.
 _COARSER = 1.3
 
 # Of the first crack's zone: below which part nodes are made finer, and the smallest that there is.

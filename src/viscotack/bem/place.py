@@ -1,4 +1,4 @@
-"""Where a march is: all that its next step begins from; and what its steps have in common."""
+"""Solver state between steps, and the constant data of a run."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from viscotack.bem.machine import Hold, Leg
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
 
-# A time of no more than so many units in the last place of the clock is none.
+# Times of at most this many units in the last place are treated as zero.
 _TICKS = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """Where a march is.
+    """Solver state between two steps.
 
     Attributes
     ----------
     state, books, mesh : State, Books, Mesh
-        The body, where the work of the drive went, and the nodes.
+        State of the body, cumulative energy terms, and nodes.
     leg, number, began : Leg, int, Snapshot
-        The leg under way, its number, and the instant at which it began.
+        Present leg, its number, and the snapshot at its start.
     dt : float
         Length of the next step [time unit of the modes].
     lowest : Lowest
-        The least force of the leg.
+        Smallest force of the leg.
     """
 
     state: State
@@ -42,35 +42,35 @@ class Place:
 
     @property
     def seen(self) -> Snapshot:
-        """What is kept of this instant."""
+        """Recorded quantities of this instant."""
         return self.state.seen
 
     @property
     def past(self) -> bool:
-        """Whether a force minimum of this leg, the lowest so far, is behind."""
+        """Whether the lowest force minimum of this leg so far has been passed."""
         return self.lowest.behind(self.seen.force)
 
     @property
     def ahead(self) -> float:
-        """How far the nearest end of the leg is, as a depth, a force or an edge."""
+        """Distance to the nearest end of the leg, as a depth, a force or an edge."""
         return self.leg.missing(self.seen)
 
     @property
     def left(self) -> float:
-        """The time left of the leg, none where the clock can no longer tell it from none."""
+        """Remaining time of the leg; 0 if it is below the resolution of the time."""
         now = self.seen.time
         left = self.leg.duration - (now - self.began.time)
         return left if left > _TICKS * ulp(now) else 0.0
 
     def hold(self, later: float = 0.0) -> Hold:
-        """Return what the machine imposes, now or so much later."""
+        """Return the boundary condition of the machine, now or after the time `later`."""
         elapsed = self.seen.time - self.began.time + later
         return self.leg.hold(self.began, elapsed, self.state.surface.unit)
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What all steps of a march have in common: the body, the legs, and the history they write."""
+    """Constant data of a run: body, settings and legs; and the history under construction."""
 
     body: Body
     settings: Settings
@@ -79,7 +79,7 @@ class Run:
     history: History
 
     def keep(self, at: Place) -> None:
-        """Keep what is to be kept of a place."""
+        """Append the present state to the history."""
         state, history = at.state, self.history
         history.snapshots.append(at.seen)
         history.books.append(at.books)

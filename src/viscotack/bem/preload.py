@@ -1,7 +1,7 @@
-r"""Where the march of a retraction from a deep start begins: as deep as its end remembers.
+r"""Shallower start for a retraction from a deep contact, with the same pull-off.
 
-An elastic contact forgets at once how deep it was, another as the solid's creep comes to its end.
-With
+The pull-off of an elastic contact does not depend on the initial depth. In a viscoelastic solid the
+dependence vanishes as the creep ends. With
 
 .. math:: M(t) = 1 - E_0\, C(t),
 
@@ -51,8 +51,8 @@ _FIRST, _DEEPER, _WORTH = 5.0, 4.0, 0.5
 # No effect of the depth is larger than this many times the part of the creep that is left; the
 # largest seen is 2.
 _SENSITIVE = 5.0
-# What is still to come is taken so many times as large as the creep says, and no less than this
-# part of what has come: creep is not all that takes its time.
+# The remaining effect is the estimate from the creep times this factor, and at least this fraction
+# of the effect so far, because creep is not the only slow process.
 _SAFE, _LEAST = 1.5, 0.1
 # What the depth may do, as parts of the accuracy; the work has five times the error of the force.
 _SHARES = {"force": 0.3, "work": 1.5}
@@ -147,7 +147,7 @@ def _asked(groups: Groups, contact: Contact) -> float:
 
 
 def _ended(light: Callable[[float], Result], depth: float, material: Material) -> _End | None:
-    """Return what a light march from a depth came to, None if it has no start or no pull-off."""
+    """Run a coarse simulation from a depth; None if it has no start or no pull-off."""
     try:
         result = light(depth)
         found, work = pull_off(result), work_to_pull_off(result)

@@ -1,6 +1,6 @@
-"""Fine nodes for an edge that has left its own: how long the crack there has become, and the move.
+"""Remeshing around an edge that has left its fine nodes, and the length of its cohesive zone.
 
-What a move costs, and whether it was a jump, is for :mod:`.jumps` to say.
+Module :mod:`.jumps` records the lost energy and decides whether remeshing triggered a jump.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from viscotack.bem.place import Place
 
 
 def around_edge(body: Body, at: Place, edge: float | None = None) -> Place | Balance:
-    """Return the march on nodes around its edge, or the balance that is none where it fails there.
+    """Return the solver state remeshed around its edge, or the unstable balance on failure.
 
-    Where the crack has grown the nodes are coarser, and the fine zone is that much longer. The
-    edge given is where it will be instead.
+    If the cohesive zone has grown, the nodes are coarser and the fine zone is longer by the same
+    factor. `edge` overrides the present edge as the centre of the fine nodes.
     """
     edge = at.seen.edge if edge is None else edge
     mesh = at.mesh.around(edge, opening(at.state, body.contact), at.seen.inner)
@@ -28,7 +28,7 @@ def around_edge(body: Body, at: Place, edge: float | None = None) -> Place | Bal
 
 
 def lost(before: Place, after: Place) -> tuple[float, float]:
-    """Return the work at the indenter between two states of one instant, and what it lacks.
+    """Return work at the indenter between two states of one instant, and the energy lost.
 
     A spring or a dead load moves the indenter; a rigid machine does not.
     """
@@ -38,7 +38,7 @@ def lost(before: Place, after: Place) -> tuple[float, float]:
 
 
 def opening(state: State, contact: Contact) -> float:
-    """Return the distance from the edge over which the gap opens by a range; or the zone."""
+    """Return the distance over which the gap opens by the range of the law, or the zone."""
     gap, x = state.gap - contact.law.edge_gap - contact.span, state.surface.position
     beyond = int(np.argmax((gap > 0) & (x > state.seen.edge)))
     if beyond == 0:

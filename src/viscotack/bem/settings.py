@@ -1,4 +1,4 @@
-"""How fine a simulation is: everything follows from the accuracy that the caller asks for."""
+"""Numerical settings of a simulation, derived from the requested accuracy."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from viscotack.traction import Traction, softening
 _FEWEST_NODES = 2.5
 # Numbers of nodes are stated for laws whose tension falls no more steeply than this.
 _SOFTENING = 1.2
-# A law with a step is not taken at the nodes (:mod:`.interface`): so many times finer they keep the
-# edge from being caught by them. Beyond its step there is nothing to resolve: so many zones do.
+# A law with a step is averaged over panels (:mod:`.interface`). This factor of mesh refinement
+# keeps the nodes from pinning the edge. Number of zones that stay fine, as the law is zero past its
+# step.
 _FINEST, _STEP_ZONES = 8.0, 2.0
 # Lengths of the relaxed crack's zone that stay fine around the first edge, for what remembers.
 _SCAR_ZONES = 2.0

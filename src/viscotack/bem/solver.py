@@ -1,4 +1,4 @@
-"""From a problem to a result: the one entry point of the simulation."""
+"""Simulation of a problem: single entry point, from the problem to the result."""
 
 from __future__ import annotations
 
@@ -36,26 +36,26 @@ from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
 from viscotack.traction import effective_range, grows
 
-# Is told the done share of the work.
+# Called with the completed fraction of the work, 0 to 1.
 Progress = Callable[[float], None] | None
-# Is told time, depth, force and contact radius of each step, as a `Result` has them.
+# Called after each step with time, depth, force and contact radius, in the units of `Result`.
 Watch = Callable[[float, float, float, float], None] | None
 
-# Modes that are faster than this part of the first step are instantaneous for all purposes.
+# Modes faster than this fraction of the first step are treated as instantaneous.
 _FASTEST = 0.2
-# Share of the work in a run that has one.
+# Share of the main run in the total work if a coarser run follows for the error estimate.
 _MAIN = 0.8
 
 
 class SimulationError(RuntimeError):
-    """A simulation that stopped before its end; `result` holds what there is, and the reason."""
+    """A simulation stopped early; `result` holds the steps computed so far and the reason."""
 
     def __init__(self, result: Result) -> None:
         super().__init__(result.status)
         self.result = result
 
     def __reduce__(self) -> tuple[type[SimulationError], tuple[Result]]:
-        """Say how to make it again in another process: from its result, not from its words."""
+        """Support pickling: the exception is rebuilt from its result, not from its message."""
         return type(self), (self.result,)
 
 
@@ -72,10 +72,10 @@ def simulate(
     progress: Progress,
     watch: Watch,
 ) -> Result:
-    """Simulate a problem, stated in its groups as well, whatever the range of its forces.
+    """Simulate a problem, also given by its dimensionless groups, for any range of adhesion.
 
-    Other parameters and errors are those of :func:`viscotack.solve`, which checks them and sets the
-    limits of time and threads.
+    The other parameters and the errors are the same as for :func:`viscotack.solve`, which checks
+    the parameters and sets the limits on time and threads.
     """
     began = perf_counter()
     share = _MAIN if estimate_error else 1.0
@@ -83,7 +83,7 @@ def simulate(
     check_bounds(problem, groups, contact)
 
     def light(marched: Groups, seen: Progress = None, *, whole: bool = False) -> Result:
-        # after moves the force may have a minimum before the pull-off: one end for both then
+        # after moves the force may have a minimum before pull-off: end both runs at the same event
         end = until if groups.moves else "detached" if whole else "pull-off"
         return _run(problem, marched, settings.coarser(COARSER), end, False, seen)
 
@@ -118,13 +118,13 @@ def simulate(
 
 
 def _part(progress: Progress, begin: float, end: float) -> Progress:
-    """Return what reports the progress of a part of the work, which never falls."""
+    """Return a callback for the progress of one part of the work; reported values never fall."""
     if progress is None:
         return None
     reached = begin
 
     def tell(done: float) -> None:
-        # behind a soft spring the contact may jump ahead of the way that is left
+        # with a soft spring a jump of the contact may make the computed progress non-monotonic
         nonlocal reached
         reached = max(reached, begin + (end - begin) * done)
         progress(reached)
@@ -176,7 +176,7 @@ def _run(
 
 
 def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed, tuple[Leg, ...]]:
-    """Return the relaxed state in which a test begins, and its legs: the first one holds it."""
+    """Return the relaxed start of a test and its legs; check that the first leg can hold it."""
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     check_held(start, contact, legs[0])
@@ -184,7 +184,7 @@ def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed
 
 
 def contact_of(groups: Groups) -> Contact:
-    """Return the contact that dimensionless groups describe, its law being the one at rest."""
+    """Return the contact described by dimensionless groups, with the quasi-static law."""
     law = _at_rest(groups.traction)
     if isinstance(groups.geometry, FlatPunch):
         return PunchContact(groups.geometry.half_width, groups.body, law)
@@ -210,9 +210,9 @@ def contact_of(groups: Groups) -> Contact:
 
 
 def _at_rest(law: Any) -> Any:
-    """Return a law of the gap: of one that grows that at rest, which nodes must be able to follow.
+    """Return the quasi-static law; reject rate-dependent laws too steep for nodal evaluation.
 
-    Speeds are known at nodes, and not between them.
+    A rate-dependent law is evaluated at the nodes because opening speeds are known only there.
     """
     if not grows(law):
         return law
@@ -226,9 +226,9 @@ def _at_rest(law: Any) -> Any:
 
 
 def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
-    """Return the retardation modes that this run can tell apart."""
+    """Return the retardation modes with times inside the time range of this run."""
     shortest = _FASTEST * min(leg.least_step for leg in legs)
-    # Relative to the compliance at the shortest time: where k is tiny, that is tiny as well.
+    # Relative to the compliance at the shortest time, which is small where k is small.
     compliance = float(material.creep(shortest))
     return material.retardation_modes(
         shortest=shortest, longest=longest, tolerance=settings.mode_tolerance * compliance
@@ -288,7 +288,7 @@ def _result(
 
 
 def _parts_of_contact(groups: Groups, contact: Contact, states: list[Snapshot]) -> dict[str, Any]:
-    """Return the inner edge and the number of rings of a shape that may have several edges."""
+    """Return inner edge and number of rings for shapes whose contact may have several edges."""
     if np.isinf(detail(groups.geometry)):
         return {}
     return {
@@ -298,7 +298,7 @@ def _parts_of_contact(groups: Groups, contact: Contact, states: list[Snapshot]) 
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the profiles, padded with nan to the longest mesh; radius in the outputs' unit."""
+    """Return the profiles, padded with nan to the largest mesh; radius in the output unit."""
     longest = max(len(p.gap) for p in history.profiles)
 
     def padded(values: np.ndarray) -> np.ndarray:
@@ -318,10 +318,10 @@ def _beginning(
     settings: Settings,
     light: Callable[[Groups], Result],
 ) -> Beginning | None:
-    """Return where the march begins instead of at a start that is too deep; None for the start."""
+    """Return a shallower equivalent start, or None if the given start is not too deep."""
     return shallower(groups, contact, settings, lambda depth: light(_from(groups, depth)))
 
 
 def _from(groups: Groups, depth: float) -> Groups:
-    """Return the test from a relaxed contact at this depth [h0]."""
+    """Return the same test, started from a relaxed contact at this depth [h0]."""
     return replace(groups, start=AtDepth(depth))

@@ -1,4 +1,4 @@
-r"""The lengths that a march takes from the traction law: how far adhesion reaches along the gap.
+r"""Length scales of the traction law in gap direction: range and derived limits.
 
 All of them are multiples of the law's range s (:func:`viscotack.traction.effective_range`), which
 is 1 for Lennard-Jones, and count from the gap of equilibrium at 1 h0: a law whose range is half as
@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-# The surfaces have separated when the smallest gap is open by so many ranges; the work that is left
-# is the energy of the interface there.
+# The surfaces have separated when the smallest gap exceeds this multiple of the range; the
+# remaining work is the energy of the interface there.
 _SEPARATED = 9.0
-# A dead load that has opened the smallest gap by so many ranges is held by nothing.
+# Opening of the smallest gap, in ranges, above which a contact cannot hold a dead load.
 _RELEASED = 29.0
 # Carried to other nodes, a gap may undershoot where it is steep; every law repels by much where it
 # is closed by this part of its range. But no gap is made smaller than a tenth of h0.

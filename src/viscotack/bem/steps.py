@@ -1,10 +1,10 @@
-"""How long a step may be, trying one, and saying whether it was too long.
+"""Step-size control: trial steps, their error measures and their acceptance.
 
-A step is implicit and exact for a load that is linear in time (:mod:`.memory`), so it is of second
-order in its length. Its strain says by how much it is too long, as the square of a ratio of
-lengths: by the error of that linearity, by the change of force and depth, by the travel of the
-edge, and by the energy that is missing after it. The travel of a drive and the end of a leg are
-known before a step is tried; it is clipped to them.
+A step is implicit and exact for a load linear in time (:mod:`.memory`), so its error is of second
+order in its length. The attribute `strain` of an attempt is the squared ratio of its length to the
+allowed length. It is the largest of several criteria: deviation from linearity, change of force and
+depth, travel of the edge, and energy imbalance. The travel of the drive and the end of the leg are
+known in advance, and the step is limited to them.
 """
 
 from __future__ import annotations
@@ -21,51 +21,51 @@ from viscotack.bem.memory import Step
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
 
-# The solid answers as stiffly as it can when a step's compliance exceeds the instantaneous one by
-# less than this part.
+# The response counts as instantaneous if the compliance of a step exceeds the instantaneous one by
+# less than this fraction.
 _INSTANT = 1e-2
-# Past the pull-off, steps may be this much longer: what is left is a small part of the work.
+# Factor on the step length after pull-off, where little of the work remains.
 _LOOSER = 2.0
-# In the frame of the crack steps may be so much longer.
+# Factor on the step length in the frame of the crack.
 _FOLLOWING = 4.0
-# A step without a balance at its end is made so much shorter.
+# Factor by which a step without equilibrium at its end is shortened.
 _UNBALANCED_CUT = 0.4
 # A step that needs more iterations than this is too long.
 _MOST_ITERATIONS = 25
-# A step is made again when its strain exceeds this. The next one aims at a ratio of lengths of
-# _AIM, so that few are; it is cut to between _MOST_CUT and _LEAST_CUT of its length, because a
-# strain that large tells only about how long it may be.
+# A step is repeated if its strain exceeds _TOO_LONG. The next one aims at the length ratio _AIM, so
+# that few steps are repeated. A repeated step has between _MOST_CUT and _LEAST_CUT of its length,
+# because a large strain is only a rough estimate of the allowed length.
 _TOO_LONG = 1.5
 _AIM, _LEAST_CUT, _MOST_CUT = 0.8, 0.7, 0.2
-# A step is at most this much longer than the last.
+# Largest ratio of a step to the previous one.
 _GROWTH = 1.5
-# What is missing in all may be so many times what may go missing in a step; as it comes near, a
-# step is left less, but no less than this part.
+# The total energy imbalance may be this multiple of that allowed per step. Close to this limit the
+# allowance of a step is reduced, but not below this fraction.
 _MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
-# Round-off in the energies, of themselves.
+# Relative round-off of the energies.
 _ROUND_OFF = 1e-11
-# Opening speeds that change in a step may change the attraction by so many times what the force may
-# change.
+# Allowed change of attraction due to a change of opening speed in a step, relative to the allowed
+# change of force.
 _BEND = 0.25
-# A contact whose tension grows with the opening speed runs where another jumps: steps may be this
-# part of the first one of a leg.
+# With a rate-dependent interface the crack runs fast instead of jumping. Steps may then be as short
+# as this fraction of the first step of a leg.
 _RUNNING = 1e-8
-# The end of a leg has been met within this part of the step that passes it.
+# Tolerance on the end of a leg, as a fraction of the step that passes it.
 _AT_END = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
 class Attempt:
-    """A step that was tried, and what the books would say of it.
+    """A trial step with its energy imbalance.
 
     Attributes
     ----------
     after, entry, mesh : State, Books, Mesh
-        The state after it, the books if nothing was lost in a jump, and the nodes.
+        State after the step, energy terms without any jump loss, and nodes.
     missing, tolerated : float
-        Work that is nowhere to be found after it, and how much of that there may be.
+        Energy imbalance of the step, and its allowed value.
     strain : float
-        By how much it is too long: a ratio of lengths, squared.
+        Squared ratio of the step length to the allowed length.
     """
 
     after: State
@@ -77,12 +77,12 @@ class Attempt:
 
     @property
     def too_long(self) -> bool:
-        """Whether it cannot be taken as a step."""
+        """Whether the step must be rejected."""
         return not self.strain <= _TOO_LONG
 
 
 def clipped(run: Run, at: Place) -> Place:
-    """Return the march with its next step within the travel it may have, and the end of its leg."""
+    """Limit the next step to the allowed travel and to the end of the leg."""
     leg, dt = at.leg, at.dt
     if leg.rigid and leg.rate:  # a soft spring's drive may run ahead
         dt = min(dt, _farthest(run, at) / abs(leg.rate))
@@ -105,7 +105,7 @@ def is_shortest(run: Run, at: Place, s: Step) -> bool:
 
 
 def tried(run: Run, at: Place, s: Step, most_iterations: int = _MOST_ITERATIONS) -> Trial:
-    """Return what a step leads to."""
+    """Compute a trial step from the present state."""
     trial = run.body.after(at.state, s, at.hold(s.length), most_iterations)
     run.history.iterations += trial.iterations
     return trial
@@ -132,9 +132,9 @@ def entered(
     interface: float = 0.0,
     least: float = 1.0,
 ) -> Attempt:
-    """Return a step with its entry in the books; energy that is missing makes it too long.
+    """Return an attempt with its energy terms; an energy imbalance increases its strain.
 
-    The least that counts is so many times what is tolerated.
+    Imbalances below `least` times the tolerated one are ignored.
     """
     before = at.state
     first, entry = run.history.snapshots[0], at.books.entered(work, heat, interface)

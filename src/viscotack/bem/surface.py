@@ -1,4 +1,4 @@
-"""The meshed surface of a soft solid that faces an indenter: all that balance and memory need."""
+"""Discretised surface of a soft solid below an indenter: nodes, stiffness, gap and interface."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from viscotack.traction import Traction
 
 _potrf, _potri = get_lapack_funcs(("potrf", "potri"), dtype=np.float64)
 
-# The smooth pressure that sets the own compliance of the first nodes goes over so many of them, as
-# far as their distances do not grow by this factor, and sets it for a part of them: towards its end
-# it is not smooth.
+# Correction of the diagonal compliances near the axis: number of nodes under the smooth test
+# pressure, growth of the node distance at which it ends earlier, and fraction of these nodes that
+# is corrected (near its end the test pressure is not smooth).
 _BUMP, _WIDER, _LEVELLED = 30, 1.5, 1 / 3
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Nodes, what holds them, and what the indenter leaves between itself and them.
+    """Surface nodes with their elastic stiffness, rigid gap and interface.
 
     Attributes
     ----------
@@ -42,9 +42,9 @@ class Surface:
         Force [output unit] per energy [dg] of unit area at the last node: what the flank of the
         indenter beyond it adds (Derjaguin). Zero where the indenter ends there.
     whole : float
-        Where the edge is when all nodes are in contact; nan where that cannot be.
+        Position of the edge if all nodes are in contact; nan if that is impossible.
     interface : Interface
-        The law on these nodes.
+        Discretised traction law on these nodes.
     """
 
     position: npt.NDArray
@@ -57,18 +57,17 @@ class Surface:
     interface: Interface
 
     def free_beyond(self, last: float, displacement: npt.NDArray) -> npt.NDArray:
-        r"""Return displacements [h0] that need no force on the nodes beyond the last loaded one.
+        r"""Return displacements [h0] with zero force on the nodes beyond the last loaded one.
 
-        With i the nodes up to there and o those beyond, :math:`S_{oo} d_o = -S_{oi} d_i`: the
-        surface beyond the load. A spline that is drawn on puts forces there, which slow modes
-        store.
+        With i the nodes up to there and o the nodes beyond, :math:`S_{oo} d_o = -S_{oi} d_i`. An
+        extrapolated spline would instead cause forces there, which slow modes would store.
 
         Parameters
         ----------
         last : float
-            Last loaded place [unit of the mesh].
+            Position of the last loaded node [unit of the mesh].
         displacement : ndarray, shape (M, N)
-            Displacements of the relaxed solid [h0], positive outwards; those beyond do not matter.
+            Displacements of the relaxed solid [h0], positive outwards; values beyond are ignored.
         """
         beyond = self.position > last
         if not beyond.any():
@@ -82,13 +81,13 @@ class Surface:
         return -self.interface.at(law, gap).tension
 
     def force(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the normal force [output unit], compression positive, with that of the flank."""
+        """Return the normal force [output unit] including the flank, compression positive."""
         return self.unit * float(np.sum(self.nodal(law, gap))) + self.flank_force(law, gap)
 
     def flank_force(self, law: Traction, gap: npt.NDArray) -> float:
         """Return the force [output unit] on the flank beyond the last node.
 
-        A law that differs from node to node says what it is at the rim.
+        A law that differs from node to node has an attribute `rim`, the law at the last node.
         """
         law = getattr(law, "rim", law)
         return self.flank * float(law.energy(gap[-1])) if self.flank else 0.0
@@ -98,7 +97,7 @@ class Surface:
         return self.flank * float(law.energy_beyond(gap[-1])) if self.flank else 0.0
 
     def edge(self, gap: npt.NDArray, edge_gap: float) -> float:
-        """Return the contact edge, where the gap last passes edge_gap; nan without one."""
+        """Return the contact edge, the outermost crossing of edge_gap; nan without contact."""
         below = np.flatnonzero(gap < edge_gap)
         if len(below) == 0:
             return float("nan")
@@ -107,9 +106,9 @@ class Surface:
         return self._passage(gap, edge_gap, int(below[-1]))
 
     def inner_edges(self, gap: npt.NDArray, edge_gap: float) -> tuple[float, ...]:
-        """Return the places within the contact edge where the gap passes edge_gap, ascending.
+        """Return the crossings of edge_gap inside the contact edge, ascending.
 
-        Where there are any the contact has a hole, or several parts.
+        If the tuple is not empty, the contact has a hole or several parts.
         """
         below = gap < edge_gap
         passed = np.flatnonzero(below[1:] != below[:-1])
@@ -117,13 +116,13 @@ class Surface:
         return tuple(self._passage(gap, edge_gap, int(i)) for i in within)
 
     def _passage(self, gap: npt.NDArray, edge_gap: float, i: int) -> float:
-        """Return where the gap passes edge_gap between a node and the next."""
+        """Return the position between nodes i and i + 1 at which the gap equals edge_gap."""
         r, g = self.position, gap - edge_gap
         linear = r[i] - g[i] * (r[i + 1] - r[i]) / (g[i + 1] - g[i])
         if i == 0 or i + 2 >= len(r):
             return float(linear)
-        # The cubic through four nodes, by Newton from the chord: a linear edge would move in jerks
-        # from node to node, and its speed would be noise.
+        # Cubic through four nodes, solved by Newton's method from the linear estimate. Linear
+        # interpolation would make the edge move unevenly from node to node, with a noisy speed.
         way = 1.0 if g[i + 1] > g[i] else -1.0
         x, y = r[i - 1 : i + 3].tolist(), (way * g[i - 1 : i + 3]).tolist()
         for order in (1, 2, 3):  # divided differences
@@ -147,38 +146,39 @@ def relaxed_stiffness(
 
     Plain collocation is symmetric only up to the discretisation error. The symmetric part of its
     compliance gives the discrete contact an energy: equilibrium is its minimum, a Cholesky factor
-    exists exactly where the state is stable, and the energy audit closes. At an axis, where areas
-    grow from node to node, that alone would cost a fourth of the pressure of the first node on any
-    mesh, and 1 % of the second's. So the compliances of the first nodes with themselves are those
-    that balance, beside all others, a smooth pressure (:func:`_levelled`). Under a sphere the
-    pressure at the axis is then within 2 % on any mesh. Under a cone, where it is unbounded, that
-    of the first node is a third above the mean there.
+    exists if and only if the state is stable, and the energy balance closes. At an axis, where
+    areas grow from node to node, the symmetric part alone would have an error of 25 % in the
+    pressure of the first node on any mesh, and 1 % at the second. Therefore the diagonal
+    compliances of the first nodes are corrected to reproduce a smooth pressure
+    (:func:`_levelled`). Under a sphere the pressure at the axis is then accurate to 2 % on any
+    mesh. Under a cone, where the pressure is unbounded, that of the first node exceeds the mean
+    there by a third.
 
     Parameters
     ----------
     body : Body
-        In the unit of length of the nodes.
+        Body, in the unit of length of the nodes.
     symmetry : {"revolution", "plane"}
-        Of the shape that presses.
+        Symmetry of the indenter.
     nodes : ndarray, shape (N,)
-        Ascending from 0.
+        Nodes, ascending from 0.
     smoothing : float
-        What the interface needs, see :func:`stiffness`.
+        Smoothing number of the interface, see :func:`stiffness`.
     """
     G = body.influence(nodes, symmetry)
     if symmetry == "revolution":
         G = _levelled(G, nodes, hat_areas(nodes, symmetry))
-    with np.errstate(divide="ignore"):  # springs side by side
+    with np.errstate(divide="ignore"):  # decay length 0: independent springs
         distant = 1 / (1 + (np.diff(nodes) / body.decay_length) ** 2)
     return stiffness(G, panel_areas(nodes, symmetry), smoothing, distant)
 
 
 def _levelled(influence: npt.NDArray, radius: npt.NDArray, area: npt.NDArray) -> npt.NDArray:
-    """Return the influence matrix with diagonal entries that suit its symmetric part at the axis.
+    """Return the influence matrix with corrected diagonal entries at the axis.
 
-    A smooth bump of pressure around the axis displaces the nodes as collocation has it, exactly but
-    for its straight lines. What the symmetric compliance misses of that at the first nodes is put
-    on their diagonal: no other entry changes, and the matrix stays symmetric.
+    Collocation gives the displacements under a smooth pressure bump at the axis exactly, apart from
+    the piecewise linear interpolation. The difference to the symmetric compliance at the first
+    nodes is added to their diagonal entries. No other entry changes, so the matrix stays symmetric.
     """
     steps = np.diff(radius)
     wider = steps > _WIDER * steps[0]
@@ -202,30 +202,31 @@ def stiffness(
 ) -> npt.NDArray:
     r"""Return the nodal forces that hold unit displacements, for a collocated influence matrix.
 
-    Collocation gives G: displacement *at* node i under the hat at node j. Two things are mended.
+    Collocation gives G, the displacement *at* node i under the hat at node j. Two corrections are
+    applied.
 
-    The discrete contact needs an energy, so the compliance B = G/A of nodal *forces* is replaced by
-    its symmetric part.
+    First, the discrete contact needs an energy. The compliance B = G/A of nodal *forces* is
+    therefore replaced by its symmetric part.
 
-    And pressures drawn as straight lines from node to node are too large where they are convex:
-    over a panel of width h by :math:`h^2 p''/12` in the mean, an error of second order, the largest
-    there is at the edge of a contact. Half of it is taken off the pressures and, so that the matrix
-    stays symmetric, half off the displacements: with the smoothing
-    :math:`W = 1 - \tfrac{1}{24} h^2 \partial^2`, here by differences that conserve the force,
-    :math:`B \to W B W^T` has an error of third order on equal nodes, and a fiftieth of the error.
-    An interface that takes means over panels has more to make up for, and says how much.
+    Second, piecewise linear pressures are too large where they are convex, by :math:`h^2 p''/12` in
+    the mean over a panel of width h. This error of second order is the largest one at the edge of a
+    contact. Half of it is subtracted from the pressures and, to keep the matrix symmetric, half
+    from the displacements. With the smoothing :math:`W = 1 - \tfrac{1}{24} h^2 \partial^2`, written
+    in differences that conserve the force, :math:`B \to W B W^T` has an error of third order on
+    equidistant nodes, one fiftieth of the original error. An interface averaged over panels needs a
+    larger correction, given by its `smoothing`.
 
     Parameters
     ----------
     influence : ndarray, shape (N, N)
         G [length], from nodes that ascend from the axis.
     panels : ndarray, shape (N - 1,)
-        Area between neighbours, half of it belonging to each of them.
+        Area between neighbouring nodes, half of it assigned to each.
     smoothing : float
-        What the interface needs, 24 where it takes the law at the nodes.
+        Smoothing number of the interface, 24 if the law is evaluated at the nodes.
     distant : float or ndarray, shape (N - 1,)
-        1 where a pressure is felt far beyond its panel, 0 where the solid answers on the spot, like
-        springs side by side: there the straight lines do no harm.
+        1 where a pressure displaces the surface far beyond its panel, 0 where the response is
+        local, as for independent springs. A local response needs no correction.
 
     Returns
     -------
@@ -235,7 +236,7 @@ def stiffness(
     Raises
     ------
     ArithmeticError
-        If the nodes are too close to each other for the digits there are.
+        If the nodes are too close to each other for double precision.
     """
     none = np.zeros(1)
     area = (np.concatenate([panels, none]) + np.concatenate([none, panels])) / 2
@@ -253,7 +254,7 @@ def stiffness(
 
 
 def _smoothed(rows: npt.NDArray, moved: npt.NDArray, area: npt.NDArray) -> npt.NDArray:
-    """Return W times a matrix: what leaves a node over a panel arrives at its neighbour."""
+    """Return W times a matrix; differences between neighbours conserve the total force."""
     flux = moved[:, None] * np.diff(rows, axis=0)
     smooth = rows.copy()
     smooth[:-1] -= flux / area[:-1, None]

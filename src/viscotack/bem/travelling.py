@@ -1,12 +1,11 @@
-"""Steps in the frame of the crack (:mod:`.frame`): when, how long, and what they cost.
+"""Step control in the frame of the moving crack (:mod:`.frame`), with work and heat.
 
-An edge that goes farther in a step than a part of its zone is followed there. Nodes move before the
-step, to where the edge is expected. The travel of the edge is what the balance at the end says: a
-few balances find it, mostly one. The work of the drive and the heat over a step are integrals of
-the polynomials through the last instants.
+This frame is used if the edge moves by more than a small fraction of its cohesive zone in a step.
+The nodes are moved before the step to the expected position of the edge. The travel of the edge is
+iterated until it agrees with the equilibrium at the end of the step; mostly one solution suffices.
+The work of the drive and the heat are integrals of the polynomials through the last instants.
 
-Where an edge rests, where no balance is found or where a branch ends, steps are those of
-:mod:`.steps`.
+If the edge is at rest, no equilibrium is found or a branch ends, the solver uses :mod:`.steps`.
 """
 
 from __future__ import annotations
@@ -39,39 +38,39 @@ from viscotack.bem.span import least_gap, room
 from viscotack.bem.steps import Attempt, changed, entered
 from viscotack.bem.surface import Surface
 
-# An edge that is expected to go less than this part of its zone in a step is not followed.
+# Smallest expected travel, as a fraction of the zone, for a step in this frame.
 _LEAST_TRAVEL = 0.03
-# The profile that moves along with the edge is at least so many half widths of the fine nodes.
+# Smallest width of the profile that moves with the edge, in half widths of the fine nodes.
 _LEAST_WIDTH = 8.0
-# The travel has been found when it changes by less than this part of the zone.
+# The travel has converged when it changes by less than this fraction of the zone.
 _FOUND = 0.1
 _MOST_BALANCES = 6
-# A solid that remembers nothing has no passage, only nodes that move: worth the while where a
-# contact changes over so many ranges of the law. Its edge is then to be where it was expected,
-# within this part of the travel.
+# For an elastic solid only the nodes move. This pays if the travel of the contact is at least this
+# multiple of the range of the law. The edge must be at the expected position within this fraction
+# of its travel.
 _MANY_ZONES, _NEAR = 9.0, 0.3
 # Largest change of the speed in a step, relative, at the default accuracy.
 _SPEED_CHANGE = 0.2
-# The error of a linear change in the frame may be so many times that at a place.
+# Factor on the allowed error of linearity in this frame, relative to the fixed frame.
 _LOOSER = 40.0
-# An edge that goes less than this part of the half width stays within the fine nodes.
+# An edge that moves less than this fraction of the half width stays within the fine nodes.
 _WITHIN = 0.8
-# On new nodes the energies differ by what the nodes do: less than so many times the tolerated
-# imbalance tells nothing of the step.
+# Remeshing changes the energies. After it, an imbalance below this multiple of the tolerated one is
+# not attributed to the step.
 _MOVED = 2.0
-# A step in which the edge would go too far is made so much shorter.
+# Factor by which a step is shortened if the edge would move too far.
 _SHORTER = 0.8
-# The cubic through four places of the edge is trusted within this part of the parabola.
+# Extrapolate the edge by a cubic if it agrees with the parabola within this fraction.
 _AGREED = 0.2
-# Instants that differ by less than this part of the time are one.
+# Relative time difference below which two instants are treated as equal.
 _TICK = 1e-12
-# Instants nearer to each other than this part of a step tell the same of it.
+# Smallest distance of instants used for integration, as a fraction of the step.
 _APART = 0.25
 
 
 @dataclass(frozen=True)
 class Ahead:
-    """Where the edge is expected after a step, and what is known of its way.
+    """Expected position of the edge after a step, with data of its motion.
 
     Attributes
     ----------
@@ -92,7 +91,7 @@ class Ahead:
 
 
 def ahead(run: Run, at: Place) -> Ahead | None:
-    """Return where the edge is expected after the next step; None where not to be followed."""
+    """Predict the edge after the next step; None if this frame does not apply."""
     trail, edge = at.state.trail, at.seen.edge
     if run.body.growing is not None:  # its speeds are those of the gap at a place
         return None
@@ -119,14 +118,14 @@ def ahead(run: Run, at: Place) -> Ahead | None:
 
 
 def _told_apart(trail: tuple[Passed, ...], dt: float) -> bool:
-    """Return whether the clock tells the last instants, and the next one, apart."""
+    """Return whether the last instants and the next one are distinct in floating point."""
     time = [passed.seen.time for passed in trail]
     shortest = min(later - earlier for earlier, later in pairwise(time))
     return min(shortest, dt) > _TICK * time[-1]
 
 
 def _expected(trail: tuple[Passed, ...], dt: float) -> float:
-    """Return the travel of the edge in the next step, by the places it has been at."""
+    """Return the travel of the edge in the next step, extrapolated from earlier positions."""
     time = [passed.seen.time for passed in trail]
     edge = [passed.seen.edge for passed in trail]
     if not all(place > 0 for place in edge):
@@ -146,7 +145,7 @@ def _extrapolated(time: list[float], edge: list[float], dt: float) -> float:
 
 
 def travelled(run: Run, at: Place, goal: Ahead) -> Attempt | None:
-    """Return a step in the frame of the crack; None where there is no balance at its end."""
+    """Try a step in the frame of the crack; None if no equilibrium is found at its end."""
     at = _on_better_nodes(run, at, goal)
     nodes = _Nodes.of(run.body, at, goal)
     way, found, passage = _balanced(run, at, goal, nodes) or (None, None, None)
@@ -164,10 +163,10 @@ def travelled(run: Run, at: Place, goal: Ahead) -> Attempt | None:
 
 
 def _on_better_nodes(run: Run, at: Place, goal: Ahead) -> Place:
-    """Return the march on other nodes where the present state can be brought to them and balanced.
+    """Remesh the present state if it can be brought into equilibrium on the new nodes.
 
-    So what the move costs is known, and booked. It can be if the edge stays within the fine nodes,
-    or comes into coarser ones for a crack that has grown.
+    The energy lost by remeshing is then known and recorded. This is possible if the edge stays
+    within the fine nodes, or if a longer cohesive zone allows coarser ones.
     """
     mesh, there = at.mesh, at.seen.edge + goal.travel
     near = abs(goal.travel) < _WITHIN * mesh.grading.half_width
@@ -175,7 +174,7 @@ def _on_better_nodes(run: Run, at: Place, goal: Ahead) -> Place:
     if not grown and not (near and mesh.left_by(there)):
         return at
     moved = around_edge(run.body, at, there if near else at.seen.edge)
-    # where a contact is about to be lost there may be an edge on the one, and none on the other
+    # close to detachment there may be an edge on one mesh and none on the other
     if not isinstance(moved, Place) or not np.isfinite(moved.seen.edge):
         return at
     work, gone = lost(at, moved)
@@ -186,7 +185,7 @@ def _on_better_nodes(run: Run, at: Place, goal: Ahead) -> Place:
 
 @dataclass(frozen=True, eq=False)
 class _Nodes:
-    """The nodes of a step, and what the march has brought to them."""
+    """Nodes of a step, with the fields of the present state."""
 
     mesh: Mesh
     surface: Surface
@@ -215,7 +214,7 @@ class _Nodes:
 
 
 def _balanced(run: Run, at: Place, goal: Ahead, nodes: _Nodes) -> tuple[Way, Found, Passage] | None:
-    """Return the way of the edge that the balance at its end confirms, and that balance."""
+    """Iterate the travel of the edge until it agrees with the equilibrium; return both."""
     body, surface, edge = run.body, nodes.surface, at.seen.edge
     law, h = body.contact.law, nodes.mesh.grading.spacing
     span = body.contact.span
@@ -255,7 +254,7 @@ def _balanced(run: Run, at: Place, goal: Ahead, nodes: _Nodes) -> tuple[Way, Fou
 
 
 def _next(tried: list[tuple[float, float]]) -> float:
-    """Return the travel to be tried next: where the secant has no difference left."""
+    """Return the next trial travel, by the secant method."""
     travel, off = tried[-1]
     if len(tried) > 1:
         before, was = tried[-2]
@@ -268,7 +267,7 @@ def _next(tried: list[tuple[float, float]]) -> float:
 def _after(
     run: Run, at: Place, nodes: _Nodes, way: Way, found: Found, passage: Passage
 ) -> tuple[State, float]:
-    """Return the state at the end of a step, and by how much its rate in the frame has changed."""
+    """Return the state at the end of a step and the change of its rate in this frame."""
     surface, x, dt = nodes.surface, nodes.surface.position, at.dt
     edge = surface.edge(found.gap, run.body.contact.law.edge_gap)
     back = x - (edge - way.begin) * along(x, edge)
@@ -297,7 +296,7 @@ def _after(
 def _strain(
     run: Run, at: Place, goal: Ahead, mesh: Mesh, way: Way, after: State, bend: float
 ) -> float:
-    """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
+    """Return the squared ratio of step length to allowed length, energy criterion excluded."""
     settings, speed = run.settings, (after.seen.edge - way.begin) / at.dt
     fastest = max(abs(speed), abs(goal.speed)) + goal.zone / at.dt
     faster = (speed - goal.speed) / fastest if run.body.weights.size else 0.0

@@ -1,4 +1,4 @@
-"""How a run ended, in words, and whether its numbers can stand."""
+"""Status text of a run, and plausibility checks of its results."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from viscotack.result import Outcome, Result
 from viscotack.result.observables import pull_off_force
 from viscotack.traction import Traction, grows
 
-# A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
+# Relative energy imbalance above which a run is rejected; good runs stay below 1e-3.
 _LARGEST_RESIDUAL = 1e-2
 
 
-# A force whose stated error is so many times the accuracy that was asked for is not resolved.
+# A force is unresolved if its estimated error exceeds the requested accuracy by this factor.
 _UNRESOLVED = 10.0
 # What a rigid sphere pulls off with at most, by Derjaguin, over what one of JKR does; whatever the
 # law, an elastic one is between them.
@@ -28,7 +28,7 @@ _DERJAGUIN = 4 / 3
 
 
 def judged(result: Result) -> Result:
-    """Return a result, or the same one stopped where its force cannot be trusted."""
+    """Return the result, marked as stopped if its force is not reliable."""
     if result.outcome is Outcome.STOPPED:
         return result
     doubt = _unresolved(result) or _beyond_shape(result) or _out_of_bounds(result)
@@ -38,7 +38,7 @@ def judged(result: Result) -> Result:
 
 
 def _unresolved(result: Result) -> str:
-    """Return what is wrong with the stated error of the force; nothing where that will do."""
+    """Return a message if the estimated error of the force is too large, otherwise ""."""
     error, asked = (result.error_estimate or {}).get("force", 0.0), result.accuracy or np.inf
     if not error > _UNRESOLVED * asked:
         return ""
@@ -49,7 +49,7 @@ def _unresolved(result: Result) -> str:
 
 
 def _beyond_shape(result: Result) -> str:
-    """Return where the contact was larger than its profile is known; nothing where it was not."""
+    """Return a message if the contact grew beyond the known profile, otherwise ""."""
     groups = result.groups
     known, largest = end(groups.geometry), float(np.nanmax(result.contact_radius, initial=0.0))
     # radii are in pi^(1/3) beta, shapes in beta
@@ -62,7 +62,7 @@ def _beyond_shape(result: Result) -> str:
 
 
 def _out_of_bounds(result: Result) -> str:
-    """Return what theory has against a pull-off force; nothing where it allows that.
+    """Return a message if a pull-off force violates theoretical bounds, otherwise "".
 
     Of a sphere on a half-space that starts in a relaxed contact. An elastic one pulls off with 1 to
     4/3 of the force of JKR, unless it starts beyond the force minimum; of a viscoelastic one the
@@ -90,7 +90,7 @@ def _out_of_bounds(result: Result) -> str:
 
 
 def status_of(history: History, residual: float, law: Traction) -> str:
-    """Return how a march ended, in words that begin with one of `Outcome`."""
+    """Return the status text of a run, which begins with a value of `Outcome`."""
     last = history.snapshots[-1]
     if history.outcome == "time":
         return out_of_time(history.reason, f"at a depth of {last.depth:.4g} h0")
@@ -140,5 +140,5 @@ def status_of(history: History, residual: float, law: Traction) -> str:
 
 
 def out_of_time(limit: TimeUp | str, where: str) -> str:
-    """Return the status of a run that met its time limit."""
+    """Return the status text of a run that reached its time limit."""
     return f"{Outcome.STOPPED} because {limit} {where}; give more time, or ask for less accuracy"

@@ -1,8 +1,8 @@
-r"""Bodies: the half-space, and a layer that rests on a rigid body below it.
+r"""Elastic bodies: the half-space, and a layer on a rigid base.
 
-A body answers :meth:`Body.influence`, how far pressures on its surface move it, for the symmetries
-that it was made for, and its twin in other units of length, :meth:`Body.reduced`; `word` names it
-in files. A class with these names is a body, wherever it was written; docs/own.md goes through one.
+A body implements :meth:`Body.influence`, the surface displacements under pressures, for the
+symmetries it supports, and :meth:`Body.reduced`, which returns the body in other units of length.
+`word` is its name in files. Any class with these attributes is a body; docs/own.md explains one.
 
 A pressure :math:`\cos \xi x` on a layer of the thickness b in plane strain moves its surface by
 :math:`\frac{2}{E^* \xi} \, \kappa(\xi b) \cos \xi x`, and a pressure :math:`J_0(\xi r)` does
@@ -25,7 +25,7 @@ from viscotack.geometry.bases import Base, Frictionless
 
 
 class Body(Protocol):
-    """What is pressed, for the type checker.
+    """Interface of an elastic body, for the type checker.
 
     Attributes
     ----------

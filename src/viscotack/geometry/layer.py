@@ -1,4 +1,4 @@
-r"""An elastic layer in plane strain, pressed symmetrically: its compliance, on any mesh.
+r"""Compliance of an elastic layer in plane strain under symmetric pressure, on any mesh.
 
 A line load of 1 on a layer of thickness b moves its surface, at a distance s, by G(s/b)/E*. With
 F'' = G, F even and F(0) = 0,
@@ -15,12 +15,13 @@ base serves all meshes and thicknesses. It is tabulated once, in 10 ms, in two w
   and E dies out exponentially: nothing is left of it at y = 48, whatever Poisson's ratio.
 
 For layers thinner than the punch is wide, differences are taken of E alone, and the foundation
-c p b/E*, which the straight lines c y/2 stand for, goes on the diagonal. So thin layers
-(b/a = 0.005) lose no digits. What rounding there is comes from differences over short flanks h: of
-the order of 1e-16 (a/h)^2 in the compliance, 1e-8 at h = 1e-4 a, and less on thin layers.
+c p b/E*, which corresponds to the linear terms c y/2, is added to the diagonal. Thin layers
+(b/a = 0.005) therefore lose no digits. Rounding errors come from differences over short flanks h:
+about 1e-16 (a/h)^2 in the compliance, 1e-8 at h = 1e-4 a, and less on thin layers.
 
-There is no half-plane here: with b a layer sinks deeper as a whole, by :math:`(2/\pi) \ln b` per
-force and length. Only differences of displacement have a limit, to which they tend as (a/b)^2.
+The half-plane is not included: with growing b the layer sinks deeper as a whole, by :math:`(2/\pi)
+\ln b` per force and length. Only differences of displacement have a limit, to which they tend as
+(a/b)^2.
 
 Pressure is symmetric in x. Nodes go from the middle, x = 0, to the end of the punch, x = a, where
 the pressure ends with half a hat; node j stands for the two hats at x_j and -x_j.

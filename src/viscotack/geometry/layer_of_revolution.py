@@ -1,4 +1,4 @@
-r"""An elastic layer under axisymmetric pressure: its compliance, on any mesh.
+r"""Compliance of an elastic layer under axisymmetric pressure, on any mesh.
 
 With :math:`\hat p` the Hankel transform of the pressure, the surface moves by
 
@@ -38,7 +38,7 @@ _PER_THICKNESS, _AROUND = 8, 10
 _WIDE, _LARGEST = 1.0, 300.0
 # Where the transfer function has become 1: t^2 exp(-2t) < 1e-11.
 _LAST = 16.0
-# Gauss panels in t: of this phase with so many points.
+# Gauss panels in t: phase of each panel and number of points.
 _PHASE, _POINTS = 12.0, 16
 # Tables grow by this factor, so that meshes share them; values of t that are summed at once.
 _GROWTH, _BLOCK = 1.25, 2048
@@ -96,7 +96,7 @@ def influence(radius: npt.NDArray, thickness: float, base: Base) -> npt.NDArray:
 
 
 def _correction(y: npt.NDArray, base: Base) -> npt.NDArray:
-    """Return what the base below adds to the displacements of a half-space, lengths in b."""
+    """Return the change of the half-space displacements due to the base, lengths in b."""
     if y[-1] > _LARGEST:
         raise InputError(
             f"the contact needs a mesh out to {y[-1]:.4g} thicknesses of the layer, and a layer is "

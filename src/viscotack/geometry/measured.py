@@ -1,4 +1,4 @@
-"""A profile by a table of heights: a worn tip, a cup, a ring, or any formula that is sampled."""
+"""Indenter profile from a table of heights, measured or sampled from a formula."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from viscotack.arrays import Array
 from viscotack.cards import Pairs, conform
 from viscotack.errors import InputError
 
-# Fewer rows state no shape, and more say nothing that a mesh could follow.
+# Limits of the number of rows: fewer define no shape, more cannot be resolved by a mesh.
 _FEWEST, _MOST = 3, 10_000
-# The finest detail that is looked for, as a part of the radius to which the profile is known.
+# Finest detail considered, as a fraction of the radius to which the profile is known.
 _FINEST = 1 / 60
 
 
@@ -26,11 +26,11 @@ _FINEST = 1 / 60
 class MeasuredProfile:
     r"""Rigid indenter of revolution through measured heights, such as those of a profilometer.
 
-    Between rows the height is the monotone cubic of Fritsch and Carlson in :math:`r^2`: it has no
-    hump that the table has not, its slope is continuous, and it is exact for a paraboloid. The tip
-    is round within the first row. Beyond the last row the profile goes on like the power of the
-    radius that it has there; it is for the attraction on the flank alone, and a contact that
-    spreads so far is refused.
+    Between rows the height is the monotone cubic of Fritsch and Carlson in :math:`r^2`: it adds no
+    extrema to the table, its slope is continuous, and it is exact for a paraboloid. The tip is
+    round within the first row. Beyond the last row the profile is continued as a power law of the
+    radius. This part serves only for the attraction on the flank; a contact that spreads so far is
+    rejected.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ class MeasuredProfile:
 
     @cached_property
     def _rim(self) -> tuple[float, float]:
-        """Height at the last row, and the power with which the profile goes on."""
+        """Height at the last row, and exponent of the power law beyond it."""
         height = self.points[-1][1]
         return height, float(2 * self.end**2 * self._inner(self.end**2, 1)) / height
 

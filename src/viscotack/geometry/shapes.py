@@ -1,11 +1,11 @@
-"""Shapes: the gap between the rigid indenter and the flat body when they just touch.
+"""Indenter shapes: the gap between the rigid indenter and the flat body at first contact.
 
-A shape of revolution answers :meth:`gap` and its derivative :meth:`flank`, and its twin in other
-units of length, :meth:`reduced`; `word` names it in files. One whose slope falls somewhere says
-over which length it changes (:func:`detail`), one that is not known everywhere to which radius it
-is (:func:`end`). A class with these names is a shape,
-wherever it was written; docs/own.md goes through one. What scales, limits and outputs it has
-follows from `symmetry`: "revolution", or "plane" for the flat punch in plane strain.
+A shape of revolution implements :meth:`gap`, its derivative :meth:`flank`, and :meth:`reduced`,
+which returns the shape in other units of length. `word` is its name in files. A shape whose slope
+decreases somewhere has a length over which it changes (:func:`detail`). A shape known only to some
+radius states this radius (:func:`end`). Any class with these attributes is a shape; docs/own.md
+explains an example. The attribute `symmetry` determines scales, limits and outputs: "revolution",
+or "plane" for the flat punch in plane strain.
 """
 
 from collections.abc import Mapping
@@ -21,12 +21,12 @@ from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 
-# A shape of revolution is looked at over these decades of radius [m].
+# Decades of radius [m] over which a shape of revolution is examined.
 _DECADES = (-30.0, 30.0)
 
 
 class Shape(Protocol):
-    """What a shape of revolution offers, for the type checker."""
+    """Interface of a shape of revolution, for the type checker."""
 
     word: ClassVar[str]
     symmetry: ClassVar[str]
@@ -294,7 +294,7 @@ def end(shape: Any) -> float:
 
 
 def numbers(noun: Any) -> Mapping[str, float]:
-    """Return what a dimensionless problem says of a shape or a body."""
+    """Dimensionless numbers of a shape or a body, by name."""
     return getattr(noun, "numbers", {})
 
 

@@ -1,4 +1,4 @@
-r"""A contact of revolution: where its nodes go, and the relaxed contact it starts from.
+r"""Contact of revolution: node placement and relaxed initial state.
 
 Lengths along the surface are in :math:`\beta`, of the profile as
 :mod:`viscotack.problem.revolution` has it; for a sphere :math:`\beta = (R^2
@@ -6,8 +6,8 @@ Lengths along the surface are in :math:`\beta`, of the profile as
 dg beta^2/h0: a force F on the nodes moves the surface by mu^2 B F, B being the compliance of the
 body with lengths in beta, for E* = 1.
 
-The search for the relaxed contact begins at the exact JKR surface, goes downhill in energy, and
-puts the fine nodes where the edge was found, until edge and nodes agree: an edge outside the fine
+The search for the relaxed contact starts from the exact JKR surface and minimises the energy. The
+fine nodes are then moved to the edge found, until edge and nodes agree. An edge outside the fine
 zone would be pinned by the coarse nodes there.
 """
 
@@ -62,7 +62,7 @@ _CENTRED = 0.25
 class RevolutionContact(ABC):
     """A shape on a body, at this Tabor number; see :class:`viscotack.bem.contacts.contact.Contact`.
 
-    A shape says in the methods up to `flank_power` how it rises, and what JKR is for it.
+    Subclasses implement the methods up to `flank_power`: the profile and its JKR solution.
     """
 
     tabor: float
@@ -148,9 +148,9 @@ class RevolutionContact(ABC):
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the body with these nodes [beta].
 
-        On the flank beyond the last node r the profile goes on like the power q = r f'/f that it
-        has there. Of a sphere the area between two gaps is 1/mu of their difference, of another
-        shape r/f' of it at that node, and from there on as the flank has it.
+        Beyond the last node r the profile is continued as a power law with the exponent
+        q = r f'/f at r. The area between two gaps is 1/mu times their difference for a sphere. For
+        another shape the factor at r is r/f'; farther out it follows the power law.
         """
         gap, area = 1 + self.rise(nodes), hat_areas(nodes, "revolution")
         face = interface(self.law, area, panel_areas(nodes, "revolution"))

@@ -1,11 +1,12 @@
-"""Any shape of revolution on any body, its JKR contact by numbers.
+"""Contact of any shape of revolution on any body, with a numerical JKR solution.
 
 The reduced profile f has the slope 1 at 1, and its rigid gap is 1 + mu f(r).
 
-Of a shape whose slope falls somewhere (waves, rings, a hollow) depth and force have several radii;
-a relaxed contact is looked for at the largest, as if all had been pressed together within it. What
-opens inside is for the balance to find. Its nodes are no coarser than the shape asks for: a panel
-bends away from its chord, linear in r^2 as the pressure is, by :math:`h^2 |f'' - f'/r| / 8`.
+If the slope of a shape falls somewhere (waves, rings, a hollow), a depth or force may have several
+contact radii. The search for a relaxed contact starts at the largest one, as if everything inside
+had been pressed together; the equilibrium solver then finds the openings inside. The mesh resolves
+the details of the shape: over a panel of width h, the profile deviates from a chord linear in r^2
+by :math:`h^2 |f'' - f'/r| / 8`.
 """
 
 from __future__ import annotations
@@ -29,20 +30,19 @@ from viscotack.geometry import Layer, Shape, detail, end
 from viscotack.protocol import Apart, Start
 from viscotack.theory.elastic import indenter, on_layer
 
-# Radii [beta] between which contacts are looked for.
+# Range of radii [beta] in which contacts are searched for.
 _LEAST, _MOST = 1e-6, 1e9
-# Of a shape with details: so many radii are looked at per detail, and so many in all.
+# Search radii for a shape with details: number per detail, and largest total number.
 _LOOKS, _MOST_LOOKS = 8, 4000
-# As far as this [beta, and details] at first: a contact of radius beta balances adhesion.
+# Initial outer limit of the search [beta, or details].
 _FAR = 8.0
-# A chord may miss such a shape by this part of the range of the law; the nodes are no more than so
-# many per detail, and are chosen from a grid so fine.
+# Allowed deviation of a chord from such a shape, as a fraction of the range of the law; largest
+# number of nodes per detail; and points per detail of the grid from which nodes are chosen.
 _CHORD, _PER_DETAIL, _GRID = 0.01, 12, 16
 _UNBOUND = (
     "the indenter does not rise to {:g} h0 within {:g} lengths beta; a shape rises without bound"
 )
-# Where the gap is wider than by so many ranges of the law, each panel may be wider than the one
-# before by this part.
+# Gap, in ranges of the law, beyond which nodes are graded; relative growth from panel to panel.
 _NEAR, _WIDER = 3.0, 0.2
 
 

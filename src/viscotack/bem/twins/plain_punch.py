@@ -68,7 +68,7 @@ def triangle_matrix(triangles: int, size: float, thickness: float, base: Base) -
 
 
 def _panels(low: float, high: float, count: int) -> tuple[npt.NDArray, npt.NDArray]:
-    """Return Gauss points and weights on so many equal panels."""
+    """Return Gauss points and weights on `count` equal panels."""
     edges = np.linspace(low, high, count + 1)
     half = np.diff(edges)[:, None] / 2
     return (edges[:-1, None] + half * (1 + _GAUSS)).ravel(), (half * _WEIGHT).ravel()
@@ -92,7 +92,8 @@ def plain_solve(problem: Case, *, triangles: int, steps: int, last_depth: float)
     -------
     Result
         Ends early just past the first minimum of the force, where a jump may follow: a larger
-        second peak of a fast deep pull is not seen. A status "stopped" says that Newton failed.
+        second peak of a fast deep pull is not seen. A status "stopped" means that Newton's method
+        failed.
     """
     began, groups = perf_counter(), problem.groups()
     depth, strength = relaxed_depth(groups), groups.traction.strength

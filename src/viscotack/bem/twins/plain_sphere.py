@@ -142,7 +142,8 @@ def plain_solve(
     -------
     Result
         Ends early just past the first minimum of the force, where a jump may follow: a larger
-        second peak of a fast deep pull is not seen. A status "stopped" says that Newton failed.
+        second peak of a fast deep pull is not seen. A status "stopped" means that Newton's method
+        failed.
     """
     began, groups = perf_counter(), problem.groups()
     mu, depth = groups.tabor, relaxed_depth(groups)

@@ -14,14 +14,14 @@ from viscotack.theory._checks import Values
 
 # Exact to round-off for smooth profiles.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
-# One such panel is for so many details of a profile; beyond so many panels there are no more.
+# Details of a profile per Gauss panel, and largest number of panels.
 _DETAILS, _MOST_PANELS = 1.0, 64
 # Slopes that are looked up at once.
 _AT_ONCE = 1_000_000
 
 
 class Flank(Protocol):
-    """A profile that says how steep it is."""
+    """A profile with gap and slope."""
 
     def gap(self, position: Values) -> Array: ...  # noqa: D102
     def flank(self, position: Values) -> Array: ...  # noqa: D102
@@ -51,7 +51,7 @@ def angles(shape: Flank, radius: float) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=_MOST_PANELS)
 def _rule(panels: int) -> tuple[Array, Array]:
-    """Return the nodes and the weights of so many panels from 0 to pi/2."""
+    """Return the nodes and the weights of `panels` equal panels from 0 to pi/2."""
     width = np.pi / 2 / panels
     angle = width * (np.arange(panels)[:, None] + (_NODES + 1) / 2)
     return np.ravel(angle), np.tile(width / 2 * _WEIGHTS, panels)

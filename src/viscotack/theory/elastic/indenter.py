@@ -1,4 +1,4 @@
-r"""JKR for any rigid indenter of revolution, by quadrature of its profile.
+r"""JKR theory for any rigid indenter of revolution, by numerical quadrature of its profile.
 
 With the slope f' of the profile, the adhesionless contact of radius a has the depth and the force
 
@@ -10,9 +10,9 @@ PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E
 :math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms. On a
 layer they follow from an integral equation (:mod:`.on_layer`), on another body from its influence
 matrix (:mod:`.on_body`).
-Range: short-range adhesion, small slopes, and a contact without holes. Where the slope falls
-outwards (:func:`viscotack.geometry.detail`) depth and force are those of a contact that was pressed
-together to its edge; they may have several branches, and several minima
+Range: short-range adhesion, small slopes, and a contact without holes. If the slope decreases
+outwards (:func:`viscotack.geometry.detail`), depth and force are those of a contact without gaps
+inside its edge. They may then have several branches and several minima
 (:mod:`viscotack.theory.elastic.wavy`).
 """
 
@@ -33,7 +33,28 @@ _HALF_SPACE = HalfSpace()
 
 
 def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE) -> Number:
-    """Return the depth [m] at which a contact has this radius [m] without adhesion."""
+    """Return the depth [m] of a contact of this radius [m] without adhesion.
+
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Contact radius a [m], positive.
+    shape : Shape
+        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+    body : Body
+        Elastic body, by default the half-space.
+
+    Returns
+    -------
+    float or ndarray
+        Depth [m], positive into the body.
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Sphere
+    >>> f"{bare_depth(1e-4, shape=Sphere(1e-3)) * 1e6:.1f} um"
+    '10.0 um'
+    """
     a = positive(contact_radius=contact_radius)
     if body != _HALF_SPACE:
         return plain(_on(body).bare_depth(a, shape, body))
@@ -50,9 +71,27 @@ def depth(
 ) -> Number:
     """Return the depth [m] of a contact of this radius [m], with adhesion.
 
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Contact radius a [m], positive.
+    shape : Shape
+        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+    contact_modulus : float
+        Contact modulus E* [Pa].
+    work_of_adhesion : float
+        Work of adhesion [J/m^2].
+    body : Body
+        Elastic body, by default the half-space.
+
+    Returns
+    -------
+    float or ndarray
+        Depth [m], positive into the body.
+
     Examples
     --------
-    A sphere of 1 mm has JKR's:
+    JKR depth for a sphere with a radius of 1 mm:
 
     >>> from viscotack.geometry import Sphere
     >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
@@ -73,9 +112,34 @@ def drawn(
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
 ) -> Number:
-    r"""Return by how much adhesion draws out a contact of this radius [m], a depth [m].
+    r"""Return the decrease of depth [m] by adhesion for a contact of this radius [m].
 
-    On a half-space :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}`.
+    On a half-space it is :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}`.
+
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Contact radius a [m], positive.
+    shape : Shape
+        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+    contact_modulus : float
+        Contact modulus E* [Pa].
+    work_of_adhesion : float
+        Work of adhesion [J/m^2].
+    body : Body
+        Elastic body, by default the half-space.
+
+    Returns
+    -------
+    float or ndarray
+        Depth without adhesion minus depth with adhesion [m], not negative.
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Sphere
+    >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
+    >>> f"{drawn(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
+    '5.605 um'
     """
     a, length = positive(contact_radius=contact_radius), work_of_adhesion / contact_modulus
     if body == _HALF_SPACE:
@@ -91,7 +155,35 @@ def force(
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
 ) -> Number:
-    """Return the force [N] of a contact of this radius [m], positive in compression."""
+    """Return the force [N] of a contact of this radius [m], positive in compression.
+
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Contact radius a [m], positive.
+    shape : Shape
+        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+    contact_modulus : float
+        Contact modulus E* [Pa].
+    work_of_adhesion : float
+        Work of adhesion [J/m^2].
+    body : Body
+        Elastic body, by default the half-space.
+
+    Returns
+    -------
+    float or ndarray
+        Force [N], negative in tension.
+
+    Examples
+    --------
+    JKR force for a sphere with a radius of 1 mm:
+
+    >>> from viscotack.geometry import Sphere
+    >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
+    >>> f"{force(1e-4, shape=Sphere(1e-3), **solid) * 1e3:.3f} mN"
+    '0.212 mN'
+    """
     a, E = positive(contact_radius=contact_radius), contact_modulus
     if body != _HALF_SPACE:
         return plain(E * _on(body).force(a, shape, body, work_of_adhesion / E))
@@ -108,10 +200,38 @@ def gap(
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
 ) -> Array:
-    r"""Return the gap [m] around a contact at a distance from the axis [m]; 0 within.
+    r"""Return the gap [m] outside a contact at a distance from the axis [m]; 0 inside.
 
     .. math:: g(r) = f(r) - \delta + \frac{2}{\pi} \int_0^a
               \frac{\delta - D(t)}{\sqrt{r^2 - t^2}}\, dt
+
+    Parameters
+    ----------
+    position : float or array_like
+        Distance r from the axis [m].
+    contact_radius : float
+        Contact radius a [m], positive.
+    shape : Shape
+        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+    contact_modulus : float
+        Contact modulus E* [Pa].
+    work_of_adhesion : float
+        Work of adhesion [J/m^2].
+    body : Body
+        Elastic body, by default the half-space.
+
+    Returns
+    -------
+    ndarray
+        Gap [m], not negative.
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Sphere
+    >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
+    >>> around = gap([0.5e-4, 2e-4], contact_radius=1e-4, shape=Sphere(1e-3), **solid)
+    >>> [f"{value * 1e6:.2f} um" for value in around]
+    ['0.00 um', '15.92 um']
     """
     a = float(contact_radius)
     r = np.maximum(np.asarray(position, dtype=float), a)
@@ -120,7 +240,7 @@ def gap(
     if body != _HALF_SPACE:
         around = _on(body).gap(np.ravel(r), a, deep, shape, body)
         return np.maximum(np.reshape(around, np.shape(r)), 0.0)
-    # t = a sin(angle) takes the root off the edge of the contact where r is near it
+    # t = a sin(angle) removes the root singularity at the contact edge for r close to a
     angle, weight = angles(shape, a)
     t = a * np.sin(angle)
     hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(angle) * weight
@@ -129,5 +249,5 @@ def gap(
 
 
 def _on(body: Body) -> Any:
-    """Return the module that answers for a body."""
+    """Return the module with the solution for a body."""
     return on_layer if isinstance(body, Layer) else on_body

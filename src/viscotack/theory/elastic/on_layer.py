@@ -40,7 +40,7 @@ from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere
 
 from ._sneddon import half_space_depth
 
-# Gauss panels in the angle: so many, and one more per so many thicknesses, each of so many points.
+# Gauss panels in the angle: smallest number, thicknesses per extra panel, points per panel.
 _PANELS, _WIDER, _POINTS = 3, 4.0, 16
 # Gauss panels in t, up to where the transfer function is 1, each of this phase.
 _LAST, _PHASE = 18.0, 12.0

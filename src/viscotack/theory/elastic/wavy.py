@@ -1,8 +1,8 @@
-r"""A rigid sphere with waves on an elastic half-space, by Guduru: waves can hold a contact harder.
+r"""Rigid wavy sphere on an elastic half-space (Guduru): waves can increase the pull-off force.
 
 The profile :math:`f = r^2/2R + A (1 - \cos k r)` with :math:`k = 2\pi/\lambda`
-(:class:`viscotack.geometry.WavySphere`), pressed together within the radius a, has with Struve's
-functions H
+(:class:`viscotack.geometry.WavySphere`), in full contact inside the radius a, has with Struve's
+functions H the depth and the force
 
 .. math:: \delta = \frac{a^2}{R} + \frac{\pi}{2} A k a\, H_0(k a)
                    - \sqrt{2 \pi a \Delta\gamma_0/E^*},
@@ -10,13 +10,13 @@ functions H
 .. math:: P = \frac{4 E^* a^3}{3 R} + \pi E^* A a \left[k a\, H_0(k a) - H_1(k a)\right]
               - \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
 
-Depth and force go up and down with a. As the surfaces are pulled apart the edge is held at each
-crest and snaps to the next; what a snap sets free is lost. The pull-off force is the largest of all
-maxima of the tension, and may be several times that of the smooth sphere.
+Depth and force oscillate with a. During separation the edge is held at each crest and snaps to the
+next; the energy released by a snap is lost. The pull-off force is the largest of all maxima of the
+tension. It may be several times that of the smooth sphere.
 
-Range: short-range adhesion and a contact without holes, as it is after a firm preload on waves that
-are not too steep. A slow elastic solid: in a viscoelastic one the gain fades with the speed
-(`benchmarks/profiles.py`).
+Range: short-range adhesion and a contact without holes, as after a firm preload on waves that are
+not too steep. The solid is elastic and separation slow; in a viscoelastic solid the gain in force
+decreases with the speed (`benchmarks/profiles.py`).
 
 Source: Guduru (2007), J. Mech. Phys. Solids 55, 445, doi:10.1016/j.jmps.2006.09.002.
 """
@@ -33,7 +33,7 @@ from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from .jkr import Point
 
 _LENGTH = "a contact radius is a length"
-# Radii per wave at which the force is looked at for its minima.
+# Number of radii per wave at which the force is evaluated in the search for its minima.
 _PER_WAVE = 32
 
 
@@ -47,6 +47,22 @@ def depth(
     work_of_adhesion: Values,
 ) -> Number:
     r"""Return the depth [m] of the tip at a contact radius [m].
+
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Contact radius a [m], not negative.
+    radius, amplitude, wavelength : float or array_like
+        Radius R of the sphere, amplitude A and wavelength of the waves [m].
+    contact_modulus : float or array_like
+        Contact modulus E* [Pa].
+    work_of_adhesion : float or array_like
+        Work of adhesion [J/m^2].
+
+    Returns
+    -------
+    float or ndarray
+        Depth [m], positive into the body.
 
     Examples
     --------
@@ -72,6 +88,22 @@ def force(
     work_of_adhesion: Values,
 ) -> Number:
     r"""Return the force [N] at a contact radius [m], positive in compression.
+
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Contact radius a [m], not negative.
+    radius, amplitude, wavelength : float or array_like
+        Radius R of the sphere, amplitude A and wavelength of the waves [m].
+    contact_modulus : float or array_like
+        Contact modulus E* [Pa].
+    work_of_adhesion : float or array_like
+        Work of adhesion [J/m^2].
+
+    Returns
+    -------
+    float or ndarray
+        Force [N], negative in tension.
 
     Examples
     --------
@@ -101,9 +133,23 @@ def pull_off(
     contact_modulus: float,
     work_of_adhesion: float,
 ) -> Point:
-    r"""Return the least force of all contact radii, where a dead load detaches a firm contact.
+    r"""Return the point of smallest force, at which a dead load detaches a contact without holes.
 
-    Numbers, no arrays.
+    The arguments are numbers, not arrays.
+
+    Parameters
+    ----------
+    radius, amplitude, wavelength : float
+        Radius R of the sphere, amplitude A and wavelength of the waves [m].
+    contact_modulus : float
+        Contact modulus E* [Pa].
+    work_of_adhesion : float
+        Work of adhesion [J/m^2].
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N] at pull-off; the force is negative.
 
     Examples
     --------
@@ -121,7 +167,7 @@ def pull_off(
         "contact_modulus": E,
         "work_of_adhesion": w,
     }
-    # Beyond these radii the sphere outweighs adhesion, and waves, each by a half of its force.
+    # Beyond these radii half of the sphere force exceeds adhesion, and the other half the waves.
     adhesion = np.cbrt(18 * np.pi * R**2 * w / E)
     most = max(float(adhesion), float(1.5 * np.pi * 2 * np.pi / wave * A * R), float(wave))
     a = np.linspace(0.0, most, max(int(_PER_WAVE * most / wave), 256))
