@@ -45,19 +45,19 @@ _SHORTEST, _LONGEST = 1e-6, 1e6
 # Radius [that of the outputs] of a contact of revolution; depth [h0] of a punch, which has none.
 LARGEST_RADIUS = 1000.0
 _DEEPEST_PUNCH = 1e7
-# A contact that is held where it is moves by no more than this part of its travel.
+# Largest depth change of a stable start, as a fraction of its travel.
 _MOVED = 1e-2
 # Largest time before a leg in units of its first step: time has 16 digits.
 _TICKS = 1e14
 
 
 def check_bounds(problem: Case, groups: Groups, contact: Contact) -> None:
-    """Refuse a problem with a number that no simulation takes, naming it.
+    """Reject a problem with a value outside the limits of a simulation.
 
     Raises
     ------
     ValueError
-        With the number as it was given, and the range.
+        The message contains the value as given and the allowed range.
     """
     _check_numbers(problem, groups)
     reach = effective_range(groups.traction)
@@ -82,7 +82,7 @@ def check_bounds(problem: Case, groups: Groups, contact: Contact) -> None:
 
 
 def check_held(start: Relaxed, contact: Contact, leg: Leg) -> None:
-    """Refuse a start that exists, but not behind the spring of the machine."""
+    """Reject a start that is not stable with the spring of the machine."""
     if leg.rigid or leg.dead_load or not start.edge > 0:
         return
     surface, law, stiffness = start.surface, contact.law, leg.stiffness / start.surface.unit
@@ -102,7 +102,7 @@ def check_held(start: Relaxed, contact: Contact, leg: Leg) -> None:
 def check_clock(
     legs: tuple[Leg, ...], moves: tuple[Move, ...], depths: list[float], contact: Contact
 ) -> None:
-    """Refuse a test of which a part is so long that a later one is lost in its last digit."""
+    """Reject a test in which a long part leaves no time resolution for a later one."""
     elapsed = 0.0
     for number, leg in enumerate(legs):
         if elapsed > _TICKS * leg.least_step:
@@ -117,7 +117,7 @@ def check_clock(
 
 
 def _check_numbers(problem: Case, groups: Groups) -> None:
-    """Refuse numbers of the test that are out of the range of arithmetic."""
+    """Reject values of the test outside the floating-point range."""
     stated = problem.protocol if isinstance(problem, Problem) else groups
     for (name, value, measure), (_, given, _) in zip(
         _numbers(groups), _numbers(stated), strict=True
@@ -156,7 +156,7 @@ def _of(whose: str, noun: Any) -> Iterator[tuple[str, float, str]]:
 
 
 def _check_depths(groups: Groups, contact: Contact) -> None:
-    """Refuse a contact that is pressed too deep."""
+    """Reject a contact that is pressed too deep."""
     deepest = _DEEPEST_PUNCH
     if not groups.in_plane_strain:
         deepest = contact.deepest(AtRadius(LARGEST_RADIUS))

@@ -66,7 +66,7 @@ def estimated(
     """
     try:
         coarse = companion() if beginning is None else beginning.light
-    except (ValueError, TimeUp):  # it has no start, no time: nothing is known
+    except (ValueError, TimeUp):  # no start or no time left: no estimate
         return result
     errors = _of_end(result, coarse, beginning, travel, accuracy) or {}
     loops = hysteresis_errors(result, coarse, accuracy, COARSER)
@@ -103,14 +103,14 @@ def _of_end(
     return estimate
 
 
-# What a start at another depth may change, by the name of the error.
+# Attribute of `ShallowStart` with the effect of the start on each error.
 _OF_START = {"force": "force", "work": "work", "depth": "shift"}
 
 
 def _of_pull_off(
     result: Result, found: PullOff, coarse: Result, alike: PullOff, travel: float, accuracy: float
 ) -> dict[str, float]:
-    """Return the errors at a pull-off beside the like peak of a companion."""
+    """Return the errors at a pull-off, from the matching peak of the coarser run."""
     work, other = work_to(result, found), work_to(coarse, alike)
     energy = found.force * result.problem.outputs.energy_factor(result.groups)
     off = {"work": abs(work - other), "depth": abs(found.depth - alike.depth)}
@@ -145,12 +145,12 @@ def _of_pull_off(
 
 
 def _from_difference(name: str, share: float, accuracy: float) -> float:
-    """Return the error that a relative difference from the companion stands for."""
+    """Return the error estimated from a relative difference to the coarser run."""
     return max(_MARGIN[name] * share / (COARSER - 1), _FLOOR[name] * accuracy)
 
 
 def _add_branch(result: Result, estimate: dict[str, float]) -> None:
-    """Widen the errors of work and depth to the other peak where either may be the larger."""
+    """Extend the errors of work and depth to a second peak if either may be the larger."""
     known = replace(result, error_estimate=estimate).posed(result.groups)
     if (other := equal_peak(known)) is None:
         return
@@ -162,5 +162,5 @@ def _add_branch(result: Result, estimate: dict[str, float]) -> None:
 
 
 def _holds(result: Result) -> bool:
-    """Return whether a test ends with a load that is borne, whose error is that of the time."""
+    """Return whether a test ends with a held load, so that its error is that of the time."""
     return waits(moves_of(result)[int(move_numbers(result)[-1])], "force")

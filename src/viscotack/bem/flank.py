@@ -1,16 +1,16 @@
-r"""The flank of a tip beyond the last node: what it adds beside that of a sphere (Derjaguin).
+r"""Force on the flank beyond the last node, relative to that of a sphere (Derjaguin).
 
-Of a sphere the area between two gaps is the same at any distance, so that the force on its flank
-is the energy of the law at the gap g of the last node, times a constant. On the flank of a tip that
-rises like :math:`r^q` that area grows like :math:`w = (h/g)^p` with :math:`p = (2-q)/q`, and the
-force is larger by
+For a sphere the area between two gaps does not depend on the distance. The force on its flank is
+the energy of the law at the gap g of the last node, times a constant. For a tip that rises like
+:math:`r^q`, this area grows like :math:`w = (h/g)^p` with :math:`p = (2-q)/q`, and the force is
+multiplied by
 
 .. math:: \frac{\int_g^\infty w\,\sigma\,dh}{-\varphi(g)}
           = 1 + \int_g^\infty w' \frac{\varphi(h)}{\varphi(g)}\,dh
           = 1 + p \int_0^1 x^{-1-p}\, \frac{\varphi(g/x)}{\varphi(g)}\,dx .
 
-A law whose tension falls like :math:`h^{-3}` has :math:`q/(\frac32 q - 1)`, and one that has faded
-before the last node has 1.
+For a tension that falls like :math:`h^{-3}` this factor is :math:`q/(\frac32 q - 1)`. For a law
+that vanishes before the last node it is 1.
 """
 
 from __future__ import annotations

@@ -9,18 +9,17 @@ hardly changes in the frame of the crack. A step of length dt, in which the edge
 with e the displacement that the pressure would cause in the relaxed solid (:mod:`.memory`), the
 shifts :math:`s_0 = a_0 - a(\theta)` and :math:`s_1 = a_1 - a(\theta)` along the way
 :math:`a(\theta)` of the edge, a parabola through its last three places, and a :math:`\varphi` that
-is 1 around the edge and dies out on the way to the middle and to the rim. This is consistent for
-any :math:`\varphi`; without travel it is the step of :mod:`.memory`.
+is 1 around the edge and decays to 0 towards the centre and the rim. The scheme is consistent for
+any :math:`\varphi`; without travel it equals the step of :mod:`.memory`.
 
 The old :math:`e_0` is a spline on the old nodes, which need not be those of the step. The new one
 is interpolated by the cubic through four nodes, so that the displacement at the end of the step is
-linear in its values: :math:`u = C e_1 + u_0` with a matrix C in the place of a number. Weights of
-the passage come from the exact recursion over parts of the step that grow with their distance from
-its end.
+linear in its values: :math:`u = C e_1 + u_0`, with a matrix C instead of a scalar compliance. The
+weights come from the exact recursion over substeps, which are longer farther from the end.
 
-In balance, :math:`S e_1 + T(C e_1 + b) = 0` with the stiffness S, the tensions T of the interface
-and b the gap without the new pressure. S C^-1 is not symmetric: the path of the last instants makes
-it so, and no energy falls on the way to a balance. It is found by Newton's method from gaps.
+Equilibrium is :math:`S e_1 + T(C e_1 + b) = 0` with the stiffness S, the tensions T of the
+interface and the gap b without the new pressure. S C^-1 is not symmetric because of the loading
+path, so there is no energy to minimise. The equation is solved by Newton's method in the gaps.
 """
 
 from __future__ import annotations
@@ -44,17 +43,17 @@ from viscotack.traction import Traction, effective_range
 
 _getrf, _getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 
-# The profile moves along with the edge within about this part of the way to the middle, or the rim.
+# Width of the profile that moves with the edge, as a fraction of the distance to centre or rim.
 _ALONG = 0.3
-# The edge goes no farther in a step than this part of that: the profile must not fold.
+# Largest travel of the edge per step, as a fraction of that width; the profile must not fold.
 _FARTHEST = 0.15
 # Substeps: travel per substep in node distances, or as a fraction of the distance to the end of the
 # step. A travel below _NONE node distances is treated as zero.
 _PART, _LAGGING, _NONE = 0.25, 0.05, 0.02
-# The way bends by no more than this part of the travel.
+# Largest curvature term of the path, as a fraction of the travel.
 _MOST_BENT = 0.9
-# Newton has found the balance when gaps change by less than this part of their room: it converges
-# quadratically.
+# Newton's method has converged when the relative change of the gaps is below this value; the
+# convergence is quadratic.
 _LAST_CHANGE = 0.01
 _UNBALANCED = 2e-6
 _MOST_ITERATIONS = 12
@@ -63,7 +62,7 @@ _LARGEST_CLOSING = 0.5
 
 @dataclass(frozen=True)
 class Way:
-    """The way of the edge in a step: from `begin` by the travel, bent by what it did before."""
+    """Path of the edge in a step: start, travel, and curvature term from the previous step."""
 
     begin: float
     travel: float
@@ -71,45 +70,45 @@ class Way:
 
     @classmethod
     def of(cls, begin: float, travel: float, dt: float, speed: float, before: float) -> Way:
-        """Return the way after a step of length `before` at this mean speed."""
+        """Return the path after a previous step of length `before` with this mean speed."""
         bend = dt * (travel - speed * dt) / (dt + before)
         most = _MOST_BENT * abs(travel)
         return cls(begin, travel, min(max(bend, -most), most))
 
     def from_begin(self, theta: npt.NDArray) -> npt.NDArray:
-        """Return s0: minus the way so far."""
+        """Return the shift s0, minus the distance travelled so far."""
         return -theta * (self.travel + self.bend * (theta - 1))
 
     def to_end(self, theta: npt.NDArray) -> npt.NDArray:
-        """Return s1: the way that is left."""
+        """Return the shift s1, the remaining distance."""
         return (1 - theta) * (self.travel + self.bend * theta)
 
 
 def along(nodes: npt.NDArray, edge: float) -> npt.NDArray:
-    """Return the part of the way of the edge that the profile at each node moves."""
+    """Return the displacement of the profile at each node, relative to that of the edge."""
     inside, outside = widths(nodes, edge)
     distance = np.where(nodes < edge, (nodes - edge) / inside, (nodes - edge) / outside)
     return np.exp(-(distance**4))
 
 
 def widths(nodes: npt.NDArray, edge: float) -> tuple[float, float]:
-    """Return how far inside and outside of the edge the profile moves along with it."""
+    """Return the widths inside and outside the edge over which the profile moves with it."""
     return _ALONG * edge, _ALONG * min(edge, float(nodes[-1]) - edge)
 
 
 def farthest(nodes: npt.NDArray, edge: float) -> float:
-    """Return how far an edge may travel in a step."""
+    """Return the largest travel of an edge in a step."""
     return _FARTHEST * min(widths(nodes, edge))
 
 
 @dataclass(frozen=True, eq=False)
 class Passage:
-    """A step in the frame of the crack, for one way of the edge, on the nodes of its end.
+    """A step in the frame of the crack, for one path of the edge, on the nodes of its end.
 
     Attributes
     ----------
     decay, weights : ndarray, shape (M,) and (M, Q)
-        What is left of each mode, and its displacement per unit of e at each of the shares.
+        Decay factor of each mode, and its displacement per unit of e at each share.
     theta : ndarray, shape (Q,)
         Shares of the step.
     old : ndarray, shape (Q, N)
@@ -148,7 +147,7 @@ class Passage:
         return C
 
     def inherited(self, modes: Modes, d: npt.NDArray) -> npt.NDArray:
-        """Return the displacement at the end that the past alone causes."""
+        """Return the displacement at the end due to the loading history alone."""
         w = np.asarray(modes.weights)
         return (w * self.decay) @ d + (w @ self.weights) @ self.old
 
@@ -160,7 +159,7 @@ class Passage:
 
 
 def _shares(travel: float) -> npt.NDArray:
-    """Return the shares of a step at which e is taken, for a travel in distances of nodes."""
+    """Return the shares of a step at which e is evaluated, for a travel in node distances."""
     if travel < _NONE:
         return np.array([0.0, 1.0])
     lags, least = [0.0], _PART / travel
@@ -195,7 +194,7 @@ def _four_nodes(nodes: npt.NDArray, at: npt.NDArray) -> tuple[npt.NDArray, npt.N
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """A balance in the frame of the crack."""
+    """Equilibrium in the frame of the crack."""
 
     gap: npt.NDArray
     faces: Faces
@@ -212,7 +211,7 @@ def elastic(
     guess: npt.NDArray,
     hold: Hold,
 ) -> Found | None:
-    """Return the balance of a solid that remembers nothing: it has an energy, to be descended."""
+    """Return the equilibrium of an elastic solid, by minimising its energy."""
     balance = descend(
         surface, law, free, compliance, guess, hold, most_iterations=2 * _MOST_ITERATIONS
     )
@@ -224,7 +223,7 @@ def elastic(
 
 @dataclass(frozen=True, eq=False)
 class Balancing:
-    """The balance at the end of a step, S e + T(C e + free - depth) = 0, and the machine's."""
+    """Equilibrium at the end of a step, S e + T(C e + free - depth) = 0, with the machine."""
 
     surface: Surface
     law: Traction
@@ -233,10 +232,10 @@ class Balancing:
     hold: Hold
 
     def found(self, guess: npt.NDArray) -> Found | None:
-        """Return the balance near a guess of the gap; None where Newton finds none.
+        """Return the equilibrium near a guess of the gap, None if Newton's method fails.
 
-        The determinant of the tangent is positive on a stable branch, and changes its sign where
-        one ends: beyond there is none either.
+        The determinant of the tangent is positive on a stable branch and changes sign at its end.
+        A solution with a negative determinant is therefore rejected.
         """
         span, gap, face = effective_range(self.law), guess, self.surface.interface
         here = face.at(self.law, gap)
@@ -263,7 +262,7 @@ class Balancing:
     def _linear(
         self, gap: npt.NDArray, tension: npt.NDArray, tangent: _Tangent
     ) -> tuple[npt.NDArray, float]:
-        """Return e and depth in balance with tensions that change from these gaps' linearly."""
+        """Return e and depth in equilibrium with tensions linearised at these gaps."""
         right = tangent.pull(gap - self.free) - tension
         deeper = tangent.pull(np.ones_like(gap))
         if self.hold.rigid:
@@ -281,7 +280,7 @@ class Balancing:
 
 @dataclass(frozen=True, eq=False)
 class _Tangent:
-    """How tensions change with gaps, and the factors of S + T' C."""
+    """Derivative of tensions with respect to gaps, and the LU factors of S + T' C."""
 
     curvature: Band
     factor: npt.NDArray
@@ -290,14 +289,14 @@ class _Tangent:
 
     @classmethod
     def of(cls, face: Faces, of: Balancing) -> _Tangent | None:
-        """Return the tangent at a face; None where it is that of no stable branch."""
+        """Return the factored tangent at a face, None if it is singular."""
         diagonal, beside = curvature = face.tangent()
         tangent = diagonal[:, None] * of.compliance
         tangent += of.surface.stiffness
         if beside is not None:
             tangent[1:] += beside[:, None] * of.compliance[:-1]
             tangent[:-1] += beside[:, None] * of.compliance[1:]
-        # rows are columns to LAPACK: the transposed factor spares a copy
+        # LAPACK uses column order: factoring the transpose avoids a copy
         factor, pivots, info = _getrf(tangent.T, overwrite_a=1)
         swaps = np.count_nonzero(pivots != np.arange(len(pivots)))
         negative = bool((np.count_nonzero(np.diag(factor) < 0) + swaps) % 2)

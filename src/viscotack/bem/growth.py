@@ -1,8 +1,8 @@
-r"""An interface whose tension grows with the speed at which the gap opens, in a step.
+r"""Rate-dependent interface, whose tension grows with the opening speed, in one time step.
 
 A growing law (:mod:`viscotack.traction.growing`) has a tension of gap and opening speed,
-:math:`\sigma = \sigma_0(h) + \sigma_0^+(h) \, G(\dot h)`, and no potential. Within one step it has
-one all the same. The speed at its end is linear in the gap there,
+:math:`\sigma = \sigma_0(h) + \sigma_0^+(h) \, G(\dot h)`, and in general no potential. Within one
+step, however, a potential exists. The speed at the end of the step is linear in the gap there,
 
 .. math:: \dot h = \frac{h - s}{p}, \quad
           p = \frac{dt}{1+\beta}, \quad s = h_0 + \frac{\beta}{1+\beta} \, dt \, v_0, \quad
@@ -15,15 +15,15 @@ gap alone, with the potential
 
 .. math:: \psi(h) = \varphi_0(h) + \int_s^h \sigma_0^+(x) \, G\!\left(\frac{x - s}{p}\right) dx,
 
-and the balance of :mod:`.equilibrium` and its descent go on as they are. Its second derivative is
-the consistent tangent,
+and the equilibrium solver of :mod:`.equilibrium` applies unchanged. The second derivative is the
+consistent tangent,
 
 .. math:: \psi'' = \sigma_0' \, (1 + G) + \sigma_0^+ \, G'/p,
 
-whose last term only stiffens: as dt vanishes it outgrows every softening. A contact that grows
-never jumps, therefore; where its law at rest would, the edge runs, as fast as its heat allows.
+whose last term is not negative. For dt to 0 it exceeds any softening, so a rate-dependent contact
+never jumps. Where the quasi-static law would jump, the crack runs at a speed limited by its heat.
 
-**What is stable.** With the speeds frozen, and so the factor F = 1 + G at each node, the interface
+**Stability.** With the speeds frozen, and so the factor F = 1 + G at each node, the interface
 has the potential
 
 .. math:: \varphi_F(h) = F \, \varphi_0(h) \;\; (h \ge h_0), \quad
@@ -34,18 +34,18 @@ definite, the state is the least of an energy, as with a law of the gap, and is 
 the machine moves it on: slow motion. Where it is not, a disturbance grows, at a finite rate: a
 disturbance y that has grown for a time dt has done the work y (S/c + A F sigma_0') y/2 and made the
 heat y (A sigma_0^+ G'/dt) y/2, and it proceeds at the speed at which the two add up to zero. That
-is a crack that runs, which a law of the gap would have jump; no balance ends there. So a state is
-lost only where the consistent tangent is not positive definite, which is the second derivative of
-what is spent in the step, and that is the test of a step; a jump is left where the interface does
-not grow, in closing, or where it grows by so little that the shortest step sees none of it.
+is a running crack; with a quasi-static law the contact would jump, but here the branch continues. A
+state is unstable only if the consistent tangent, the second derivative of the energy spent in the
+step, is not positive definite. This is the stability test of a step. Jumps remain possible on
+closing, or if the growth is too small to have an effect in the shortest step.
 
-New nodes are balanced with the potential of the last step: it is the end of that step that is made
-again on them. The frozen one may have no least there.
+On new nodes the equilibrium uses the potential of the last step, so that the end of that step is
+recomputed. The potential with frozen speeds may have no minimum there.
 
 **Heat.** In a step the tensions beyond those at rest, :math:`x = \sigma_0^+ G`, do the work
 :math:`\sum A \frac{x_0 + x_1}{2} (h_1 - h_0)`, all of it heat. With linear forces that is what the
-solid and the machine lose to it: the books close as well as they do with the law at rest, and what
-they do not tell, whether speeds are right, the step control does (:func:`bend`).
+solid and the machine lose to it. The energy balance therefore closes as well as with the
+quasi-static law. It does not check the speeds; the step control does (:func:`bend`).
 """
 
 from __future__ import annotations
@@ -65,10 +65,11 @@ from viscotack.bem.span import room
 from viscotack.bem.surface import Surface
 from viscotack.traction import Traction, effective_range
 
-# Newton's method for a step: iterations, what may be left unbalanced of the tensions, the part of
-# the room that a gap may close at once, and of a speed that changes less the tangent is taken.
+# Newton's method for a step: maximum iterations, relative residual of the tensions, largest
+# relative closing of a gap per iteration, and relative change of speed below which the tangent is
+# used.
 _ITERATIONS, _UNBALANCED, _LARGEST_CLOSING, _SETTLED = 40, 1e-8, 0.3, 0.3
-# Points for the heat within a step; u^2 takes the sting out of a power of the speed below 1.
+# Gauss points for the heat in a step; u^2 removes the singularity of a speed exponent below 1.
 _U, _WEIGHT = np.polynomial.legendre.leggauss(10)
 _U = (_U + 1) / 2
 _SQUARE, _SLOPE = (_U**2)[:, None], _WEIGHT * _U
@@ -76,18 +77,18 @@ _SQUARE, _SLOPE = (_U**2)[:, None], _WEIGHT * _U
 
 @dataclass(frozen=True, eq=False)
 class Opening:
-    """How fast the gap opens at the nodes, at an instant.
+    """Opening speed of the gap at the nodes, at one instant.
 
     Attributes
     ----------
     speed : ndarray, shape (N,)
-        What the tension feels [h0 per time].
+        Opening speed that enters the tension [h0 per time].
     mean : ndarray, shape (N,)
-        Mean speed over the step before.
+        Mean speed over the previous step.
     length : float
-        Length of that step; 0 where it tells nothing of the next.
+        Length of that step; 0 if it must not be used for prediction.
     per : float
-        Speed per gap at its end; 0 as well.
+        Change of speed per gap at its end; 0 as for `length`.
     """
 
     speed: npt.NDArray
@@ -101,7 +102,7 @@ class Opening:
         return cls(np.zeros_like(gap), np.zeros_like(gap))
 
     def forgotten(self) -> Opening:
-        """Return the speeds where they tell nothing of the next step."""
+        """Return the speeds without the data of the previous step."""
         return Opening(self.speed, self.mean)
 
     def carried(self, spline: Callable[[npt.NDArray], npt.NDArray]) -> Opening:
@@ -110,7 +111,7 @@ class Opening:
 
 
 class _AsAtRest:
-    """What balances ask of a law beside its tension: the lengths and forces of the law at rest."""
+    """Work, equilibrium gap and strength of the quasi-static law `base`."""
 
     base: Traction
 
@@ -132,7 +133,7 @@ class _AsAtRest:
 
 @dataclass(frozen=True, eq=False)
 class Frozen(_AsAtRest):
-    """A law at rest, its tension multiplied at each node: that of frozen speeds."""
+    """Quasi-static law with its tension multiplied by a factor per node: frozen speeds."""
 
     base: Traction
     factor: npt.NDArray
@@ -159,14 +160,14 @@ class Frozen(_AsAtRest):
 
 @dataclass(frozen=True, eq=False)
 class Stepped(_AsAtRest):
-    """A growing law in a step: at each node a function of the gap at its end.
+    """Rate-dependent law in one step: at each node a function of the gap at its end.
 
     Attributes
     ----------
     base, growing : Traction, law that grows
-        Reduced; the law at rest, and the one whose growth it is.
+        Quasi-static law and rate-dependent law, both reduced.
     since, per : ndarray, float
-        Gap at which nothing opens at the end of the step, and speed per gap beyond it.
+        Gap with zero opening speed at the end of the step, and speed per gap beyond it.
     """
 
     base: Traction
@@ -178,14 +179,14 @@ class Stepped(_AsAtRest):
     def of(
         cls, base: Traction, growing: Any, gap: npt.NDArray, before: Opening, length: float
     ) -> Stepped:
-        """Return the law in a step of this length from gaps that have opened so fast before."""
+        """Return the law for a step of this length, from these gaps and earlier speeds."""
         beta = length / (length + before.length) if before.length else 0.0
         since = gap + length * beta / (1 + beta) * before.mean
         return cls(base, growing, since, (1 + beta) / length)
 
     @classmethod
     def again(cls, base: Traction, growing: Any, gap: npt.NDArray, ended: Opening) -> Stepped:
-        """Return the law in the step that has ended with these gaps and speeds."""
+        """Return the law of the step that ended with these gaps and speeds."""
         return cls(base, growing, gap - ended.speed / ended.per, ended.per)
 
     def traction(self, gap: npt.NDArray) -> npt.NDArray:
@@ -214,7 +215,7 @@ class Stepped(_AsAtRest):
         return energy
 
     def opening(self, before: npt.NDArray, speed: npt.NDArray, length: float) -> Opening:
-        """Return the speeds at the end of a step that began at these gaps, for those there."""
+        """Return the opening data after a step from the gaps `before`, for these final speeds."""
         mean = (self.since - before + speed / self.per) / length
         return Opening(speed, mean, length, self.per)
 
@@ -234,16 +235,17 @@ def driven(
     guess: npt.NDArray,
     hold: Hold,
 ) -> tuple[Balance, npt.NDArray] | tuple[None, None]:
-    """Return the balance at the end of a step near a guess, and speeds; None where none is found.
+    """Return equilibrium and opening speeds at the end of a step near a guess, or (None, None).
 
-    A growth that rises like a power of the speed below 1 has a slope that changes by decades, and
-    none where the gap closes: Newton's method overshoots from the one to the other for ever. The
-    heat of opening is concave in the SQUARE of the speed, however: a parabola through the present
-    speed, with the secant G/v for a slope, lies above it, and leads monotonically to the balance,
-    the logarithm of the speed being off by 1 - n times as much after each iteration. Where a node
-    has settled, or comes from below, where it does not overshoot, the tangent takes over.
+    If the growth is a power of the speed with an exponent n below 1, its slope changes by decades
+    and is zero where the gap closes. Newton's method would then oscillate without converging. But
+    the heat of opening is concave in the SQUARE of the speed. A parabola through the present speed
+    with the secant slope G/v is an upper bound, so its minimisation converges monotonically: the
+    error of the logarithm of the speed is multiplied by 1 - n in each iteration. The tangent is
+    used for nodes that have settled or approach from below, where it does not overshoot.
 
-    Where surfaces are next to stuck, their opening in a step has more digits than their gap.
+    The iteration uses the opening instead of the gap, because for nearly closed surfaces the
+    opening in a step has more significant digits.
     """
     solid = elastic_energy(surface, compliance, free, hold)
     area, span = surface.area, effective_range(law.base)
@@ -277,9 +279,9 @@ def driven(
 
 
 def bend(law: Stepped, gap: npt.NDArray, opening: Opening, area: npt.NDArray) -> float:
-    """Return how far the attraction would be off were speeds the mean ones of the step, relative.
+    """Return the relative change of attraction if speeds are replaced by the means of the step.
 
-    It is of first order in the step, and the error that is left of second.
+    It is of first order in the step length; the error of the step itself is of second order.
     """
     attraction = area * np.maximum(law.base.traction(gap), 0.0)
     now, mean = law.growing.growth(opening.speed), law.growing.growth(opening.mean)

@@ -1,10 +1,10 @@
-"""The interface on nodes: the energy of a traction law, the forces that follow, their tangent.
+"""Discretised interface: energy of a traction law, nodal forces and their tangent.
 
-A law that changes over many nodes is taken at the nodes, each with its area: for a smooth law this
-is as good as any rule. A law with a step, like the end of Dugdale's, would pull the edge from node
-to node: there the mean of the energy over each panel takes its place, and the forces on the nodes
-are its derivatives, however sharp the step. Both have errors of second order, which the stiffness
-of the surface makes up for (:func:`viscotack.bem.surface.stiffness`).
+A smooth law, which changes over many nodes, is evaluated at the nodes, each with its area. A law
+with a step, like the end of Dugdale's law, would pin the edge at the nodes. For such a law the
+energy is averaged over each panel, and the nodal forces are the derivatives of this mean, however
+sharp the step. Both methods have errors of second order, which are corrected in the stiffness of
+the surface (:func:`viscotack.bem.surface.stiffness`).
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ import numpy.typing as npt
 from viscotack.traction import Traction, softening
 from viscotack.traction.law import energy_and_traction
 
-# The tension of a law that the nodes can follow falls by no more [strength squared over work].
+# Largest softening of a law evaluated at the nodes [strength squared over work].
 _MOST_SOFTENING = 3.0
 
 
-# Gaps that differ by less [h0] are next to equal.
+# Gaps that differ by less [h0] are treated as nearly equal.
 _EVEN = 1e-3
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 _POINTS, _WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
@@ -30,7 +30,7 @@ _NO_GAPS = np.empty((3, 0))
 
 
 class Band(NamedTuple):
-    """A symmetric matrix with the diagonal, shape (N,), and what is beside it, shape (N - 1,)."""
+    """Symmetric tridiagonal matrix: diagonal, shape (N,), and off-diagonal, shape (N - 1,)."""
 
     diagonal: npt.NDArray
     beside: npt.NDArray | None = None
@@ -60,12 +60,12 @@ class Faces(Protocol):
 
 
 class Interface(Protocol):
-    """What balance and books ask of the interface.
+    """Interface as used by the equilibrium solver and the energy balance.
 
     Attributes
     ----------
     smoothing : float
-        The panel squared over this is what smooths the curvature of pressures and displacements.
+        Divisor of the squared panel width in the curvature correction of the stiffness.
     """
 
     smoothing: ClassVar[float]
@@ -77,7 +77,7 @@ class Interface(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class AtNodes:
-    """The law at each node, with its area."""
+    """Law evaluated at each node and multiplied by its area."""
 
     smoothing: ClassVar[float] = 24.0
 
@@ -91,17 +91,18 @@ class AtNodes:
 
 @dataclass(frozen=True, eq=False)
 class OnPanels:
-    r"""The law over each panel, exactly, for a gap that changes linearly with the area there.
+    r"""Law integrated exactly over each panel, for a gap that varies linearly with area there.
 
     With :math:`\Phi' = \varphi` the energy of a panel from gap a to gap b is its area times
 
     .. math:: m(a, b) = \frac{\Phi(b) - \Phi(a)}{b - a}
 
-    and the derivatives of m are differences as well. Where a and b are next to equal they have no
-    digits left, and the rule of Gauss with three points takes their place.
+    and the derivatives of m are differences as well. If a and b are nearly equal, the differences
+    lose all digits and are replaced by Gauss quadrature with three points.
 
-    Against the law at the nodes, forces that are means over panels feel the curvature of the
-    pressure by another twelfth of the panel squared, and so do gaps: 1/24 becomes 1/8 on each side.
+    Compared with the law at the nodes, means over panels add an error of 1/12 of the squared panel
+    width times the curvature, for forces and for gaps. The correction 1/24 becomes 1/8 on each
+    side.
     """
 
     smoothing: ClassVar[float] = 8.0
@@ -112,7 +113,7 @@ class OnPanels:
         """Return the interface at gaps at the nodes [h0]."""
         step = np.diff(gap)
         even = np.abs(step) < _EVEN
-        # energy_beyond falls by what lies between
+        # energy_beyond decreases by the integral between the gaps
         step = np.where(even, 1.0, step)
         mean, at_nodes = -np.diff(law.energy_beyond(gap)) / step, law.energy(gap)
         between = _NO_GAPS
@@ -173,12 +174,12 @@ class _PanelFaces:
 
 
 def resolved(law: Traction) -> bool:
-    """Return whether nodes can follow a law, or must leave it to the panels between them."""
+    """Return whether a law is smooth enough to be evaluated at the nodes."""
     return softening(law) <= _MOST_SOFTENING
 
 
 def interface(law: Traction, area: npt.NDArray, panels: npt.NDArray) -> Interface:
-    """Return the interface on nodes with these areas, and these areas between them."""
+    """Return the interface for these nodal areas and panel areas."""
     return AtNodes(area) if resolved(law) else OnPanels(panels)
 
 

@@ -1,4 +1,4 @@
-"""From the moves of a test to the legs of a march."""
+"""Conversion of the moves of a test to the legs of a run."""
 
 from __future__ import annotations
 
@@ -19,12 +19,11 @@ from viscotack.protocol import (
     Start,
 )
 
-# Waiting begins with this part of the time it lasts.
+# First step of a dwell, as a fraction of its duration.
 _FIRST_WAIT = 1e-6
-# A sphere pulls off with no more than this over k, a punch with less; other tips with a few times
-# as much.
+# Largest pull-off force of a sphere times k. A punch has less, other tips a few times as much.
 _PULL_OFF = 4 / 3
-# A move of given duration begins with this part of it, at most.
+# Largest first step of a move of given duration, as a fraction of it.
 _FIRST_MOVE = 1e-3
 
 
@@ -75,7 +74,7 @@ def _end(to: Start, contact: Contact) -> dict[str, float]:
 
 
 def reached(start: Relaxed, moves: tuple[Move, ...], contact: Contact) -> list[float]:
-    """Return the depths [h0] through which a test goes, about, in their order."""
+    """Return the approximate depths [h0] at the start and after each move of a test."""
     depths = [start.depth]
     for move in moves:
         match move:
@@ -98,10 +97,10 @@ def spring_travel(
     modulus_ratio: float,
     contact: Contact,
 ) -> float:
-    """Return how far a drive goes to tighten its spring for the largest force, about [h0].
+    """Return the approximate spring elongation [h0] at the largest force of a test.
 
-    That is a force that is asked for, that of the pull-off, or that of pressing a solid that
-    answers as stiffly as it can.
+    This force is a prescribed force, the pull-off force, or the force that presses the solid with
+    its instantaneous stiffness.
     """
     if stiffness is None:
         return 0.0
@@ -122,9 +121,9 @@ def longest_time(
     contact: Contact,
     spring: float = 0.0,
 ) -> float:
-    """Return how long a test takes, about, and rather more: what its solid must remember.
+    """Return an upper estimate of the duration of a test, the longest relevant retardation time.
 
-    Behind a spring the drive goes farther than the contact, by the travel of the `spring`.
+    With a spring the drive moves farther than the contact, by the travel `spring`.
     """
     total = 0.0
     for before, after, move in zip(depths[:-1], depths[1:], moves, strict=True):
@@ -137,7 +136,7 @@ def longest_time(
 
 
 def lasting(before: float, after: float, move: Move, contact: Contact) -> float:
-    """Return how long a move takes from one depth to another, about, and rather more."""
+    """Return an upper estimate of the duration of a move from one depth to another."""
     if isinstance(move, Approach | Retract):
         return (abs(after - before) + 5 * contact.travel) / move.speed
     return move.duration

@@ -52,14 +52,14 @@ class Leg:
         Change of the drive's depth [h0 per time], or of the dead load [force per time]; positive
         into the solid. nan: what brings the drive, or the load, to `drive` in the duration.
     duration : float
-        It ends after this time, or sooner, when the first of depth, force and edge is met.
+        The leg ends after this time, or earlier when depth, force or edge is reached.
     drive : float
         Depth of the drive [h0], or dead load, at the end; nan where it does not matter.
     depth, force, edge : float
         Depth of the indenter [h0], force, contact edge [unit of the mesh] at which it ends, met in
         the direction of the rate; nan where they do not matter.
     least_step : float
-        Step with which it begins.
+        Length of its first step.
     """
 
     stiffness: float
@@ -72,10 +72,10 @@ class Leg:
     least_step: float = 1.0
 
     def beginning(self, began: Snapshot) -> Leg:
-        """Return the leg with its rate, for the instant at which it begins."""
+        """Return the leg with its rate, given the snapshot at its start."""
         if not isnan(self.rate):
             return self
-        # the drive is where this machine's spring puts it, whatever held the contact before
+        # the depth of the drive follows from the spring of this leg, not of the previous one
         now = began.force if self.dead_load else began.depth + began.force / self.stiffness
         return replace(self, rate=(self.drive - now) / self.duration)
 
@@ -105,11 +105,11 @@ class Leg:
 
     @property
     def opens(self) -> bool:
-        """Whether the contact may come apart in it: it is being opened, or hangs on a load."""
+        """Whether the contact may detach in the leg: it is being opened or carries a dead load."""
         return self.outwards or self.dead_load
 
     def missing(self, now: Snapshot) -> float:
-        """Return how far the nearest of the ends is; not positive where one of them is reached."""
+        """Return the distance to the nearest end of the leg; not positive if one is reached."""
         way = -1.0 if self.outwards else 1.0
         edge = 0.0 if isnan(now.edge) else now.edge
         ends = (self.depth - now.depth, self.force - now.force, self.edge - edge)
@@ -121,7 +121,7 @@ def spring_energy(force: npt.NDArray, stiffness: float | None) -> npt.NDArray:
 
     .. math:: U = F^2 / (2 K)
 
-    Where a force or a depth is held, the drive follows and the spring stays.
+    If force or depth is prescribed, the drive follows and the spring energy is still given by F.
 
     Parameters
     ----------

@@ -1,21 +1,21 @@
-r"""Where the nodes are: fine around the contact edge, growing away from it.
+r"""Mesh: nodes fine around the contact edge, with growing distances away from it.
 
 The crack at the contact edge has a process zone of about :math:`0.75\,\beta/\mu^2` while it is
-slow (it grows when the crack is fast), for a large Tabor number a tiny part of the contact.
-Equal nodes in a zone around the edge and geometric growth outside it cost log(mu) nodes instead of
-mu^2. When the edge leaves its zone the march asks for new nodes around the new edge.
+slow (it grows when the crack is fast). For a large Tabor number it is a tiny part of the contact.
+Equidistant nodes around the edge and geometric growth elsewhere need about log(mu) nodes instead of
+mu^2. When the edge leaves the fine nodes, the solver remeshes around the new edge.
 
-A fast crack is longer than a slow one, by as much as 1/k: where it has grown by a power of two the
-nodes around it are that much coarser, and the steps with them.
+The process zone of a fast crack is longer than that of a slow one, by a factor of up to 1/k. When
+it has grown by a power of two, the nodes become coarser by the same factor, and the steps longer.
 
-Two things keep what a move costs small. The fine nodes of all meshes of a run lie on one lattice,
-so that nothing is interpolated where both meshes are fine. And the place of the first edge stays
-fine: the relaxed contact leaves a scar there that slow modes remember, and a fast crack pulls
-across it.
+Two measures keep the error of remeshing small. The fine nodes of all meshes of a run lie on one
+lattice, so that no interpolation is needed where both meshes are fine. The mesh also stays fine at
+the initial edge, because slow modes keep the steep displacement profile (the scar) of the relaxed
+contact there while a fast crack opens it.
 
-Growth inside the contact is slower than outside: the pressure there is that of a crack, 1/sqrt(x)
-at a distance x from the edge, and every decade of x adds the same error, of second order in the
-growth, to the energy that the edge releases. Outside there is next to no pressure.
+Growth inside the contact is slower than outside. The pressure inside is that of a crack, 1/sqrt(x)
+at a distance x from the edge. Every decade of x adds the same error, of second order in the growth,
+to the energy release rate. Outside the contact the pressure is almost zero.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from scipy.optimize import brentq
 from viscotack.bem.books import Snapshot
 from viscotack.errors import InputError
 
-# Of a mesh: a matrix of these has 130 MB, and a run holds several.
+# Largest number of nodes: its matrix has 130 MB, and a run holds several matrices.
 MOST_NODES = 4000
 # Away from the initial edge, panels may grow faster than outside the present edge by this factor,
 # up to this rate: there is no pressure, only the displacement of slow modes.
@@ -40,13 +40,13 @@ _HEALED, _FASTEST_GROWTH = 2.0, 0.25
 # Nodes are replaced by finer ones where their distance is larger by this factor.
 _COARSER = 1.3
 
-# Of the first crack's zone: below which part nodes are made finer, and the smallest that there is.
+# Fractions of the initial zone: threshold for finer nodes, and smallest zone resolved.
 _NARROWED, _NARROWEST = 0.75, 2.0**-8
 
 
 @dataclass(frozen=True)
 class Grading:
-    """How fine the nodes are, and where they end; lengths in the unit of the contact.
+    """Node distances and extent of a mesh; lengths in the unit of the contact.
 
     Attributes
     ----------
@@ -59,13 +59,13 @@ class Grading:
     outer_radius : float
         Last node.
     scar_spacing, scar_half_width : float
-        Spacing and half width of the zone kept fine around the first edge; without a width
-        there is none, for a solid that remembers nothing.
+        Spacing and half width of the zone kept fine around the first edge; zero width for an
+        elastic solid, which needs no such zone.
     widest : float
         Largest distance of nodes in the contact.
     """
 
-    # whether there may be edges within the outermost one, for which there are fine nodes as well
+    # whether edges inside the outermost one are possible and get fine nodes as well
     rings: ClassVar[bool] = False
 
     spacing: float
@@ -127,9 +127,9 @@ class Grading:
     def _inwards(self, length: float, first_edge: float) -> npt.NDArray:
         """Return growing distances from the fine zone, the last one being the length.
 
-        As many as for the first edge until the edge has halved, and so on, so that their growth
-        changes smoothly as the edge recedes: one node less would change the energy of the solid by
-        more than a step does.
+        Their number stays constant until the edge radius has halved, and so on. Their growth then
+        changes smoothly as the edge recedes; removing one node would change the energy of the
+        solid by more than a time step does.
         """
         first = max(first_edge - self.half_width, length)
         first /= 2.0 ** np.floor(np.log2(first / length))
@@ -141,7 +141,7 @@ class Grading:
             grown = np.minimum(np.arange(1, many + 1) * np.log1p(growth), np.log(largest / h))
             return np.cumsum(h * np.exp(grown))
 
-        # as the sum of distances rounds, or the root has no bracket
+        # otherwise round-off in the sum leaves no bracket for the root
         if many * largest <= length or away(0.0)[-1] >= length:
             return length * np.arange(1, many + 1) / many
         growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, xtol=1e-12)
@@ -174,7 +174,7 @@ class Grading:
 
 
 def finer(nodes: npt.NDArray, own: npt.NDArray) -> npt.NDArray:
-    """Return nodes with others in their place where those are closer to each other.
+    """Merge two node sets: use the nodes `own` where they are finer.
 
     Examples
     --------
@@ -195,7 +195,7 @@ def finer(nodes: npt.NDArray, own: npt.NDArray) -> npt.NDArray:
 
 
 def check_count(nodes: float) -> None:
-    """Refuse a mesh with too many nodes, before there is a matrix of them."""
+    """Reject a mesh with too many nodes before a matrix is allocated."""
     if not nodes <= MOST_NODES:
         raise InputError(
             f"the mesh would have {nodes:.3g} nodes, and a simulation takes up to {MOST_NODES}: "
@@ -206,7 +206,7 @@ def check_count(nodes: float) -> None:
 
 @dataclass(frozen=True)
 class Mesh:
-    """The nodes that a march is on, and those that it may be on.
+    """Present mesh of a run, with the data for remeshing.
 
     Attributes
     ----------
@@ -214,15 +214,13 @@ class Mesh:
         Grading for the first crack, and the length over which its gap opens by
         the range of the law.
     lattice : float
-        Place around which the lattice of fine nodes lies, and the scar: where the edge began to
-        recede.
+        Centre of the lattice of fine nodes and of the scar: the edge at which receding started.
     grading : Grading
         Grading of the present nodes.
     edge : float
-        Edge for which nodes were made, or asked for in vain, the last time.
+        Edge for which the last remeshing was done or attempted.
     narrows : bool
-        Whether the zone may become shorter than that of the first crack, as it does where the
-        tension grows with the speed.
+        Whether the zone may become shorter than the initial one, as with a rate-dependent law.
     """
 
     finest: Grading
@@ -253,12 +251,12 @@ class Mesh:
         return nodes
 
     def too_coarse(self, opening: float) -> bool:
-        """Return whether the zone has become so short that finer nodes are there for it."""
+        """Return whether the zone has become so short that it needs finer nodes."""
         now = self.grading.half_width / self.finest.half_width
         return self.narrows and now > _NARROWEST and opening < _NARROWED * now * self.opening
 
     def left_by(self, edge: float, inner: tuple[float, ...] = ()) -> bool:
-        """Return whether an edge is half out of the fine nodes, and not about to vanish."""
+        """Return whether an edge has moved over half the fine half width and is not vanishing."""
         least = 2 * self.grading.spacing
         left = edge > least and not self._near(edge, (self.edge,))
         return left or (self.grading.rings and any(x > least and self._out(x) for x in inner))
@@ -276,7 +274,7 @@ class Mesh:
         return any(not abs(edge - at) > 0.5 * self.grading.half_width for at in places)
 
     def strain(self, before: Snapshot, after: Snapshot) -> float:
-        """Return 1 where an edge goes so far in a step that it might leave the fine nodes."""
+        """Return the squared ratio of the edge travel in a step to its limit on the fine nodes."""
         pairs = [(before.edge, after.edge)]
         if self.grading.rings and len(before.inner) == len(after.inner):
             pairs += zip(before.inner, after.inner, strict=True)

@@ -5,22 +5,24 @@ dependence vanishes as the creep ends. With
 
 .. math:: M(t) = 1 - E_0\, C(t),
 
-the part of the creep that is left after a time t, force and work at pull-off differ from those of a
-much deeper start by less than 2 M(t), t being the time from start to pull-off (power laws of
-both kinds and standard solids, k from 1e-3 to 0.1, Tabor numbers from 0.3 to 10). Two light marches
-from depths that differ by a factor of four say it better: what is still to come is to what has
-come between them as M is at the deeper one to what it has lost. They also see a crack that has not
-come up to its speed, as behind a soft spring, where the solid has long crept. So the depth grows by
-fours until the effect is small beside the accuracy; what it is, is added to the error estimate. And
-the start is pressed as hard as the contact then pulls, so that the whole of the work lies
-behind it.
+the fraction of the creep that remains after a time t, force and work at pull-off differ from those
+of a much deeper start by less than 2 M(t), where t is the time from start to pull-off. This was
+found for power laws of both kinds and standard solids, k from 1e-3 to 0.1, Tabor numbers from 0.3
+to 10. Two coarse runs from depths that differ by a factor of four give a better estimate. The ratio
+of the remaining effect to the difference of the two runs equals the ratio of M at the deeper one to
+its decrease between them. These runs also detect a crack that has not reached its final speed
+although the creep has ended, for example with a soft spring. The depth is therefore multiplied by
+four until the effect is small compared with the accuracy. The remaining effect is added to the
+error estimate. The start must also be pressed with at least the pull-off force, so that the run
+contains the whole work of separation.
 
-The indentation that is left of the deeper way is a mere displacement for work and force. It shifts
-the depth of the pull-off by no more than :math:`v \int M\, dt` over the time that is left out,
-which is bounded as well.
+The remaining indentation of the omitted path is a uniform displacement without effect on work and
+force. It shifts the depth of the pull-off by at most :math:`v \int M\, dt` over the omitted time,
+which is limited as well.
 
-A retraction that is over before the solid has begun to creep never forgets, and a spectrum without
-an end hardly: then the depth is the one asked for, or refused where the march would be too long.
+If pull-off occurs before the solid starts to creep, or if the spectrum is unbounded, the effect
+does not vanish. The run then starts from the requested depth, or is rejected if it would be too
+long.
 """
 
 from __future__ import annotations
@@ -43,30 +45,30 @@ from viscotack.result import Result, ShallowStart
 from viscotack.result.observables import pull_off, work_to_pull_off
 from viscotack.traction import grows
 
-# Starts up to this depth [h0] are marched as they are: that takes seconds.
+# Starts up to this depth [h0] are simulated directly, which takes seconds.
 _DEEP = 1000.0
-# The depths that are tried: the first in travels of the contact, each this many times the last,
-# and none above this part of the depth asked for, where little would be saved.
+# Trial depths: the first in travels of the contact, the ratio of successive depths, and the largest
+# as a fraction of the requested depth, above which little time would be saved.
 _FIRST, _DEEPER, _WORTH = 5.0, 4.0, 0.5
-# No effect of the depth is larger than this many times the part of the creep that is left; the
-# largest seen is 2.
+# Upper bound of the effect of the depth, as a multiple of the remaining fraction of the creep; the
+# largest observed multiple is 2.
 _SENSITIVE = 5.0
 # The remaining effect is the estimate from the creep times this factor, and at least this fraction
 # of the effect so far, because creep is not the only slow process.
 _SAFE, _LEAST = 1.5, 0.1
-# What the depth may do, as parts of the accuracy; the work has five times the error of the force.
+# Allowed effects of the depth, relative to the accuracy; work has five times the error of force.
 _SHARES = {"force": 0.3, "work": 1.5}
-# It may shift the depth at pull-off by these parts of the travel of the contact, or of that depth.
+# Allowed shift of the depth at pull-off, as fractions of the contact travel and of that depth.
 _SHIFT, _SHIFT_FAR = 0.05, 0.005
-# Times at which the creep of the way that is left out is looked up.
+# Number of times for the integral of the creep over the omitted path.
 _TIMES = 200
-# The march itself has about this many times the steps of a light one.
+# Approximate ratio of the steps of the main run to those of a coarse run.
 _LIGHT = 2.0
 
 
 @dataclass(frozen=True, eq=False)
 class Beginning:
-    """Where a march begins instead, and the light march from there."""
+    """Shallower start of a run, and the coarse run from there."""
 
     start: ShallowStart
     light: Result
@@ -74,7 +76,7 @@ class Beginning:
 
 @dataclass(frozen=True, eq=False)
 class _End:
-    """What a light march from a depth came to, where, when; and the part of the creep left then."""
+    """Pull-off of a coarse run from a depth: values, depth, time, and remaining creep."""
 
     depth: float
     values: Mapping[str, float]
@@ -94,7 +96,7 @@ def shallower(
     settings: Settings,
     light: Callable[[float], Result],
 ) -> Beginning | None:
-    """Return where the march of a test may begin instead of at its start; None for the start.
+    """Return a shallower start that gives the same pull-off, None to use the given start.
 
     Parameters
     ----------
@@ -103,14 +105,14 @@ def shallower(
     contact : Contact
         Its contact.
     settings : Settings
-        Of the march.
+        Settings of the main run.
     light : callable
-        Marches from a depth [h0] to the pull-off with coarser settings.
+        Runs a simulation from a depth [h0] to the pull-off with coarser settings.
 
     Raises
     ------
     ValueError
-        If the start cannot be replaced, and is too deep to be marched.
+        If the start cannot be replaced and is too deep for a direct simulation.
     """
     asked = _asked(groups, contact)
     if not asked > _DEEP:
@@ -131,11 +133,11 @@ def shallower(
 
 
 def _asked(groups: Groups, contact: Contact) -> float:
-    """Return the depth [h0] at which a test begins, about; 0 where it must be marched as it is.
+    """Return the approximate initial depth [h0] of a test, 0 if its start must not be replaced.
 
-    That are tests with moves before the retraction, or without one, of punches, of other bodies
-    than the half-space, of shapes that may have several contacts at one depth, and of interfaces
-    that grow with the opening speed.
+    The start is not replaced for tests with moves before the retraction or without a retraction,
+    for punches, for bodies other than the half-space, for shapes that may have several contacts at
+    one depth, and for rate-dependent interfaces.
     """
     if isinstance(groups.start, Apart):
         return 0.0
@@ -159,7 +161,7 @@ def _ended(light: Callable[[float], Result], depth: float, material: Material) -
 
 
 def _left(material: Material, time: float | npt.NDArray) -> npt.NDArray:
-    """Return the part of the creep that is left after a time."""
+    """Return the fraction of the creep that remains after a time."""
     return np.maximum(1 - np.asarray(material.creep(time)), 0.0)
 
 

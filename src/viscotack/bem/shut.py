@@ -1,8 +1,8 @@
-"""Surfaces that are pressed together harder than their law repels.
+"""Detection of surfaces pressed together harder than the traction law can repel.
 
-The repulsion of a law may be finite at a gap of 0 (exponential, Dugdale, tabulated). A contact that
-presses harder drives the gap to 0, where the law ends: there is no balance, and it is not adhesion
-that is missing.
+The repulsion of a law may be finite at zero gap (exponential, Dugdale, tabulated). A larger contact
+pressure closes the gap to 0, where the law ends. No equilibrium exists then, and the error message
+must not attribute this to missing adhesion.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ class Shut(InputError):
 
 
 def pressed_shut(surface: Surface, gap: npt.NDArray, relaxed: npt.NDArray) -> float:
-    """Return the pressure [dg/h0] with which the solid closes the gap for good, 0 if it does not.
+    """Return the pressure [dg/h0] where the gap is closed completely, 0 if it is open.
 
     Parameters
     ----------
     surface : Surface
         The surface.
     gap : ndarray, shape (N,)
-        Gap at the end of a search that has found no balance [h0].
+        Gap at the end of a search without equilibrium [h0].
     relaxed : ndarray, shape (N,)
-        Displacement that its pressure causes in the relaxed solid [h0].
+        Displacement of the relaxed solid under this pressure [h0].
     """
     gone = gap < GONE
     if not gone.any():
@@ -39,7 +39,7 @@ def pressed_shut(surface: Surface, gap: npt.NDArray, relaxed: npt.NDArray) -> fl
 
 
 def why(law: Traction, pressure: float) -> str:
-    """Return the reason in words."""
+    """Return the explanation for the error message."""
     most = -float(law.traction(GONE * law.equilibrium_gap))
     return (
         f"the contact presses with up to {pressure:.4g} dg0/h0, and the traction law repels with "
@@ -49,7 +49,7 @@ def why(law: Traction, pressure: float) -> str:
 
 
 def check_open(surface: Surface, law: Traction, gap: npt.NDArray, depth: float, of: str) -> None:
-    """Refuse a depth at which a search for a relaxed contact has pressed the surfaces shut."""
+    """Raise `Shut` if the search for a relaxed contact has closed the gap."""
     if pressure := pressed_shut(surface, gap, gap - surface.rigid_gap + depth):
         raise Shut(
             f"no relaxed contact exists at a depth of {depth:g} h0 ({of}): {why(law, pressure)}"

@@ -15,30 +15,30 @@ import numpy.typing as npt
 _SEPARATED = 9.0
 # Opening of the smallest gap, in ranges, above which a contact cannot hold a dead load.
 _RELEASED = 29.0
-# Carried to other nodes, a gap may undershoot where it is steep; every law repels by much where it
-# is closed by this part of its range. But no gap is made smaller than a tenth of h0.
+# Smallest gap after interpolation to new nodes: closed by this fraction of the range, where every
+# law repels strongly, but at least a tenth of h0. A steep gap may undershoot in the interpolation.
 _CLOSED, _LEAST = 0.2, 0.1
-# Below equilibrium, by how much of the range a gap may close at once, however far it is closed.
+# Smallest value of `room`, as a fraction of the range, for gaps below equilibrium.
 _LEAST_ROOM = 0.1
 
 
 def separated(gap: npt.NDArray, span: float) -> bool:
-    """Return whether surfaces have separated for all that matters."""
+    """Return whether the surfaces have separated."""
     return float(gap.min()) > 1 + _SEPARATED * span
 
 
 def released(gap: npt.NDArray, span: float) -> bool:
-    """Return whether surfaces are so far apart that nothing holds a dead load any more."""
+    """Return whether the surfaces are too far apart to hold a dead load."""
     return float(gap.min()) > 1 + _RELEASED * span
 
 
 def least_gap(span: float) -> float:
-    """Return the smallest gap [h0] that a guess may have."""
+    """Return the smallest gap [h0] of an initial guess."""
     return max(1 - _CLOSED * span, _LEAST)
 
 
 def room(gap: npt.NDArray, span: float) -> npt.NDArray:
-    """Return over which change of a gap [h0] its traction changes by much.
+    """Return the change of gap [h0] over which the traction changes considerably.
 
     It is the gap itself for Lennard-Jones, whose traction is made of powers; for any law it is
     about the range near equilibrium, grows with the opening, and never more than the gap.

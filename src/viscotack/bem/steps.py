@@ -94,12 +94,12 @@ def clipped(run: Run, at: Place) -> Place:
 
 
 def instant(run: Run, s: Step) -> bool:
-    """Return whether the solid answers a step as stiffly as it can."""
+    """Return whether the response of the solid to a step is instantaneous."""
     return s.compliance < (1 + _INSTANT) * run.body.modes.instantaneous
 
 
 def is_shortest(run: Run, at: Place, s: Step) -> bool:
-    """Return whether nothing would change if the step were shorter still."""
+    """Return whether a shorter step would not change the result."""
     least = at.leg.least_step * (1.0 if run.body.growing is None else _RUNNING)
     return instant(run, s) and at.dt <= least * (1 + 1e-9)
 
@@ -112,7 +112,7 @@ def tried(run: Run, at: Place, s: Step, most_iterations: int = _MOST_ITERATIONS)
 
 
 def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
-    """Return a step that was tried with its entry in the books, and by how much it is too long."""
+    """Return the attempt of a trial step, with its energy terms and its strain."""
     before, after = at.state, trial.after
     heat = before.surface.unit * before.memory.heat(
         s, before.relaxed, after.relaxed, before.nodal, after.nodal
@@ -142,7 +142,7 @@ def entered(
     missing = entry.imbalance(first, after.seen) - so_far
     largest = run.history.measure(entry, after.seen)
     tolerated = max(run.settings.imbalance * largest, _ROUND_OFF * after.seen.held)
-    # what is missing adds up: the more there is, the less is left for this step
+    # imbalances accumulate: the larger the sum so far, the less is allowed in this step
     left = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
     strain = max(strain, abs(missing) / (least * left * tolerated))
     return Attempt(after, entry, at.mesh, missing, tolerated, strain)
@@ -154,7 +154,7 @@ def work_of(before: Snapshot, after: Snapshot) -> float:
 
 
 def _interface_heat(before: State, after: State) -> float:
-    """Return the heat in an interface that grows with the opening speed, over a step."""
+    """Return the heat in a rate-dependent interface over a step."""
     if before.extra is None or after.extra is None:
         return 0.0
     nodal = 0.5 * (before.extra.nodal + after.extra.nodal)
@@ -164,7 +164,7 @@ def _interface_heat(before: State, after: State) -> float:
 
 
 def shortened(run: Run, at: Place, attempt: Attempt | None) -> Place | None:
-    """Return the march with a shorter next step, None where the one that was tried will do."""
+    """Return the solver state with a shorter next step, None if the attempt is accepted."""
     if attempt is None:
         run.history.rejected += 1
         return replace(at, dt=at.dt * _UNBALANCED_CUT)
@@ -179,7 +179,7 @@ def shortened(run: Run, at: Place, attempt: Attempt | None) -> Place | None:
 
 
 def arrived(at: Place, attempt: Attempt) -> Place:
-    """Return the march after a step, the next one as long as its strain suggests."""
+    """Return the solver state after a step, with the next step length set by the strain."""
     return replace(
         at,
         state=attempt.after,
@@ -198,8 +198,8 @@ def force_change(run: Run, at: Place) -> float:
 def travel(run: Run, at: Place) -> float:
     """Return the largest travel [h0] in a step.
 
-    Once apart, tractions change over the gap. Pressed deep, forces change over the depth, which
-    grows like F^(2/3) by Hertz; adhesion is a small matter there.
+    For separated surfaces the tractions change over the gap. In deep contact the force changes over
+    the depth, which grows like F^(2/3) by Hertz; adhesion is small there.
     """
     apart = max(float(at.state.gap.min()) - 1, 0.0)
     pressed = max(at.seen.force, 0.0) ** (2 / 3)
@@ -214,21 +214,21 @@ def _farthest(run: Run, at: Place) -> float:
 
 
 def _looser(run: Run, at: Place) -> float:
-    """Return how much longer steps may be."""
+    """Return the factor on the step length, larger after pull-off."""
     return _LOOSER if over(run, at) else 1.0
 
 
 def changed(run: Run, at: Place, after: Snapshot) -> float:
-    """Return by how much force and depth change too much in a step: a ratio, squared."""
+    """Return the squared ratio of the changes of force and depth to their allowed values."""
     now = at.seen
-    went = 0.0  # a rigid machine's travel is bounded before the step is tried
+    went = 0.0  # the travel of a rigid machine is limited before the step
     if not at.leg.rigid:
         went = (abs(after.depth - now.depth) / _farthest(run, at)) ** 2
     return max((abs(after.force - now.force) / (2 * force_change(run, at))) ** 2, went)
 
 
 def _strain(run: Run, at: Place, trial: Trial) -> float:
-    """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
+    """Return the squared ratio of step length to allowed length, energy criterion excluded."""
     after = trial.after.seen
     return max(
         trial.error / (run.settings.step_error * run.body.contact.span * _looser(run, at) ** 2),

@@ -75,8 +75,7 @@ class Ahead:
     Attributes
     ----------
     dt, travel : float
-        Length of the step, shorter than was wanted where the edge would go too far; expected
-        change of the edge.
+        Length of the step, shortened if the edge would move too far; expected travel of the edge.
     speed, before : float
         Mean speed of the last step, and its length.
     zone : float
@@ -93,11 +92,11 @@ class Ahead:
 def ahead(run: Run, at: Place) -> Ahead | None:
     """Predict the edge after the next step; None if this frame does not apply."""
     trail, edge = at.state.trail, at.seen.edge
-    if run.body.growing is not None:  # its speeds are those of the gap at a place
+    if run.body.growing is not None:  # opening speeds are defined at fixed points
         return None
     if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
         return None
-    if at.mesh.inner:  # there are others, and each has a frame of its own
+    if at.mesh.inner:  # several edges would need several frames
         return None
     contact = run.body.contact
     if not run.body.weights.size and contact.travel < _MANY_ZONES * contact.span:
@@ -241,7 +240,7 @@ def _balanced(run: Run, at: Place, goal: Ahead, nodes: _Nodes) -> tuple[Way, Fou
         ended = surface.edge(found.gap, law.edge_gap) - edge
         if not np.isfinite(ended):
             return None
-        if not body.weights.size:  # nothing hangs on the way
+        if not body.weights.size:  # the path has no influence
             near = abs(ended - travel) < max(goal.zone, _NEAR * abs(travel))
             return (way, found, passage) if near else None
         if abs(ended - travel) < _FOUND * goal.zone:
@@ -321,7 +320,7 @@ def _work(leg: Leg, after: State, dt: float) -> float:
     travel, more = now.depth - last.depth, now.force - last.force
     if leg.rigid:
         return travel / dt * force
-    # the drive is linear in time, and what it does beyond the work at the indenter is in the spring
+    # the drive is linear in time; subtract the change of spring energy from its work
     k = leg.stiffness
     return (travel + more / k) / dt * force - more * (now.force + last.force) / (2 * k)
 

@@ -80,7 +80,7 @@ class HalfSpace:
         return influence(nodes)
 
     def reduced(self, along: float) -> HalfSpace:
-        """Return the half-space, which has no length of its own."""
+        """Return the half-space itself, which has no length scale."""
         return self
 
 
@@ -129,7 +129,7 @@ class Layer:
 
     @property
     def numbers(self) -> Mapping[str, float]:
-        """What a dimensionless problem says of the body."""
+        """Dimensionless numbers of the body, by name."""
         return {"thickness": self.thickness}
 
     def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:

@@ -1,4 +1,4 @@
-"""The end of a cylinder: a disc, with a sharp or a rounded edge."""
+"""Disc: flat end of a cylinder with a sharp or a rounded edge."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Disc:
     edge_width : float
         Width over which the edge is rounded w [m], up to a; 0 for a sharp edge.
     edge_height : float
-        How far it rises h [m]; 0 for a sharp edge.
+        Rise of the edge h [m]; 0 for a sharp edge.
 
     Examples
     --------
@@ -70,7 +70,7 @@ class Disc:
         return self.edge_width == 0
 
     def gap(self, position: npt.ArrayLike) -> Array:
-        """Return the undeformed gap [m] at a distance from the axis [m]; as if it had no end."""
+        """Return the undeformed gap [m] at a distance from the axis [m], continued beyond a."""
         over = np.maximum(np.asarray(position, dtype=float) - self._flat, 0.0)
         return np.zeros_like(over) if self.is_sharp else self._bend / 2 * over * over
 
@@ -102,7 +102,7 @@ class Disc:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the shape."""
+        """Dimensionless numbers of the shape, by name."""
         if self.is_sharp:
             return {}
         return {"edge_width": self.edge_width, "edge_height": self.edge_height}

@@ -1,4 +1,4 @@
-r"""The elastic half-space under axisymmetric pressure: its compliance, on any mesh.
+r"""Compliance of the elastic half-space under axisymmetric pressure, on any mesh.
 
 Pressure is given at the nodes :math:`r_0 = 0 < r_1 < \dots < r_N` and varies linearly between them
 *in* :math:`r^2`, that is in enclosed area: the "overlapping triangles" of Appendix V with flanks

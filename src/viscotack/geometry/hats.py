@@ -1,4 +1,4 @@
-"""Hats: pressures of 1 at one node that fall linearly to 0 at its neighbours.
+"""Hat functions: unit pressure at one node, falling linearly to 0 at its neighbours.
 
 A mesh of a surface of revolution goes from the axis, r = 0, outwards, and its pressures are linear
 in r^2; one in plane strain goes from the middle, x = 0, to the end of the punch, and each node

@@ -1,4 +1,4 @@
-"""A sphere with waves around its axis: the indenter of Guduru."""
+"""Sphere with axisymmetric waves (Guduru)."""
 
 from __future__ import annotations
 
@@ -83,5 +83,5 @@ class WavySphere:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the shape."""
+        """Dimensionless numbers of the shape, by name."""
         return {"amplitude": self.amplitude, "wavelength": self.wavelength}

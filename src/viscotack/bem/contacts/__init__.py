@@ -1,1 +1,1 @@
-"""Indenters on bodies: the surface of given nodes, where nodes go, the relaxed state."""
+"""Indenters on bodies: discretised surface, node placement and relaxed state."""

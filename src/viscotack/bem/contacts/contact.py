@@ -1,4 +1,4 @@
-"""What the march asks of a geometry: its surface on any nodes, and where to put them."""
+"""Interface between solver and geometry: surface on given nodes, node placement, relaxed state."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from viscotack.traction import Traction
 
 @dataclass(frozen=True, eq=False)
 class Relaxed:
-    """A relaxed state: gap, depth [h0], force [output unit] and contact edge, nan without one.
+    """Relaxed state: gap, depth [h0], force [output unit] and contact edge, nan without contact.
 
-    The lattice is the place around which its fine nodes lie, a contact edge within a zone.
+    `lattice` is the centre of the fine nodes; it is within one zone of the contact edge.
     """
 
     surface: Surface
@@ -30,16 +30,16 @@ class Relaxed:
 
 
 class Contact(Protocol):
-    """An indenter on a solid; lengths along the surface are in a unit of its own.
+    """An indenter on a solid; each contact has its own unit of length along the surface.
 
     Attributes
     ----------
     law : Traction
         Reduced traction law.
     span : float
-        Range of the law [h0]: what it does, it does over this length.
+        Range of the traction law [h0].
     travel : float
-        Depth [h0] over which the contact changes as a whole: what steps are measured by.
+        Depth [h0] over which the whole contact changes; scale of the time steps.
     edge_unit : float
         Unit of the outputs for the contact edge, in the unit of the mesh.
     zone : float

@@ -1,7 +1,8 @@
-"""A disc on a body: nodes end where it ends, and the whole of it is in contact at rest.
+"""Contact of a disc and a body: mesh up to the disc edge, whole disc in contact at rest.
 
-Lengths along the surface are in its radius. Under a sharp edge the contact is as large as the disc
-until a crack runs in from there, all at once: by JKR it has no other place of rest (Kendall).
+Lengths along the surface are in units of the disc radius. With a sharp edge, the contact covers the
+whole disc until a crack from the edge detaches it in one jump: JKR has no stable smaller contact
+(Kendall).
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import Disc
 from viscotack.protocol import Apart, AtForce, AtRadius, Start
 
-# A depth [h0] that no test of a disc reaches.
+# Upper bound of the depth [h0] in any test of a disc.
 _DEEPEST = 1e7
 
 
@@ -33,7 +34,7 @@ class DiscContact(ShapeContact):
     shape: Disc
 
     def radius_of_rise(self, rise: float) -> float:
-        """Return the radius [beta] of the disc: it rises no farther."""
+        """Return the radius [beta] of the disc, the end of its profile."""
         return self.shape.radius
 
     def bare_radius(self, depth: float) -> float:
@@ -54,13 +55,13 @@ class DiscContact(ShapeContact):
         return super().jkr_gap(nodes, radius)
 
     def deepest(self, start: Start) -> float:
-        """Return the depth [h0] of a start: by force that of the whole disc, P = 2 E* a depth."""
+        """Return the depth [h0] of a start; at given force, P = 2 E* a depth of the whole disc."""
         if isinstance(start, AtForce):
             return self.tabor * 1.5 * np.pi * start.force / (2 * self.shape.radius)
         return _DEEPEST if isinstance(start, AtRadius) else super().deepest(start)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
-        """Return the relaxed state of a start; a sharp edge has no contact radius to state."""
+        """Return the relaxed state of a start; reject a start by radius for a sharp edge."""
         if isinstance(start, AtRadius) and self.shape.is_sharp:
             raise InputError(
                 "a disc with a sharp edge is in contact as a whole: start it at a depth or a force"
@@ -68,7 +69,7 @@ class DiscContact(ShapeContact):
         return super().relaxed(start, settings)
 
     def flank_power(self, radius: float) -> tuple[float, float]:
-        """Return 0, for nothing is beyond the disc, and any exponent."""
+        """Return 0, because the disc has no flank, and an arbitrary exponent."""
         return 0.0, 2.0
 
     def surface(self, nodes: npt.NDArray) -> Surface:

@@ -1,4 +1,4 @@
-"""Nodes that end where an indenter does."""
+"""Grading of nodes up to the end of an indenter."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from viscotack.bem.mesh import Grading, check_count
 
 @dataclass(frozen=True)
 class EndedGrading(Grading):
-    """A grading whose last node is at the end of the indenter, and there once.
+    """A grading with its last node exactly at the end of the indenter.
 
-    No distance is longer than the `coarsest`.
+    No panel is longer than `coarsest`.
     """
 
     coarsest: float = np.inf

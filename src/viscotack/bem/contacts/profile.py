@@ -1,11 +1,11 @@
-r"""A power-law tip on the half-space: where it differs from the sphere.
+r"""Contact of a power-law tip and the half-space: differences to the sphere.
 
 Lengths along the surface are in :math:`\beta` with :math:`\beta^{2q-1} = \Delta\gamma_0/(E_0^*
 (qA)^2)`; with :math:`\mu = q A \beta^q/h_0` the discrete surface is that of the sphere under the
 rigid gap :math:`1 + \mu r^q/q`. Depths of JKR are in :math:`\mu h_0`, as for the sphere.
 
-A sharp tip has no mesh of its own: the pressure of a cone rises like the logarithm of the distance
-from its tip, over an area that no force notices.
+The mesh is not refined at a sharp tip. The pressure of a cone is singular there like the logarithm
+of the distance, on an area that is negligible for the force.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-r"""A flat punch in plane strain: its surface, its nodes, and the relaxed contact it starts from.
+r"""Contact of a flat punch in plane strain: surface, node placement and relaxed initial state.
 
 Lengths along the surface are in :math:`a_0 = \pi E_0^* \Delta\gamma_0/(2 \sigma_0^2)`. With
 :math:`\hat\sigma = \sigma_0 h_0/\Delta\gamma_0`, a pressure of 1 dg/h0 on a length a_0 moves the
@@ -31,12 +31,12 @@ from viscotack.geometry.hats import hat_areas, panel_areas
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.traction import Traction, effective_range
 
-# A glued layer with a foundation softer than this is squeezed sideways rather than compressed: its
-# nodes tell thicknesses apart everywhere, by default three of them to one.
+# A bonded layer with a foundation compliance below this is sheared sideways rather than compressed.
+# Its nodes must resolve the thickness everywhere, by default with three nodes per thickness.
 _INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
-# Nodes on which a body that is no layer tells how compliant it is.
+# Number of nodes used to evaluate the compliance of a body that is not a layer.
 _COARSE = 33
-# A start by force is found to this part of the travel in depth.
+# Tolerance of the depth of a start by force, as a fraction of the travel.
 _DEPTH_TOLERANCE = 1e-8
 
 
@@ -55,7 +55,7 @@ class PunchContact:
 
     @cached_property
     def thickness(self) -> float:
-        """Of the layer [a0]; of another body that of a sliding layer as compliant to the punch."""
+        """Thickness of the layer [a0], for other bodies of an equally compliant sliding layer."""
         if isinstance(self.body, Layer):
             return self.body.thickness
         nodes = self.size * np.linspace(0.0, 1.0, _COARSE)
@@ -63,7 +63,7 @@ class PunchContact:
 
     @property
     def travel(self) -> float:
-        """A thin layer is stretched by about sqrt(3 b/a0) ranges when it lets go."""
+        """Travel scale [h0]: a thin layer is stretched by about sqrt(3 b/a0) ranges at pull-off."""
         return self.span * (1 + float(np.sqrt(3 * min(self.thickness, self.size))))
 
     @property
@@ -75,7 +75,7 @@ class PunchContact:
     def zone(self) -> float:
         """Length over which the gap opens at a slow crack [a0], at most that of the layer.
 
-        Springs side by side have no length, and nodes as far from each other as elsewhere.
+        Independent springs have no decay length; the zone is then that of the crack.
         """
         crack = 1.5 * (self.law.strength * self.span) ** 2 / np.pi
         return min(crack, 2 * self.body.decay_length or crack)
@@ -128,7 +128,7 @@ class PunchContact:
         def excess(depth: float) -> float:
             found = self._at_depth(depth, settings)
             if found.edge < resolved:
-                # by a force a crack so long runs on; only coarse nodes would hold it
+                # under a given force such a long crack is unstable; only coarse nodes would pin it
                 raise InputError("the punch has let go")
             return found.force - start.force
 
@@ -144,19 +144,19 @@ class PunchContact:
         return self._at_depth(depth, settings)
 
     def deepest(self, start: Start) -> float:
-        """Return the depth [h0] of a start, about: a foundation of the layer's compliance."""
+        """Return the approximate depth [h0] of a start, for an elastic foundation."""
         if isinstance(start, AtForce):
             give = np.pi / (2 * self.law.strength) * min(self.thickness, self.size)
             return give * start.force
-        # a ligament, where a move ends, tells nothing of depths
+        # the ligament at the end of a move does not determine a depth
         return start.depth if isinstance(start, AtDepth) else 0.0
 
     def relaxed_pull_off(self, edge: float) -> float:
-        """Return 0: a punch has no second peak.
+        """Return 0, because the force of a punch has no second peak.
 
-        Its contact does not grow with the depth, so that the tension grows at a constant rate until
-        the crack runs, which then runs on: of 150 random punches (`benchmarks/peaks.py`) none had a
-        second peak.
+        The contact does not grow with the depth. The tension therefore grows at a constant rate
+        until the crack runs, and the crack does not stop. None of 150 random punches
+        (`benchmarks/peaks.py`) had a second peak.
         """
         return 0.0
 

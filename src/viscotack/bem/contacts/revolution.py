@@ -44,17 +44,17 @@ from viscotack.traction import Traction, effective_range
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
 _RADIUS_UNIT = np.pi ** (1 / 3)
 _MOST_MESHES = 200
-# A start by force or radius is found to this part of the travel in depth.
+# Tolerance of the depth of a start by force or radius, as a fraction of the travel.
 _DEPTH_TOLERANCE = 1e-6
 # At a small Tabor number the gap opens over this part of the distance over which the tip rises by
 # the range of the law.
 _RISING = 0.2 / np.sqrt(2)
-# Where surfaces overlap by this part of the range there is a contact without adhesion as well.
+# Overlap of the surfaces, in ranges of the law, above which contact exists without adhesion.
 _FIRM = 0.2
-# A glued layer with a foundation softer than this is squeezed sideways rather than compressed, and
-# its nodes tell thicknesses apart in the whole contact, by default three of them to one.
+# A bonded layer with a foundation compliance below this is sheared sideways rather than compressed.
+# Its nodes must resolve the thickness in the whole contact, by default three nodes per thickness.
 _INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
-# The edge has been found when it lies within this part of the fine zone around its nodes.
+# The edge has converged when it lies within this fraction of the fine half width from its centre.
 _CENTRED = 0.25
 
 
@@ -112,15 +112,15 @@ class RevolutionContact(ABC):
 
     @property
     def travel(self) -> float:
-        """A contact changes over mu h0 where it is large, over the law's range where small.
+        """Travel scale [h0]: about mu h0 for large Tabor numbers, the law's range for small ones.
 
-        On a thin body it changes over less: as adhesion draws it out, beside a half-space.
+        On a thin body it is smaller, by the ratio of the elongation by adhesion to a half-space.
         """
         return self.tabor * self._drawn + self.span
 
     @cached_property
     def _drawn(self) -> float:
-        """How far adhesion draws a contact of radius beta out beside that on a half-space."""
+        """Elongation by adhesion at contact radius beta, over that of a half-space, at most 1."""
         if self.body == HalfSpace():
             return 1.0
         solid: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
@@ -136,10 +136,10 @@ class RevolutionContact(ABC):
     def zone(self) -> float:
         """Length over which the gap opens at a relaxed edge [beta].
 
-        That of a crack is 0.75 beta over the square of the effective Tabor number. Where this is
-        small it would be larger than the contact; the gap then opens over the distance over which
-        the indenter rises by about the range of the law. On a thin body it opens over its decay
-        length; springs side by side have none.
+        The zone of a crack is 0.75 beta over the square of the effective Tabor number. At small
+        Tabor numbers this would exceed the contact; the gap then opens over the distance in which
+        the indenter rises by about the range of the law. On a thin body the gap opens over the
+        decay length of the body; independent springs have no decay length.
         """
         crack = 0.75 / (self.tabor / self.span) ** 2
         thin = 2 * self.body.decay_length or np.inf
@@ -169,11 +169,11 @@ class RevolutionContact(ABC):
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes for a largest depth [h0]."""
-        # Nodes catch the edge with an energy that falls exponentially with their number, while
-        # that by which one place of the edge differs from the next falls like 1/mu^2.
+        # Nodes pin the edge with an energy that falls exponentially with their number per zone. The
+        # energy difference between neighbouring edge positions falls like 1/mu^2.
         catching = 1 + 0.4 * float(np.log10(max(self.tabor / self.span / 10, 1.0)))
         edge = self.jkr_radius(depth)
-        # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
+        # Measure the reach from the plane, or from the edge if adhesion lifts it far above.
         rise = settings.reach * self.span + max(depth, self.rise(edge), 0.0)
         outer = max(self.radius_of_rise(rise), 2.5 * edge)
         fine = settings.grading(self.zone, self.law, outer, more=catching)
@@ -205,7 +205,7 @@ class RevolutionContact(ABC):
         )
 
     def deepest(self, start: Start) -> float:
-        """Return the depth [h0] of a start as JKR has it: how far a history goes, about."""
+        """Return the approximate depth [h0] of a start, by JKR."""
         if isinstance(start, AtDepth):
             return start.depth
         if isinstance(start, AtForce):
@@ -229,7 +229,7 @@ class RevolutionContact(ABC):
         return Relaxed(surface, balance.gap, depth, force, float("nan"), 0.0)
 
     def _at_depth(self, depth: float, settings: Settings, offset: float = 0.0) -> Relaxed:
-        """Return the contact at this depth [h0], looking at an offset [beta] from JKR's edge."""
+        """Return the contact at this depth [h0]; the search starts at the JKR edge plus offset."""
         law = self.law
         grading = self.grading(settings, depth)
         edge = (
@@ -272,7 +272,7 @@ class RevolutionContact(ABC):
         found: dict[float, Relaxed] = {}
 
         def excess(depth: float) -> float:
-            # The mesh shifts edges by about the same at all depths: look where the last was.
+            # The edge differs from JKR by about the same offset at all depths: reuse the last one.
             last = list(found.values())[-1:]
             offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
             offset = offset if self.tabor > 1 else 0.0

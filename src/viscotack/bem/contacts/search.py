@@ -1,7 +1,7 @@
-"""Looking for the depth at which a relaxed contact has a wanted force or radius.
+"""Search for the depth at which a relaxed contact has a given force or radius.
 
-Both grow with the depth from the least that there is on: the force minimum, or the end of the
-branch in contact, whichever comes first. Depths below it have more than the least, or no contact.
+Both quantities increase with depth above their minimum, which is the force minimum or the end of
+the contact branch, whichever is deeper. Smaller depths have larger values or no contact.
 """
 
 from __future__ import annotations
@@ -14,40 +14,41 @@ from scipy.optimize import brentq
 from viscotack.bem.shut import Shut
 from viscotack.errors import InputError
 
-# The first step away from a guess, and how much longer each of the next is.
+# First step away from a guess, and growth factor of the following steps.
 _FIRST_STEP, _LONGER = 0.05, 1.6
-# So many steps go farther than any depth that a contact may have.
+# Maximum number of steps; together they exceed any possible depth of a contact.
 _MOST_STEPS = 40
-# The part of the longer side of a bracket that a step towards the least goes.
+# Fraction of the longer side of a bracket used in a golden-section step.
 _GOLDEN = 0.381966
-# A least is known when its neighbours have no more than this, in the unit of the excess.
+# A minimum has converged when its neighbours exceed it by less than this, in the unit of the
+# excess.
 _FLAT = 1e-7
-# What stands for an excess where the surfaces are pressed shut: larger than any, finite, and
-# growing with the depth, so that the search finds its way back.
+# Substitute for the excess where the surfaces are pressed shut. It is larger than any real value,
+# finite, and increases with depth, so that the search returns to smaller depths.
 _SHUT = 1e9
 
 
 def depth_where(
     excess: Callable[[float], float], guess: float, scale: float, tolerance: float, wanted: str
 ) -> float | None:
-    """Return the depth above the least of an excess at which it is zero, None where none is.
+    """Return the zero of an excess at a depth above its minimum, None if there is no zero.
 
     Parameters
     ----------
     excess : callable
-        How much more than wanted there is at a depth; `Shut` where the surfaces are pressed shut,
-        another `InputError` where there is no contact.
+        Value at a depth minus the wanted value. It raises `Shut` if the surfaces are pressed shut,
+        another `InputError` if there is no contact.
     guess : float
-        Where to begin.
+        Initial depth.
     scale, tolerance : float
-        The length over which the excess changes as a whole, and that within which depths are found.
+        Depth scale of the excess, and absolute tolerance of the depth.
     wanted : str
-        What is looked for, in words.
+        Description of the wanted quantity, for the error message.
 
     Raises
     ------
     ValueError
-        If the surfaces are pressed shut before.
+        If the surfaces are pressed shut before the wanted value is reached.
     """
     found: dict[float, float] = {}
     shut: dict[float, Shut] = {}
@@ -83,9 +84,9 @@ def _not_above_zero(
     scale: float,
     tolerance: float,
 ) -> float | None:
-    """Return a depth at which an excess is zero or less, None where its least is more."""
+    """Return a depth with an excess of zero or less, None if its minimum is positive."""
     at = guess
-    for way in (-1, 1):  # upwards where the guess is below the least, or out of contact
+    for way in (-1, 1):  # second pass deeper: the guess may lie below the minimum or out of contact
         step = way * _FIRST_STEP * scale
         for _ in range(_MOST_STEPS):
             apart = way > 0 and seen(at) == inf

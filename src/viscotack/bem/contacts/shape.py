@@ -91,8 +91,8 @@ class ShapeContact(RevolutionContact):
     def relaxed_pull_off(self, edge: float) -> float:
         """Return the force [output unit] with which the relaxed solid pulls off at this edge.
 
-        Of a power on a layer, as :meth:`.sphere.SphereContact.relaxed_pull_off`. There is no bound
-        for other shapes, which may have several contacts, each with a pull-off of its own.
+        For a power law on a layer, see :meth:`.sphere.SphereContact.relaxed_pull_off`. Other shapes
+        return infinity (no bound), because they may have several contacts and pull-offs.
         """
         if not isinstance(self.body, Layer) or not isinstance(self.shape, on_layer.POWERS):
             return np.inf
@@ -109,7 +109,7 @@ class ShapeContact(RevolutionContact):
         return radius / flank, radius * flank / float(self.shape.gap(radius))
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
-        """Return the relaxed state of a start, within the radius to which the shape is known."""
+        """Return the relaxed state of a start; reject contacts beyond the known profile."""
         found = super().relaxed(start, settings)
         if found.edge > end(self.shape):
             raise InputError(
@@ -119,7 +119,7 @@ class ShapeContact(RevolutionContact):
         return found
 
     def grading(self, settings: Settings, depth: float) -> Grading:
-        """Return the grading of the nodes, of a shape with details no coarser than they are."""
+        """Return the grading of the nodes, which resolves the details of the shape."""
         grading = super().grading(settings, depth)
         if np.isinf(detail(self.shape)):
             return grading
@@ -128,9 +128,9 @@ class ShapeContact(RevolutionContact):
         return DetailedGrading(**asdict(grading), own=self._own_nodes(near, grading.outer_radius))
 
     def _own_nodes(self, near: float, outer: float) -> npt.NDArray:
-        """Return nodes [beta] whose chords follow the shape, near as it may come to the body.
+        """Return nodes [beta] whose chords resolve the shape up to the radius `near`.
 
-        Their distances grow from there outwards.
+        Beyond that radius the node distances grow.
         """
         length = detail(self.shape)
         check_count(near / length)
@@ -149,7 +149,7 @@ class ShapeContact(RevolutionContact):
         return np.append(own, own[-1] + step * np.cumsum((1 + _WIDER) ** np.arange(1, longer + 1)))
 
     def _where_last(self, function: Any, value: float, low: float) -> float:
-        """Return the largest radius at which a function that grows in the end has this value."""
+        """Return the largest radius at which an eventually increasing function has this value."""
         if np.isinf(detail(self.shape)):
             return inverse(lambda a: float(function(a)), value, low)
         far = self._far
@@ -169,15 +169,15 @@ class ShapeContact(RevolutionContact):
 
     @property
     def _far(self) -> float:
-        """The radius [beta] up to which the branches of a shape with details are looked at first.
+        """Initial outer radius [beta] of the search on a shape with details.
 
-        Where a profile is known, all of them are within.
+        For a measured profile it is the radius to which the profile is known.
         """
         known = end(self.shape)
         return known if np.isfinite(known) else max(_FAR, _FAR * detail(self.shape))
 
     def _looks(self, far: float) -> npt.NDArray:
-        """Return radii [beta] at which a shape with details is looked at."""
+        """Return the search radii [beta] for a shape with details."""
         many = int(min(_LOOKS * far / detail(self.shape), _MOST_LOOKS))
         even = np.linspace(0.0, far, max(many, _LOOKS) + 1)[1:]
         return np.unique(np.concatenate([np.geomspace(_LEAST, far, 100), even]))
@@ -204,7 +204,7 @@ class ShapeContact(RevolutionContact):
         return float(radii[np.argmin(found)])
 
     def _seen(self, function: Any, far: float) -> tuple[npt.NDArray, npt.NDArray]:
-        """Return radii [beta] and what a function is there, which is asked for once."""
+        """Return the search radii [beta] and the cached function values there."""
         key = function.__name__, far
         if key not in self._kept:
             radii = self._looks(far)
@@ -218,12 +218,12 @@ class ShapeContact(RevolutionContact):
 
 @dataclass(frozen=True, kw_only=True)
 class DetailedGrading(Grading):
-    """A grading whose nodes are nowhere coarser than those of the shape.
+    """A grading at least as fine as the nodes that resolve the shape.
 
     Attributes
     ----------
     own : ndarray
-        The nodes of the shape; they stay where they are, so that nothing is interpolated there.
+        Nodes that resolve the shape; they never move, so remeshing does not interpolate there.
     """
 
     rings: ClassVar[bool] = True
@@ -245,7 +245,7 @@ def _lowest(function: Callable[[float], float]) -> float:
 
 
 def inverse(function: Callable[[float], float], value: float, low: float) -> float:
-    """Return where a function that grows from a radius on has this value; `low` past its end."""
+    """Return the radius at which a function increasing above `low` has this value, else `low`."""
     if value <= function(low):
         return low
     high = 2 * low

@@ -1,4 +1,4 @@
-"""A sphere on the half-space, whose JKR contact has a closed form."""
+"""Contact of a sphere and the half-space, with the closed-form JKR solution."""
 
 from __future__ import annotations
 
@@ -61,10 +61,10 @@ class SphereContact(RevolutionContact):
     def relaxed_pull_off(self, edge: float) -> float:
         """Return the force [output unit] with which the relaxed solid pulls off at this edge.
 
-        A JKR contact pulls off where Hertz's force at its radius is the pull-off force, whatever
-        the work of adhesion, so a crack that takes more work does so too. The edge, where the
-        tension is largest, lies outside such a contact by what raises the indenter by half the
-        range of the law; 0 without an edge.
+        A JKR contact pulls off when the Hertz force at its radius equals the pull-off force. This
+        holds for any work of adhesion, so also for a crack that needs more work. The edge, defined
+        at the largest tension, lies outside such a contact, where the indenter has risen by half
+        the range of the law. The force is 0 without an edge.
         """
         pressed = self.rise(edge) - 0.5 * self.span if edge > 0 else 0.0
         if not pressed > 0:
