@@ -340,11 +340,14 @@ def test_two_rows_of_the_day_answer_or_refuse_in_words(row):
 
 @pytest.mark.slow
 def test_all_rows_answer_or_refuse_in_words():
+    # a sphere on a half-space, which all but the contact with a steady crack know
+    plain = [answers_or_refuses((0, 0, 0, 0, 0, tier, 0)) for tier in range(3)]
+    assert plain == ["simulated", "predicted", "answered"]
     kinds = [answers_or_refuses(row) for row in ROWS]
     # simulation takes every noun
     solving = [kind for row, kind in zip(ROWS, kinds, strict=True) if row[5] == 0]
     assert set(solving) == {"simulated"}
-    assert {"answered", "refused"} <= set(kinds)
+    assert "refused" in kinds
 
 
 # --- twenty broken nouns -------------------------------------------------------------------------

@@ -27,10 +27,13 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
+from viscotack.geometry import detail
 from viscotack.geometry.hats import hat_areas
 
 # Nodes of a disc, crowded at its edge; radii per decade, and of how many K and M are interpolated.
 _NODES, _PER_DECADE, _AROUND = 97, 6, 6
+# Difference of radii from which derivatives are computed, relative.
+_STEP = 1e-3
 _CROWDED = 1 - (1 - np.linspace(0.0, 1.0, _NODES)) ** 3
 
 
@@ -84,6 +87,8 @@ def _disc(a: npt.NDArray, shape: Any, body: Any) -> Any:
 
 def _interpolated(radius: float, shape: Any, body: Any) -> tuple[float, float, float, float]:
     """Return K, K', M and M' at a radius, by the polynomials of their logarithms."""
+    if np.isfinite(detail(shape)):
+        return _by_differences(radius, shape, body)
     place = np.log10(radius) * _PER_DECADE
     first = int(np.floor(place)) - _AROUND // 2 + 1
     steps = np.arange(_AROUND)
@@ -98,10 +103,22 @@ def _interpolated(radius: float, shape: Any, body: Any) -> tuple[float, float, f
     return K, K1, M, M1
 
 
+def _by_differences(radius: float, shape: Any, body: Any) -> tuple[float, float, float, float]:
+    """Compute K, K', M and M' of a shape with details, whose M is near no power of the radius."""
+    before, here, after = (_sums_at(radius * (1 + x), shape, body) for x in (-_STEP, 0, _STEP))
+    K1, M1 = ((b - a) / (2 * _STEP * radius) for a, b in zip(before, after, strict=True))
+    return here[0], K1, here[1], M1
+
+
 @lru_cache(maxsize=4096)
 def _sums(step: int, shape: Any, body: Any) -> tuple[float, float]:
     """Return K and M at a radius of the table."""
-    nodes = 10 ** (step / _PER_DECADE) * _CROWDED
+    return _sums_at(10 ** (step / _PER_DECADE), shape, body)
+
+
+def _sums_at(radius: float, shape: Any, body: Any) -> tuple[float, float]:
+    """Compute K and M at a radius."""
+    nodes = radius * _CROWDED
     pressure = np.linalg.solve(body.influence(nodes, "revolution"), np.ones(_NODES))
     on_hats: Array = pressure * hat_areas(nodes, "revolution")
     return float(np.sum(on_hats)), float(on_hats @ shape.gap(nodes))
