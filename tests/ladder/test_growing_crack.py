@@ -282,5 +282,5 @@ def test_what_a_lattice_does_not_hold_is_refused(lattice):
         lattice.edges(1.0, 0.9)
     with pytest.raises(ValueError, match="exceeds the lattice"):
         lattice.edges(1e-4, 0.4)
-    with pytest.raises(ValueError, match="four exponents at least"):
+    with pytest.raises(ValueError, match="at least four ascending exponents"):
         GrowingCracks(SOLID, (0.1, 3.0), (1.0, 1.0), [0.3, 0.4])
