@@ -353,11 +353,12 @@ ROWS = [[f"{r} um", f"{max(r * r - 6400, 0) / 10:.1f} nm"] for r in range(0, 401
 TABLES = {
     "measured-profile": {"points": ROWS},
     "wavy-sphere": {"radius": "5 mm", "amplitude": "0.2 um", "wavelength": "100 um"},
+    "disc": {"radius": "50 um"},
 }
 
 
 @pytest.mark.parametrize(
-    ("word", "send"), [("measured-profile", by_http), ("wavy-sphere", by_form)]
+    ("word", "send"), [("measured-profile", by_http), ("wavy-sphere", by_form), ("disc", by_http)]
 )
 def test_every_door_gives_the_same_answer(word, send, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -366,7 +367,7 @@ def test_every_door_gives_the_same_answer(word, send, tmp_path, monkeypatch):
     question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.02})
     found = by_python(question)
     record: Any = found.record
-    assert record["pull_off_force"] > 0 and record["most_rings"] == 1
+    assert record["pull_off_force"] > 0 and (word == "disc" or record["most_rings"] == 1)
     http = Http()
     try:
         assert found == by_command(question) == by_study(question) == send(question, http)

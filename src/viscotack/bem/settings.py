@@ -9,6 +9,7 @@ import numpy as np
 from viscotack.bem.interface import resolved
 from viscotack.bem.mesh import Grading
 from viscotack.cards import card_of
+from viscotack.geometry import Body, Layer
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, Accuracy
 from viscotack.traction import Traction, softening
 
@@ -22,6 +23,9 @@ _SOFTENING = 1.2
 _FINEST, _STEP_ZONES = 8.0, 2.0
 # Lengths of the relaxed crack's zone that stay fine around the first edge, for what remembers.
 _SCAR_ZONES = 2.0
+# A bonded layer with a foundation compliance below this is sheared sideways rather than compressed.
+# Its nodes must resolve the thickness in the whole contact, by default three nodes per thickness.
+_INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
 
 
 @dataclass(frozen=True)
@@ -121,6 +125,12 @@ class Settings:
             growth_outside=self.growth_outside,
             outer_radius=outer_radius,
         )
+
+    def widest(self, body: Body) -> float:
+        """Return the largest distance of nodes in a contact with a body, in its unit of length."""
+        if isinstance(body, Layer) and body.base.foundation < _INCOMPRESSIBLE:
+            return _SQUEEZED * body.thickness / self.nodes_per_zone
+        return np.inf
 
     def coarser(self, factor: float) -> Settings:
         """Return the settings whose errors, being of second order, are larger by this factor."""

@@ -31,9 +31,6 @@ from viscotack.geometry.hats import hat_areas, panel_areas
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.traction import Traction, effective_range
 
-# A bonded layer with a foundation compliance below this is sheared sideways rather than compressed.
-# Its nodes must resolve the thickness everywhere, by default with three nodes per thickness.
-_INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
 # Number of nodes used to evaluate the compliance of a body that is not a layer.
 _COARSE = 33
 # Tolerance of the depth of a start by force, as a fraction of the travel.
@@ -101,13 +98,10 @@ class PunchContact:
         crack = settings.grading(self.zone, self.law, self.size)
         # Nodes lie on a lattice that begins at the end of the punch.
         spacing = min(crack.spacing, self.size / 8)
-        layer = self.body if isinstance(self.body, Layer) else None
-        squeezed = layer is not None and layer.base.foundation < _INCOMPRESSIBLE
-        coarsest = _SQUEEZED * self.thickness / settings.nodes_per_zone if squeezed else np.inf
         scar = min(crack.scar_half_width, self.size)  # none of it lies beyond the middle
         finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
         finest |= {"scar_half_width": scar}
-        return EndedGrading(**finest, coarsest=coarsest)
+        return EndedGrading(**finest, coarsest=settings.widest(self.body))
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start, the whole punch in contact.

@@ -35,7 +35,7 @@ from viscotack.bem.shut import check_open
 from viscotack.bem.span import least_gap
 from viscotack.bem.surface import Surface, relaxed_stiffness
 from viscotack.errors import InputError
-from viscotack.geometry import Body, HalfSpace, Layer, Sphere
+from viscotack.geometry import Body, HalfSpace, Sphere
 from viscotack.geometry.hats import hat_areas, panel_areas
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory.elastic import indenter
@@ -51,9 +51,6 @@ _DEPTH_TOLERANCE = 1e-6
 _RISING = 0.2 / np.sqrt(2)
 # Overlap of the surfaces, in ranges of the law, above which contact exists without adhesion.
 _FIRM = 0.2
-# A bonded layer with a foundation compliance below this is sheared sideways rather than compressed.
-# Its nodes must resolve the thickness in the whole contact, by default three nodes per thickness.
-_INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
 # The edge has converged when it lies within this fraction of the fine half width from its centre.
 _CENTRED = 0.25
 
@@ -177,10 +174,7 @@ class RevolutionContact(ABC):
         rise = settings.reach * self.span + max(depth, self.rise(edge), 0.0)
         outer = max(self.radius_of_rise(rise), 2.5 * edge)
         fine = settings.grading(self.zone, self.law, outer, more=catching)
-        if isinstance(self.body, Layer) and self.body.base.foundation < _INCOMPRESSIBLE:
-            widest = _SQUEEZED * self.body.thickness / settings.nodes_per_zone
-            return replace(fine, widest=widest)
-        return fine
+        return replace(fine, widest=settings.widest(self.body))
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start; by force, the load-stable contact.
