@@ -10,6 +10,7 @@ import viscotack as vt
 from command_line import exit_status
 from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
 from viscotack.campaign import Store, read_plan, run
+from viscotack.theory.elastic import indenter
 
 CASE = """
 [material]
@@ -116,3 +117,25 @@ def test_a_film_is_not_pressed_beyond_half_its_thickness(problem):
     replace(problem, protocol=deep, body=vt.Layer(300e-6, problem.body.base))
     with pytest.raises(vt.InputError, match="over 0.5 thicknesses"):
         replace(problem, protocol=vt.Retraction(vt.AtForce(10.0), 1e-5))
+
+
+def test_a_worn_tip_on_a_layer_has_limits_in_words():
+    # flat in the middle: its depth there has no logarithm
+    worn = vt.MeasuredProfile(((0.0, 0.0), (1e-4, 0.0), (2e-4, 1e-6), (3e-4, 3e-6)))
+    parts = {"material": vt.Elastic(rubbery_modulus=1e8, poisson_ratio=0.3), "geometry": worn}
+    parts |= {"traction": vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-7)}
+    layer = vt.Layer(1e-3, vt.Bonded(poisson_ratio=0.3))
+    test = vt.Retraction(vt.AtDepth(1e-6), 1e-6)
+    assert vt.Problem(**parts, body=layer, protocol=test).groups().in_plane_strain is False
+    with pytest.raises(vt.InputError, match="too wide for a shape with details"):
+        indenter.bare_depth(2e-4, shape=worn, body=vt.Layer(1e-6))
+
+
+def test_a_disc_is_pressed_by_the_stiffness_of_its_layer():
+    parts = {"material": vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)}
+    parts |= {"traction": vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-8)}
+    parts |= {"geometry": vt.Disc(1e-3)}
+    thin = vt.Layer(1e-5, vt.Bonded(poisson_ratio=0.5))
+    vt.Problem(**parts, body=thin, protocol=vt.Retraction(vt.AtForce(1.5), 1e-8))
+    with pytest.raises(vt.InputError, match="deeper than half the thickness of the layer"):
+        vt.Problem(**parts, body=vt.Layer(1e-4), protocol=vt.Retraction(vt.AtDepth(4e-4), 1e-8))

@@ -75,9 +75,9 @@ class OwnChanged(InputError):
     """A user-defined file was edited after the campaign was planned."""
 
 
-def digest(path: str | Path) -> str:
+def digest(path: str | Path, most: int = LARGEST_TEXT) -> str:
     """Return the hash of a file's bytes."""
-    return hashlib.sha256(read_bytes(path, LARGEST_TEXT)).hexdigest()
+    return hashlib.sha256(read_bytes(path, most)).hexdigest()
 
 
 def permitted(

@@ -28,6 +28,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.arrow import arrow
+from viscotack.files.bounded import LARGEST_PART
 from viscotack.files.lock import Hold
 from viscotack.files.whole import remove_drafts, write_whole
 from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
@@ -386,7 +387,7 @@ def _tables_of_cases(cases: Cases) -> Iterator[Any]:
 
 def hash_of(path: Path) -> str | None:
     """Return the hash of a file as it is now; None if it is not there."""
-    return digest(path) if path.exists() else None
+    return digest(path, LARGEST_PART) if path.exists() else None
 
 
 def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:

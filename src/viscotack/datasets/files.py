@@ -58,7 +58,8 @@ def path(name: str) -> Path:
     >>> path("broad").name
     'broad.parquet'
     """
-    return _folder() / f"{_known(name)}.parquet"
+    file = f"{_known(name)}.parquet"  # an unknown name is rejected first
+    return _folder() / file
 
 
 def plan_path(name: str) -> Path:
@@ -74,7 +75,8 @@ def plan_path(name: str) -> Path:
     >>> plan_path("broad").name
     'broad.toml'
     """
-    return _folder() / "plans" / f"{_known(name)}.toml"
+    file = f"{_known(name)}.toml"
+    return _folder() / "plans" / file
 
 
 def load(name: str) -> Any:

@@ -14,7 +14,7 @@ from scipy.interpolate import PchipInterpolator
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.forecast.prediction import Prediction
-from viscotack.problem.outputs import REVOLUTION
+from viscotack.problem.outputs import PLANE
 from viscotack.result import Result
 
 from .plot import axis_unit
@@ -70,7 +70,7 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         raise InputError(f"the theory {prediction.method!r} has no force curve to draw")
     scales, kind = prediction.problem.scales(), prediction.problem.groups().outputs
     drawn = [kind.of(name).unit for name in ("depth", "force")]
-    what = "force" if kind is REVOLUTION else "mean stress"
+    what = "mean stress" if kind is PLANE else "force"
     if scales is None:
         length, load = 1.0, 1.0
         units = [f"/ {unit.drawn}" for unit in drawn]
@@ -131,5 +131,5 @@ def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> Non
     if prediction.zero_force_interval is not None:
         ends = np.array(prediction.zero_force_interval) * length
         kind = prediction.problem.groups().outputs
-        label = f"zero {'force' if kind is REVOLUTION else 'stress'}, interval"
+        label = f"zero {'stress' if kind is PLANE else 'force'}, interval"
         axes.plot(ends, [0.0, 0.0], "|-", color="C1", ms=10, zorder=0.6, label=label)

@@ -30,7 +30,7 @@ from viscotack.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
 from viscotack.protocol.words import SPHERE_UNITS
-from viscotack.theory.elastic import indenter
+from viscotack.theory.elastic import indenter, on_layer
 from viscotack.theory.elastic.relaxed import contact
 from viscotack.traction import Traction
 from viscotack.units import positive
@@ -49,6 +49,8 @@ ELASTIC_TABOR = 30.0
 _FAR = log(1e15)
 # Radii per detail of a shape at which its slope is looked at, and the most of them.
 _LOOKS, _MOST_LOOKS = 16, 100_000
+# Radii at which the depth of a shape with details on a layer is sampled.
+_SAMPLES = 200
 # Units of a protocol, in SI and dimensionless.
 SI = SPHERE_UNITS | {"stiffness": "N/m"}
 GROUPS = {
@@ -245,8 +247,12 @@ def _check_disc(problem: Any) -> None:
             f"the rounded edge is too steep: its slope is {rim:.3g} at the rim, and it may be up "
             f"to {2 * STEEPEST_FLANK:g}, that of a quarter of a circle; make it wider"
         )
-    # a stiff contact of the radius of the disc: P = 2 E* a depth
-    stiffness = 2 * problem.material.contact_modulus * disc.radius
+    stiffness, limit = 2 * disc.radius, "half its radius"
+    if isinstance(body := problem.body, Layer):
+        stiffness = float(on_layer.stiffness(np.array(disc.radius), body))
+        if DEEPEST_LAYER * body.thickness < most:
+            most, limit = DEEPEST_LAYER * body.thickness, "half the thickness of the layer"
+    stiffness *= problem.material.contact_modulus
     for state in states(problem.protocol):
         if isinstance(state, AtRadius):
             continue
@@ -254,8 +260,8 @@ def _check_disc(problem: Any) -> None:
         depth = state.depth if is_depth else state.force / stiffness
         if depth > most:
             raise InputError(
-                f"{state} exceeds small strain: it presses the disc deeper than half its "
-                f"radius, {most:.3g} m"
+                f"{state} exceeds small strain: it presses the disc deeper than {limit}, "
+                f"{most:.3g} m"
             )
 
 
@@ -297,14 +303,19 @@ def _check_flank(problem: Any) -> None:
 
 def _pressed_through(problem: Any) -> float:
     """Return the radius [m] of the deepest contact allowed on a layer, inf if none."""
-    body = problem.body
+    shape, body = problem.geometry, problem.body
     if not isinstance(body, Layer):
         return np.inf
 
-    def excess(radius: float) -> float:
-        depth = indenter.bare_depth(radius, shape=problem.geometry, body=body)
-        return log(float(depth) / (DEEPEST_LAYER * body.thickness))
+    def excess(radius: Any) -> Any:
+        depth = indenter.bare_depth(radius, shape=shape, body=body)
+        return np.asarray(depth) / (DEEPEST_LAYER * body.thickness) - 1
 
+    if np.isfinite(detail(shape)):
+        far = min(float(_radii(shape)[-1]), on_layer.LARGEST * body.thickness)
+        radii = np.linspace(0.0, far, _SAMPLES + 1)[1:]
+        deep = np.flatnonzero(excess(radii) > 0)
+        return float(radii[deep[0]]) if deep.size else np.inf
     least, most = 1e-3 * body.thickness, 1e3 * body.thickness
     if excess(most) < 0:
         return np.inf

@@ -20,7 +20,7 @@ from viscotack.forecast.prediction_table import predict_table
 from viscotack.forecast.punches import inputs_of
 from viscotack.forecast.question import Question
 from viscotack.forecast.tiers import AT_ONCE, TIERS
-from viscotack.geometry import FlatPunch, Layer
+from viscotack.geometry import Disc, FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
 from viscotack.operations.declare.state import State
 from viscotack.operations.parts.json_data import drawn, plain
@@ -116,6 +116,9 @@ def _curve(words: str, depth: Any, force: Any, **more: Any) -> dict[str, Any]:
 
 def _elastic(problem: Problem, found: dict[str, Any]) -> None:
     """Add the curve of the relaxed solid, from the start to detachment on a rigid drive."""
+    if isinstance(problem.geometry, Disc):
+        found["notes"].append("the JKR curve of a disc, which detaches as a whole, is not drawn")
+        return
     solid: Any = {
         "body": problem.body,
         "contact_modulus": problem.material.contact_modulus,

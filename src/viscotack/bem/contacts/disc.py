@@ -20,8 +20,9 @@ from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
-from viscotack.geometry import Disc
+from viscotack.geometry import Disc, Layer
 from viscotack.protocol import Apart, AtForce, AtRadius, Start
+from viscotack.theory.elastic import on_layer
 
 # Upper bound of the depth [h0] in any test of a disc.
 _DEEPEST = 1e7
@@ -54,10 +55,17 @@ class DiscContact(ShapeContact):
             return np.zeros_like(nodes)
         return super().jkr_gap(nodes, radius)
 
+    @property
+    def _stiffness(self) -> float:
+        """Return the force per depth of the whole disc, for E* = 1 [beta]."""
+        if isinstance(self.body, Layer):
+            return float(on_layer.stiffness(np.array(self.shape.radius), self.body))
+        return 2 * self.shape.radius
+
     def deepest(self, start: Start) -> float:
-        """Return the depth [h0] of a start; at given force, P = 2 E* a depth of the whole disc."""
+        """Return the depth [h0] of a start; at given force that of the whole disc."""
         if isinstance(start, AtForce):
-            return self.tabor * 1.5 * np.pi * start.force / (2 * self.shape.radius)
+            return self.tabor * 1.5 * np.pi * start.force / self._stiffness
         return _DEEPEST if isinstance(start, AtRadius) else super().deepest(start)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
@@ -83,7 +91,8 @@ class DiscContact(ShapeContact):
         spacing = min(crack.spacing, size / 8)
         scar = min(crack.scar_half_width, size)
         finest: dict[str, Any] = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
-        return EndedGrading(**finest | {"scar_half_width": scar})
+        finest |= {"scar_half_width": scar}
+        return EndedGrading(**finest, coarsest=settings.widest(self.body))
 
     def _jkr_depth(self, start: AtForce) -> float:
         return self.deepest(start)

@@ -48,9 +48,13 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
             "this format needs afmformats, which is not installed: pip install viscotack[afm]"
         ) from None
     if file.content.startswith(b"PK"):
-        with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
-            if huge(parts):
-                raise file.error("it unpacks to more than 200 MB")
+        try:
+            with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
+                too_large = huge(parts)
+        except zipfile.BadZipFile as error:
+            raise file.error(f"the file is truncated or damaged: {error}") from None
+        if too_large:
+            raise file.error("it unpacks to more than 200 MB")
     # afmformats also logs the tracebacks of its errors
     logging.getLogger("afmformats").setLevel(logging.CRITICAL)
     try:

@@ -152,9 +152,10 @@ class Indenter:
             f"{word}{' (also when left out)' if word == self.material else ''}: {words}"
             for word, words in _MATERIALS.items()
         )
+        has_layer = "thickness" in {**self.numbers, **self.more}
         asked = [
             *(Question(n, question_of(card)) for n, card in {**self.numbers, **self.more}.items()),
-            Question("bonded", _GLUED),
+            *([Question("bonded", _GLUED)] if has_layer else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
             Question("temperature", f"{_TEMPERATURE} {_ALONE}", text=True),
             Question("modulus-ratio", question_of(card_of(ModulusRatio))),
@@ -222,9 +223,6 @@ DISC = Indenter(
     "disc", _TABOR, revolution.GROUPS, ("preload", "preload-force", "apart"), "power-law"
 )
 PUNCH = Indenter("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
-# Of either: what a sphere is asked, and what a punch alone.
-_OF_SPHERE = {question.name for question in SPHERE.questions}
-SPHERE_OR_PUNCH = (*SPHERE.questions, *(q for q in PUNCH.questions if q.name not in _OF_SPHERE))
 # Of a problem that a file states whole.
 OF_FILE = (Question("temperature", _TEMPERATURE, text=True),)
 

@@ -54,7 +54,8 @@ def drawn(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:
 
 def depth(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:
     """Return the depth [m] of a contact of this radius [m]."""
-    return bare_depth(a, shape, body) - drawn(a, shape, body, length)
+    (_, K1), (_, M1) = _disc(a, shape, body)
+    return M1 / K1 - np.sqrt(4 * np.pi * a * length / K1)
 
 
 def force(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:

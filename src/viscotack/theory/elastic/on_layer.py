@@ -36,7 +36,8 @@ import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere
+from viscotack.errors import InputError
+from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere, detail
 
 from ._sneddon import half_space_depth
 
@@ -45,7 +46,7 @@ _PANELS, _WIDER, _POINTS = 3, 4.0, 16
 # Gauss panels in t, up to where the transfer function is 1, each of this phase.
 _LAST, _PHASE = 18.0, 12.0
 # Radius [b] up to which the equation is solved.
-_LARGEST = 100.0
+LARGEST = 100.0
 # Places of the table of the kernel, and the degree of its splines.
 _PLACES, _DEGREE = 240, 7
 # Solutions per decade of radius for shapes that are powers, and of how many one is interpolated.
@@ -56,7 +57,7 @@ POWERS = (Sphere, Cone, PowerLawProfile)
 _BESIDE = 25.0
 # Of a logarithm of the radius, for a derivative.
 _STEP = 0.01
-_LAST_STEP = round(_PER_DECADE * np.log10(_LARGEST))
+_LAST_STEP = round(_PER_DECADE * np.log10(LARGEST))
 
 
 def bare_depth(a: npt.NDArray, shape: Any, body: Layer) -> npt.NDArray:
@@ -110,7 +111,7 @@ def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Layer) 
               \right]
     """
     b = body.thickness
-    y, solved = np.maximum(position, a) / b, _solved(min(a / b, _LARGEST), body.base)
+    y, solved = np.maximum(position, a) / b, _solved(min(a / b, LARGEST), body.base)
     s, weight = solved.s, solved.weight
     of, of_edge = solved.profile(shape, b)
     g, edge = depth * solved.disc - of, depth * solved.disc_edge - of_edge
@@ -134,10 +135,15 @@ def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
 def _continued(a: float, shape: Any, body: Layer) -> Array:
     """Return the four sums at a radius [b], beyond the largest one as powers."""
     values = _interpolated if type(shape) in POWERS else _direct
-    if a <= _LARGEST:
+    if a <= LARGEST:
         return values(a, shape, body)
-    last, before = (np.log(values(x, shape, body)) for x in (_LARGEST, _LARGEST / 1.2))
-    return np.exp(last + (last - before) * np.log(a / _LARGEST) / np.log(1.2))
+    if np.isfinite(detail(shape)):
+        raise InputError(
+            f"a contact of {a:.4g} thicknesses of the layer is too wide for a shape with details; "
+            f"it may be up to {LARGEST:g}: make the layer thicker"
+        )
+    last, before = (np.log(values(x, shape, body)) for x in (LARGEST, LARGEST / 1.2))
+    return np.exp(last + (last - before) * np.log(a / LARGEST) / np.log(1.2))
 
 
 def _interpolated(a: float, shape: Any, body: Layer) -> Array:
@@ -217,8 +223,8 @@ def _nodes(a: float) -> tuple[npt.NDArray, npt.NDArray]:
 @lru_cache(maxsize=16)
 def _kernel(base: Base) -> Callable[[npt.NDArray], npt.NDArray]:
     """Return the integral of (kappa - 1) cos(t x) over t as a function of x."""
-    place = np.linspace(0.0, np.log1p(2 * _LARGEST), _PLACES)
-    t, kernel = _waves(base, 2 * _LARGEST)
+    place = np.linspace(0.0, np.log1p(2 * LARGEST), _PLACES)
+    t, kernel = _waves(base, 2 * LARGEST)
     values = [float(np.cos(t * x) @ kernel) for x in np.expm1(place)]
     spline = scipy.interpolate.make_interp_spline(place, values, k=_DEGREE)
     return lambda x: spline(np.log1p(x))
