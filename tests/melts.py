@@ -10,7 +10,7 @@ from viscotack.lab import CreepTest, FrequencySweeps, RelaxationTest
 from viscotack.materials.shift import WLF
 
 REFERENCE = 243.15
-LAW = WLF(REFERENCE, 10.0, 90.0)
+LAW = WLF(reference_temperature=REFERENCE, c1=10.0, c2=90.0)
 EXPANSION = 6.5e-4  # 1/K
 CHAMBER = np.array([233.15, 243.15, 253.15, 263.15, 273.15, 293.15, 313.15])
 _TERMINAL = 500.0  # s

@@ -221,7 +221,7 @@ def test_a_bulk_modulus_is_refused_where_it_has_no_place():
 
 
 def test_shift_laws_go_along():
-    law, cold = WLF(293.15, 8.0, 100.0), 273.15
+    law, cold = WLF(reference_temperature=293.15, c1=8.0, c2=100.0), 273.15
     assert read_abaqus(exported(SOLID, "abaqus", shift=law))[5] == {
         "*TRS, DEFINITION=WLF": [293.15, 8.0, 100.0]
     }

@@ -32,7 +32,7 @@ RUBBER = Passport(
     name="rubber",
     material=SOLID,
     temperature=293.15,
-    shift=WLF(293.15, 5.0, 150.0),
+    shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0),
     evidence=Evidence(numbers=50, constants=4, level=0.9, intervals=(("tau0", 5e-3, 2e-2),)),
 )
 # With five allowed solids, as wide as the interval: the 24 that it is else drawn into take longer.

@@ -71,7 +71,9 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     forecast = forecast_rates(fit, [3e-5, 2e-3])
     true = forces(LAW, [3e-5, 2e-3])
     assert np.all((forecast.low < true) & (true < forecast.high))
-    shifting = replace(fit.passport, temperature=293.15, shift=WLF(293.15, 5.0, 150.0))
+    shifting = replace(
+        fit.passport, temperature=293.15, shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
+    )
     with pytest.raises(
         InputError, match="the temperature dependence of a speed-dependent interface is unknown"
     ):

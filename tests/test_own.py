@@ -160,7 +160,7 @@ def test_a_theory_predicts_with_own_parts():
 
 def test_a_passport_holds_a_material_of_ones_own(tmp_path):
     solid = ZENER(rubbery_modulus=1e6, glassy_modulus=1e8, tau0=0.1, order=0.6, poisson_ratio=0.5)
-    shift = WLF(293.15, 8.0, 100.0)
+    shift = WLF(reference_temperature=293.15, c1=8.0, c2=100.0)
     file = tmp_path / "own.toml"
     written = Passport(
         name="own",

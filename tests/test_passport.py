@@ -38,7 +38,7 @@ MATERIAL = {
 }
 SHIFT = {
     "none": None,
-    "wlf": WLF(300.1, 17.44 / 3, 51.6 / 0.7),
+    "wlf": WLF(reference_temperature=300.1, c1=17.44 / 3, c2=51.6 / 0.7),
     "arrhenius": Arrhenius(293.15, 1e5 / 3),
     "table": TabulatedShift(293.15, (253.15, 273.15, 303.15), (5 / 3, 1.0, -1 / 7)),
 }

@@ -108,13 +108,16 @@ def test_temperature_multiplies_times_by_the_shift_factor():
 
 def test_the_reference_of_the_law_does_not_matter():
     at_room = Passport(
-        name="x", material=_standard(), temperature=293.15, shift=WLF(293.15, 8.0, 100.0)
+        name="x",
+        material=_standard(),
+        temperature=293.15,
+        shift=WLF(reference_temperature=293.15, c1=8.0, c2=100.0),
     )
     seen_from_elsewhere = Passport(
         name="x",
         material=_standard(),
         temperature=293.15,
-        shift=WLF(293.15, 8.0, 100.0).at_reference(330.0),
+        shift=WLF(reference_temperature=293.15, c1=8.0, c2=100.0).at_reference(330.0),
     )
     a, b = (p.at_temperature(260.0).tau0 for p in (at_room, seen_from_elsewhere))
     assert a == pytest.approx(b, rel=1e-12, abs=0)

@@ -11,7 +11,13 @@ from reference_data import VALUES
 from viscotack.lab import loss_from_storage
 from viscotack.materials import Prony, RetardationPowerLaw, StandardSolid
 from viscotack.materials.passport import Evidence, Passport
-from viscotack.materials.shift import WLF, Arrhenius, FittedShift, TabulatedShift
+from viscotack.materials.shift import (
+    WLF,
+    Arrhenius,
+    FittedShift,
+    TabulatedShift,
+    wlf_decades,
+)
 
 GLASS = 158.15  # PDMS, -115 C
 ROOM = 293.15
@@ -115,15 +121,14 @@ def test_the_interval_of_a_time_grows_with_the_error_of_its_shift():
 
 
 def test_wlf_ends_at_minus_c1_in_the_heat():
-    law = WLF(ROOM, 8.9, 102.0)
     hot = np.array([1e5, 1e6, 1e7])
-    rest = law.log10_shift(hot) + law.c1
+    rest = wlf_decades(hot - ROOM, 8.9, 102.0) + 8.9
     slope = np.polyfit(np.log(hot), np.log(rest), 1)[0]
     assert slope == pytest.approx(-1, abs=3e-3)
 
 
 def test_wlf_tends_to_arrhenius_near_its_reference():
-    law = WLF(ROOM, 8.9, 102.0)
+    law = WLF(reference_temperature=ROOM, c1=8.9, c2=102.0)
     # the same slope at the reference: c1/c2 = Ea/(R T0^2 ln 10)
     energy = law.c1 / law.c2 * gas_constant * ROOM**2 * np.log(10)
     step = np.array([0.1, 0.2, 0.4])
@@ -175,7 +180,7 @@ def test_a_step_of_storage_has_the_loss_of_the_closed_form():
 
 
 def test_words_state_the_constants_of_a_law_and_their_errors():
-    wlf, activated = WLF(300.0, 8.5, 101.6), Arrhenius(300.0, 85e3)
+    wlf, activated = WLF(reference_temperature=300.0, c1=8.5, c2=101.6), Arrhenius(300.0, 85e3)
     assert wlf.words() == "WLF with c1 = 8.5, c2 = 101.6 K at 300 K"
     assert activated.words() == "Arrhenius with 85 kJ/mol"
     found = FittedShift(wlf, (0.12, 3.4), 0.05, worst=(280.0, 0.2))
@@ -205,3 +210,17 @@ def test_a_table_goes_on_straight_for_a_kelvin():
     assert table.log10_shift(242.65) > 1.5
     with pytest.raises(ValueError, match="tables are not extrapolated"):
         table.log10_shift(274.2)
+
+
+def test_a_reference_temperature_that_no_polymer_has_is_rejected_or_asked_about():
+    with pytest.raises(TypeError, match="positional"):
+        WLF(8.86, 293.15, 101.6)  # type: ignore[misc]
+    for wrong in (8.86, 99.0, 1001.0, np.nan):
+        with pytest.raises(ValueError, match="between 100 and 1000 K"):
+            WLF(reference_temperature=wrong, c1=8.86, c2=101.6)
+        with pytest.raises(ValueError, match="between 100 and 1000 K"):
+            Arrhenius(wrong, 85e3)
+    with pytest.warns(UserWarning, match="were 120 C meant?"):
+        cold = WLF(reference_temperature=120.0, c1=8.86, c2=10.0)
+    assert cold.log10_shift(120.0) == 0.0
+    WLF(reference_temperature=150.0, c1=8.86, c2=10.0)

@@ -38,7 +38,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
 
     Examples
     --------
-    >>> wlf = WLF(293.15, 8.86, 101.6)
+    >>> wlf = WLF(reference_temperature=293.15, c1=8.86, c2=101.6)
     >>> rows = np.array([273.15, 293.15, 313.15, 343.15])
     >>> found = fit_wlf(ShiftTable(rows, wlf.log10_shift(rows), None), reference_temperature=293.15)
     >>> round(found.law.c1, 4), round(found.law.c2, 3)
@@ -74,7 +74,9 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     scale = np.array([c1, c2 + coldest])
     error = scale * np.sqrt(np.diag(_covariance(best.jac, best.fun))[:2])
     difference = table.log10_shift - best.x[2] - values
-    return _fit(WLF(reference_temperature, c1, c2), error, table, difference)
+    return _fit(
+        WLF(reference_temperature=reference_temperature, c1=c1, c2=c2), error, table, difference
+    )
 
 
 def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedShift:

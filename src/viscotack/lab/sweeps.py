@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.materials.checks import temperatures
 from viscotack.materials.shift import TabulatedShift
 
 from . import arrays
@@ -176,11 +177,9 @@ class ShiftTable:
     log10_vertical: Array | None = None
 
     def __post_init__(self):
-        temperature = arrays.array("temperature", self.temperature, "K")
-        if not np.all(temperature > 0):
-            raise InputError(
-                f"temperature must be positive, got {temperature.min():g} K; give Celsius + 273.15"
-            )
+        temperature = temperatures(
+            "temperature", arrays.array("temperature", self.temperature, "K")
+        )
         order = np.argsort(temperature, kind="stable")
         if np.any(np.diff(temperature[order]) == 0):
             raise InputError(

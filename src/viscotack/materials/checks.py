@@ -19,6 +19,22 @@ def positive(name: str, value: float, unit: str) -> float:
     return number
 
 
+POSSIBLE = 100.0, 1000.0  # K: temperatures of tests on polymers
+
+
+def temperatures(name: str, values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return temperatures [K] as an array of floats; raise an error outside 100 to 1,000 K."""
+    array = np.asarray(values, dtype=float)
+    low, high = POSSIBLE
+    wrong = array[~((array >= low) & (array <= high))]  # true for nan as well
+    if wrong.size:
+        raise InputError(
+            f"{name} must lie between {low:g} and {high:g} K, got {wrong[0]:g} K; "
+            "give Celsius + 273.15"
+        )
+    return array
+
+
 def stiffens(material: Any) -> None:
     """Raise an error if the short-time modulus is below the long-time one."""
     glassy, rubbery = material.glassy_modulus, material.rubbery_modulus

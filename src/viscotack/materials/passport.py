@@ -6,7 +6,7 @@ from statistics import NormalDist, fmean, pstdev
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.materials.checks import rests
+from viscotack.materials.checks import rests, temperatures
 from viscotack.materials.conversion import slowed
 from viscotack.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
@@ -105,7 +105,7 @@ class Passport:
     ...         rubbery_modulus=1e6, glassy_modulus=1e9, tau0=0.1, poisson_ratio=0.5
     ...     ),
     ...     temperature=293.15,
-    ...     shift=WLF(293.15, 8.0, 100.0),
+    ...     shift=WLF(reference_temperature=293.15, c1=8.0, c2=100.0),
     ... )
     >>> f"{rubber.at_temperature(273.15).tau0:.3g} s"
     '10 s'
@@ -134,6 +134,9 @@ class Passport:
             raise InputError("a shift needs the temperature [K] of the material")
         if self.measured not in ("E", "G", None):
             raise InputError(f"measured must be 'E', 'G' or None, got {self.measured!r}")
+        for name in ("temperature", "temperatures"):
+            if (value := getattr(self, name)) is not None:
+                temperatures(name, value)
         for name in ("temperatures", "frequencies"):
             pair = getattr(self, name)
             if pair is not None and not 0 < pair[0] <= pair[1]:

@@ -227,7 +227,8 @@ def _law(table: Mapping[str, Any]) -> WLF | Arrhenius:
             f"[temperature] law must be one of {', '.join(LAWS)} or table, got {table['law']!r}"
         )
     kind = LAWS[table["law"]]
-    return kind(zero, *(parse(table[key], unit) for key, unit in kind.units.items()))
+    constants = {key: parse(table[key], unit) for key, unit in kind.units.items()}
+    return kind(reference_temperature=zero, **constants)
 
 
 def _made(kind: Any, table: Mapping[str, Any]) -> Any:

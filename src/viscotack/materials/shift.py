@@ -6,6 +6,7 @@ T equals that at the reference temperature and omega a_T.
 """
 
 import math
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Self
@@ -16,11 +17,12 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials.checks import like_input, positive, store
+from viscotack.materials.checks import like_input, positive, store, temperatures
 from viscotack.units import readable
 
 # c1 and c2 [K] at the glass transition (Eq. 4.25): averages over many polymers
 UNIVERSAL = 17.44, 51.6
+DOUBTFUL = 150.0  # K: below it Celsius may have been meant
 
 
 def wlf_decades(above: Any, c1: float, c2: float) -> Any:
@@ -28,7 +30,7 @@ def wlf_decades(above: Any, c1: float, c2: float) -> Any:
     return -c1 * above / (c2 + above)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class WLF:
     r"""Shift law of Williams, Landel and Ferry, for polymers above their glass transition.
 
@@ -37,7 +39,8 @@ class WLF:
     Parameters
     ----------
     reference_temperature : float
-        T0 [K].
+        T0 [K], 100 to 1,000; a warning asks below 150 K whether Celsius was meant. All three
+        are keywords, because their order differs between texts.
     c1 : float
         Decades [-], positive.
     c2 : float
@@ -73,12 +76,12 @@ class WLF:
     def __post_init__(self):
         store(
             self,
-            reference_temperature=positive(
-                "reference_temperature", self.reference_temperature, "K"
-            ),
+            reference_temperature=_reference(self.reference_temperature),
             c1=positive("c1", self.c1, "-"),
             c2=positive("c2", self.c2, "K"),
         )
+        if (self.c1, self.c2) != UNIVERSAL:  # silicones have glass transitions below 150 K
+            _ask_about_celsius(self.reference_temperature)
 
     @classmethod
     def from_glass_transition(cls, temperature: float) -> Self:
@@ -89,7 +92,8 @@ class WLF:
         temperature : float
             Glass transition temperature [K]. The constants are averages over many polymers.
         """
-        return cls(positive("glass transition temperature", temperature, "K"), *UNIVERSAL)
+        c1, c2 = UNIVERSAL
+        return cls(reference_temperature=temperature, c1=c1, c2=c2)
 
     @property
     def pole(self) -> float:
@@ -98,7 +102,7 @@ class WLF:
 
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
         """Return log10 a_T at temperatures [K] above the pole, in the shape given."""
-        above = _temperatures(temperature) - self.reference_temperature
+        above = temperatures("temperature", temperature) - self.reference_temperature
         if np.any(above <= -self.c2):
             raise InputError(
                 f"the WLF shift has its pole at {_in_celsius(self.pole)} and no value below, got "
@@ -109,14 +113,14 @@ class WLF:
 
     def at_reference(self, temperature: float) -> "WLF":
         """Return the same law for another reference temperature [K], above the pole."""
-        temperature = positive("reference_temperature", temperature, "K")
+        temperature = _reference(temperature)
         c2 = self.c2 + temperature - self.reference_temperature
         if c2 <= 0:
             raise InputError(
                 f"the reference temperature must lie above the pole of the WLF shift at "
                 f"{_in_celsius(self.pole)}, got {_in_celsius(temperature)}"
             )
-        return WLF(temperature, self.c1 * self.c2 / c2, c2)
+        return WLF(reference_temperature=temperature, c1=self.c1 * self.c2 / c2, c2=c2)
 
     def words(self) -> str:
         """Describe the law in words."""
@@ -157,15 +161,14 @@ class Arrhenius:
     def __post_init__(self):
         store(
             self,
-            reference_temperature=positive(
-                "reference_temperature", self.reference_temperature, "K"
-            ),
+            reference_temperature=_reference(self.reference_temperature),
             activation_energy=positive("activation_energy", self.activation_energy, "J/mol"),
         )
+        _ask_about_celsius(self.reference_temperature)
 
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
         """Return log10 a_T at temperatures [K], in the shape given."""
-        inverse = 1 / _temperatures(temperature) - 1 / self.reference_temperature
+        inverse = 1 / temperatures("temperature", temperature) - 1 / self.reference_temperature
         return like_input(
             self.activation_energy / (scipy.constants.gas_constant * math.log(10)) * inverse
         )
@@ -223,7 +226,7 @@ class TabulatedShift:
     vertical: tuple[float, ...] = ()
 
     def __post_init__(self):
-        temperature = _temperatures(self.temperature)
+        temperature = temperatures("temperature", self.temperature)
         values = np.asarray(self.values, dtype=float)
         if temperature.ndim != 1 or temperature.size < 2 or temperature.shape != values.shape:
             raise InputError(
@@ -247,9 +250,7 @@ class TabulatedShift:
             more[name] = tuple(column.tolist())
         store(
             self,
-            reference_temperature=positive(
-                "reference_temperature", self.reference_temperature, "K"
-            ),
+            reference_temperature=_reference(self.reference_temperature),
             temperature=tuple(temperature.tolist()),
             values=tuple(values.tolist()),
             **more,
@@ -258,7 +259,7 @@ class TabulatedShift:
 
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
         """Return log10 a_T at temperatures [K] inside the table, in the shape given."""
-        asked = _temperatures(temperature)
+        asked = temperatures("temperature", temperature)
         self._refuse_outside(asked)
         return like_input(self._along(asked) - self._along(np.asarray(self.reference_temperature)))
 
@@ -333,14 +334,18 @@ class FittedShift:
         return f"{constants}; {self.misfit:.2g} decades off the table on average"
 
 
-def _temperatures(values: npt.ArrayLike) -> Array:
-    array = np.asarray(values, dtype=float)
-    wrong = array[~((array > 0) & (array < np.inf))]
-    if wrong.size:
-        raise InputError(
-            f"temperatures must be positive and finite [K], got {wrong[0]:g}; give Celsius + 273.15"
+def _reference(value: float) -> float:
+    return float(temperatures("reference_temperature", value))
+
+
+def _ask_about_celsius(kelvin: float) -> None:
+    if kelvin < DOUBTFUL:
+        warnings.warn(
+            f"the reference temperature of {_in_celsius(kelvin)} is unusually low; "
+            f"were {kelvin:g} C meant?",
+            UserWarning,
+            stacklevel=4,
         )
-    return array
 
 
 def _in_celsius(temperature: float) -> str:

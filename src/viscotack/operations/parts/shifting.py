@@ -119,7 +119,8 @@ class Shifting(Part):
             return WLF.from_glass_transition(self.glass_transition)
         if self.wlf is not None:
             assert self.reference_temperature is not None, "checked above"
-            return WLF(self.reference_temperature, *self.wlf)
+            c1, c2 = self.wlf
+            return WLF(reference_temperature=self.reference_temperature, c1=c1, c2=c2)
         if self.shift_file is not None:
             from viscotack.lab import read_shifts
 
