@@ -43,6 +43,7 @@ from .plan import Plan, restored_kind
 from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
 
 _TABLES = ("results", "failures")
+_FILES = ("cases.parquet", "plan.toml", "plan.csv")
 # Names that are words of Python at a time, and cases that are written at a time.
 _SLICE, _WRITTEN = 20_000, 50_000
 # Settings that change the numbers of a result, and so must be the same for all of a folder.
@@ -362,7 +363,7 @@ class Store:
 
 def _refuse_links(folder: Path) -> None:
     """Refuse a folder in which what is to be written lies elsewhere, behind a symbolic link."""
-    for name in (*_TABLES, "provenance.json", "cases.parquet", "plan.toml", "plan.csv"):
+    for name in (*_TABLES, "provenance.json", *_FILES):
         if (folder / name).is_symlink():
             raise InputError(
                 f"{folder / name} is a symbolic link, and a campaign writes into its own folder "
@@ -394,8 +395,7 @@ def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
     """Return a provenance with the ledgers that version 0.1 did not keep."""
     if provenance["format_version"] == FORMAT_VERSION:
         return dict(provenance)
-    names = ("cases.parquet", "plan.toml", "plan.csv")
-    hashes = {name: hash_of(folder / name) for name in names}
+    hashes = {name: hash_of(folder / name) for name in _FILES}
     return {
         **provenance,
         "format_version": FORMAT_VERSION,

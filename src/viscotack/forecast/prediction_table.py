@@ -179,7 +179,7 @@ def _learned(
         known = learned.inside(rows)[:, others].all(axis=1)
         rows[known, preload] = _depths(learned, rows[known][:, others], given[start][known], start)
     # the cohesion of a punch affects crack speeds only, but a case needs one
-    possible = (rows > 0).all(axis=1) & (given.get("cohesion", np.ones(len(rows))) > 0)
+    possible = given.get("cohesion", np.ones(len(rows))) > 0
     at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible)
     inside = learned.tests(rows[at])
     answers = learned.evaluate(inside)

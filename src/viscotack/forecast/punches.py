@@ -43,7 +43,7 @@ def punch_limits(asked: Question) -> str:
     if isinstance(material, Prony) and len(material.branches) > 1:
         return f"the solid has {len(material.branches)} branches; verified only for one"
     try:
-        row = _row(groups, learned)
+        row = asked.once(_row)
     except InputError as error:  # no start in the range has this stress
         return str(error)
     return "; ".join(_out(row, asked.problem, groups, learned))
@@ -52,7 +52,7 @@ def punch_limits(asked: Question) -> str:
 def by_punches(asked: Question) -> Prediction:
     """Evaluate the surrogate of punches on a sliding layer."""
     learned = _learned()
-    tests = learned.tests(_row(asked.groups, learned)[None])
+    tests = learned.tests(asked.once(_row)[None])
     return within(asked, learned, tests, LEARNED_PUNCH, INSIDE)
 
 
@@ -81,7 +81,7 @@ def _learned() -> Surrogate:
     return store.shipped("punch")
 
 
-def _row(groups: Groups, learned: Surrogate) -> Array:
+def _row(asked: Question) -> Array:
     """Return the inputs of a test; the depth of a start by stress is nan if sizes are out of range.
 
     Raises
@@ -91,7 +91,7 @@ def _row(groups: Groups, learned: Surrogate) -> Array:
     """
     from viscotack.surrogate.punch_physics import INPUTS, PRELOAD
 
-    given = inputs_of(groups)
+    given, learned = inputs_of(asked.groups), _learned()
     row = np.array([given.get(name, np.nan) for name in INPUTS])
     if "preload_force" in given and learned.inside(row[None])[0, :2].all():
         row[PRELOAD] = learned.start_depth(row[0], row[1], force=given["preload_force"])

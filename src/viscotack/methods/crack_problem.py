@@ -45,22 +45,26 @@ def groups_of(problem: Any) -> Groups:
             "viscotack.read_case(path)"
         )
     groups = problem.groups()
+    if reason := not_covered(groups):
+        raise OutOfRange(f"the steady-crack contact model covers {reason}")
+    return groups
+
+
+def not_covered(groups: Groups) -> str:
+    """Return why the model does not cover a problem; "" for one edge on a half-space."""
     if groups.in_plane_strain:
-        raise OutOfRange(
-            "the steady-crack contact model covers shapes of revolution, got a flat punch on a "
-            "layer; use theory.punch.pull_off (relaxed bulk) or `viscotack simulate`"
+        return (
+            "shapes of revolution, got a flat punch on a layer; use theory.punch.pull_off "
+            "(relaxed bulk) or `viscotack simulate`"
         )
     if not isinstance(groups.body, HalfSpace):
-        raise OutOfRange(
-            "the steady-crack contact model covers a half-space, got a "
-            f"{groups.body.word}; use `viscotack simulate`"
-        )
+        return f"a half-space, got a {groups.body.word}; use `viscotack simulate`"
     if np.isfinite(detail(groups.geometry)):
-        raise OutOfRange(
-            "the steady-crack contact model covers only shapes that rise ever more steeply from "
-            f"the tip, got a {groups.geometry.word}; use `viscotack simulate`"
+        return (
+            "only shapes that rise ever more steeply from the tip, got a "
+            f"{groups.geometry.word}; use `viscotack simulate`"
         )
-    return groups
+    return ""
 
 
 def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:

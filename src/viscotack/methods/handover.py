@@ -5,25 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, detail
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.result import Outcome, Result
 from viscotack.theory.crack.contact import profile_of
 
 from .by_crack import LARGEST_TABOR, METHOD, crack_contact
-from .crack_problem import start_of
-
-
-def knows(groups: Groups) -> bool:
-    """Whether the model covers the problem: a contact with one edge on a half-space."""
-    one_edge = not groups.in_plane_strain and np.isinf(detail(groups.geometry))
-    return bool(one_edge and isinstance(groups.body, HalfSpace))
+from .crack_problem import not_covered, start_of
 
 
 def too_short(groups: Groups) -> bool:
     """Whether the model replaces the simulation because the range of the forces is too short."""
-    if not knows(groups):
+    if not_covered(groups):
         return False
     least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
     return least < groups.effective_tabor <= LARGEST_TABOR

@@ -13,7 +13,7 @@ from viscotack.bem.solver import Progress, Watch, begun, contact_of, simulate
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.methods import handover
-from viscotack.methods.crack_problem import largest_radius
+from viscotack.methods.crack_problem import largest_radius, not_covered
 from viscotack.problem import Case, Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.result import Result
@@ -168,7 +168,7 @@ def _too_short(groups: Groups, settings: Settings) -> bool:
     """Whether the range of the forces is too short for a simulation or for its round-off."""
     if handover.too_short(groups):
         return True
-    if not handover.knows(groups) or groups.effective_tabor < _FINE_TABOR:
+    if not_covered(groups) or groups.effective_tabor < _FINE_TABOR:
         return False
     spacing = contact_of(groups).grading(settings, 0.0).spacing
     try:
