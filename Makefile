@@ -50,8 +50,12 @@ lint: $(VENV)/.installed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
+# Rooms that depend on the operating system, checked for the others too.
+SYSTEMS = $(addprefix src/viscotack/,system.py files pool campaign app operations)
 types: $(VENV)/.installed
 	$(BIN)/pyright
+	$(BIN)/pyright --pythonplatform Windows $(SYSTEMS)
+	$(BIN)/pyright --pythonplatform Darwin $(SYSTEMS)
 
 # Draws COUNT mutants with SEED, of ROOMS if they are given (ROOMS=bem,theory), one to four minutes each; a
 # log keeps the verdicts, so that it may be stopped.

@@ -14,7 +14,7 @@ import pytest
 
 from campaign_work import InlineCrew, employ, finished, plan_of, stand_in, told, trouble
 from viscotack.campaign import Store, local, run, verify
-from viscotack.pool.memory import resident_memory
+from viscotack.system import resident_memory
 
 HERE = Path(__file__).parent
 CASES = 160

@@ -361,7 +361,7 @@ def test_where_the_system_has_no_locks_the_words_in_the_file_hold(tmp_path, monk
     with locked(tmp_path):  # with locks of the system that process has none: it has ended
         pass
     held_by(tmp_path, f"process {os.getppid()} on {socket.gethostname()}\n")
-    monkeypatch.setattr(lock, "_taken", lambda handle: True)
+    monkeypatch.setattr(lock.system, "lock", lambda handle: True)
     with pytest.raises(FolderInUse, match=f"process {os.getppid()} on"):
         with locked(tmp_path):
             pass

@@ -19,6 +19,7 @@ ROOMS = (
     "arrays",
     "renamed",
     "errors",
+    "system",
     "units",
     "cards",
     "files",

@@ -18,12 +18,12 @@ from viscotack.bem import DEFAULT_ACCURACY, Accuracy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.methods import solve
-from viscotack.pool.memory import peak_memory
 from viscotack.problem.nouns import known
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
 from viscotack.result.parts import spans
+from viscotack.system import peak_memory
 
 from ..result import Outcome, Result
 from .identity import OwnChanged, identity, nouns_of, words

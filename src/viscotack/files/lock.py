@@ -9,12 +9,12 @@ each write that the file is still its own.
 import os
 import re
 import socket
-import stat
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from time import time
 
+from viscotack import system
 from viscotack.errors import InputError
 
 # Time without renewal after which a holder on another machine counts as ended [s].
@@ -47,7 +47,7 @@ class Hold:
                 f"{self._path} was removed while this run held it, so another run may write to "
                 "the folder; this run has ended, and its stored rows are safe"
             )
-        os.utime(self._handle)
+        system.touch(self._path, self._handle)
 
 
 @contextmanager
@@ -61,19 +61,21 @@ def locked(folder: Path) -> Iterator[Hold]:
     FolderInUse
         If another process holds the lock; the message contains its machine and number.
     InputError
-        If the lock file is a link or not a regular file, or the system has no file locks.
+        If the lock file is a link or not a regular file.
     """
     path = folder / "lock"
     handle = _opened(path)
     try:
-        holder = os.pread(handle, 200, 0).decode(errors="replace").strip()
-        if not _taken(handle) or not _is_same(path, handle) or _lives(path, handle, holder):
+        os.lseek(handle, 0, os.SEEK_SET)
+        holder = os.read(handle, 200).decode(errors="replace").strip()
+        if not system.lock(handle) or not _is_same(path, handle) or _lives(path, handle, holder):
             raise FolderInUse(
                 f"{folder} is in use by {holder or 'another process'}; wait for that run, or give "
                 "another --out"
             )
         os.ftruncate(handle, 0)
-        os.pwrite(handle, f"process {os.getpid()} on {socket.gethostname()}\n".encode(), 0)
+        os.lseek(handle, 0, os.SEEK_SET)
+        os.write(handle, f"process {os.getpid()} on {socket.gethostname()}\n".encode())
         yield Hold(path, handle)
         os.ftruncate(handle, 0)
     finally:
@@ -83,28 +85,9 @@ def locked(folder: Path) -> Iterator[Hold]:
 def _opened(path: Path) -> int:
     """Open the lock file itself, without following links."""
     try:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
+        return system.open_itself(path, os.O_CREAT)
     except OSError as error:
-        if path.is_symlink():
-            raise InputError(f"the lock {path} is a link, not a regular file; remove it") from None
         raise InputError(f"cannot lock {path.parent}: {error.strerror}") from None
-    if not stat.S_ISREG(os.fstat(handle).st_mode):
-        os.close(handle)
-        raise InputError(f"the lock {path} is not a regular file; remove it")
-    return handle
-
-
-def _taken(handle: int) -> bool:
-    try:
-        import fcntl
-    except ImportError:
-        raise InputError("campaigns need the file locks of Linux or macOS") from None
-    with suppress(OSError):  # without locks in the file system only the text in the file counts
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-    return True
 
 
 def _lives(path: Path, handle: int, holder: str) -> bool:
@@ -116,20 +99,14 @@ def _lives(path: Path, handle: int, holder: str) -> bool:
         return True
     if int(found[1]) == os.getpid() or _excludes(path):
         return False
-    try:
-        os.kill(int(found[1]), 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        pass
-    return True
+    return system.is_running(int(found[1]))
 
 
 def _excludes(path: Path) -> bool:
     """Whether the file system refuses a second lock on the same file, as it should."""
-    second = os.open(path, os.O_RDWR | os.O_NOFOLLOW)
+    second = system.open_itself(path, 0)
     try:
-        return not _taken(second)
+        return not system.lock(second)
     finally:
         os.close(second)
 

@@ -232,7 +232,7 @@ def _draft(
 def _name(draft: Path, path: Path) -> None:
     """Rename a draft unless a file of that name exists."""
     try:
-        os.link(draft, path, follow_symlinks=False)
+        os.link(draft, path, follow_symlinks=os.link not in os.supports_follow_symlinks)
     except FileExistsError:
         raise
     except OSError:  # a file system without hard links
@@ -255,10 +255,10 @@ def _not_written(path: Path, error: OSError) -> NotWritten:
 
 def _sync(folder: Path) -> None:
     """Flush the directory entries of a folder to the disk, if the system supports it."""
-    if not hasattr(os, "O_DIRECTORY"):
+    if (directory := getattr(os, "O_DIRECTORY", None)) is None:
         return
     try:
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        handle = os.open(folder, os.O_RDONLY | directory)
     except PermissionError:  # a folder that may be written but not read
         return
     try:

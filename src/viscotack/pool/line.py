@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import select
 import socket
 import struct
 import threading
@@ -9,6 +10,8 @@ from typing import Any, Literal
 
 Code = Literal["json", "pickle"]
 _LENGTH = struct.Struct("!Q")
+# Flag to receive without waiting; Windows has none.
+_AT_ONCE = getattr(socket, "MSG_DONTWAIT", 0)
 
 
 class Line:
@@ -58,12 +61,14 @@ class Line:
 
     def receive(self) -> list[Any]:
         """Return the complete messages that have arrived; EOFError if the peer is closed."""
+        gone = False
         try:
-            while chunk := self._end.recv(1 << 16, socket.MSG_DONTWAIT):
+            while not gone and (_AT_ONCE or select.select([self._end], [], [], 0)[0]):
+                chunk = self._end.recv(1 << 16, _AT_ONCE)
                 self._came += chunk
-            gone = True
+                gone = not chunk
         except BlockingIOError:
-            gone = False
+            pass
         except ConnectionError:
             gone = True
         found = []

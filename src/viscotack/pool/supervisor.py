@@ -17,9 +17,10 @@ from selectors import EVENT_READ, DefaultSelector
 from time import monotonic
 from typing import Any
 
+from viscotack import system
+
 from .event import Event, Kind, NoWorker
 from .line import Code, Line
-from .memory import resident_memory
 
 # First lines of a worker process, run before any slow import. On Linux the kernel then kills the
 # worker when its parent ends, even while it runs C code.
@@ -129,7 +130,7 @@ class _Worker:
         """Reset the counters for a new task."""
         self.number, self.limits, self.turn = number, limits, self.turn + 1
         self.age, self.silence, self.until, self.stopping = 0.0, 0.0, limits.seconds, None
-        self.base = self.most = resident_memory(self.process.pid)
+        self.base = self.most = system.resident_memory(self.process.pid)
 
     def stop(self, cause: Kind) -> None:
         """Interrupt the task."""
@@ -165,9 +166,13 @@ class Pool:
         self._failed, self._unfit = 0, ""
         self._looked = monotonic()
 
-    def fileno(self) -> int:
-        """File descriptor that becomes readable when `collect` has a message to read."""
-        return self._selector.fileno()
+    def fileno(self) -> int | None:
+        """File descriptor that becomes readable when `collect` has a message to read.
+
+        None on systems without such a descriptor (Windows): call `collect` often.
+        """
+        descriptor = getattr(self._selector, "fileno", None)
+        return None if descriptor is None else descriptor()
 
     def room(self, wanted: int | None = None) -> int:
         """Return the number of idle workers; start processes up to the wanted number.
@@ -253,20 +258,15 @@ class Pool:
         setup = self._setup
         ours, theirs = socket.socketpair()
         with theirs:
-            # the child inherits the blocked signals: it must not receive ctrl-C
-            deaf = (signal.SIGINT, signal.SIGTERM)
-            before = signal.pthread_sigmask(signal.SIG_BLOCK, deaf)
-            try:
-                process = subprocess.Popen(
+            with system.without_interrupts():
+                process: Any = subprocess.Popen(
                     [sys.executable, "-c", _program(theirs.fileno(), setup.code)],
                     stdin=subprocess.DEVNULL,
                     # output printed by a task must not mix with the output of the command
                     stdout=2,
-                    pass_fds=[theirs.fileno()],
                     env=os.environ | dict.fromkeys(_THREADS, "1"),
+                    **system.child_options(theirs.fileno()),
                 )
-            finally:
-                signal.pthread_sigmask(signal.SIG_SETMASK, before)
         worker = _Worker(process, Line(ours, setup.code))
         self._selector.register(worker.line, EVENT_READ, worker)
         with suppress(OSError):
@@ -332,7 +332,7 @@ class Pool:
 
 def _enforce(worker: _Worker) -> None:
     """Interrupt or kill a worker whose task exceeds a limit; kill a suspended worker."""
-    limits, resident = worker.limits, resident_memory(worker.process.pid)
+    limits, resident = worker.limits, system.resident_memory(worker.process.pid)
     worker.most = max(worker.most, resident)
     gained = resident - worker.base
     if gained > limits.memory:

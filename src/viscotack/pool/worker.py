@@ -9,9 +9,7 @@ once a second.
 
 import os
 import queue
-import resource
 import select
-import signal
 import socket
 import threading
 import traceback
@@ -20,6 +18,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
+from viscotack import system
 from viscotack.errors import InputError
 
 from .event import NoWorker
@@ -43,11 +42,11 @@ def serve(handle: int, code: Code) -> None:
     code : {"json", "pickle"}
         Format of the messages.
     """
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)  # the parent handles it and decides about tasks
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
+    runner = _Runner(Line(socket.socket(fileno=handle), code, strict=True))
+    # the parent handles ctrl-C and decides about tasks
+    system.serve_interrupts(runner.check_stopped)
     with suppress(ConnectionError):  # the parent has ended and needs no answer
-        _Runner(Line(socket.socket(fileno=handle), code, strict=True)).serve()
+        runner.serve()
 
 
 class _Runner:
@@ -62,14 +61,14 @@ class _Runner:
         self._telling = False
 
     def serve(self) -> None:
-        signal.signal(signal.SIGUSR1, self._check_stopped)
         threading.Thread(target=self._listen, daemon=True).start()
         setup = self._messages.get()
         if setup is None:
             return
         try:
-            os.nice(setup["nice"])
-            _bound_memory(setup["address_space"])
+            system.lower_priority(setup["nice"])
+            if setup["address_space"] is not None:
+                system.bound_memory(setup["address_space"])
             context = named(setup["prepare"])(setup["given"])
         except (InputError, NoWorker) as error:
             return self._say("unfit", str(error))
@@ -92,7 +91,7 @@ class _Runner:
         try:
             try:
                 self._current = turn
-                self._check_stopped()  # the request may have arrived before the task started
+                self.check_stopped()  # the request may have arrived before the task started
                 return self._line.packed(("answer", named(task)(asked, self._tell, context)))
             finally:
                 self._current = None
@@ -110,9 +109,9 @@ class _Runner:
             self._say("told", news)
         finally:
             self._telling = False
-        self._check_stopped()
+        self.check_stopped()
 
-    def _check_stopped(self, *_: Any) -> None:
+    def check_stopped(self, *_: Any) -> None:
         """Raise Stopped, once, if the running task is to stop."""
         if self._current is not None and self._unwanted == self._current and not self._telling:
             self._current = None
@@ -142,7 +141,7 @@ class _Runner:
     def _take(self, kind: str, what: Any) -> None:
         if kind == "stop":
             self._unwanted = what
-            os.kill(os.getpid(), signal.SIGUSR1)  # interrupts the main thread
+            system.interrupt()
         else:
             self._received += 1
             self._messages.put(what)
@@ -152,11 +151,3 @@ def named(function: str) -> Callable[..., Any]:
     """Import a function given as ``"package.module:function"``."""
     module, _, name = function.partition(":")
     return getattr(import_module(module), name)
-
-
-def _bound_memory(most: int | None) -> None:
-    """Limit the address space of this process [bytes]; allocations beyond it raise MemoryError."""
-    if most is not None:
-        _, hard = resource.getrlimit(resource.RLIMIT_AS)
-        least = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        resource.setrlimit(resource.RLIMIT_AS, (least, hard))

@@ -17,6 +17,8 @@ from viscotack.pool.supervisor import LOOK
 
 # Time allowed for a task to stop before its process is killed [s].
 _GRACE = 0.2
+# Interval between two polls of busy processes on systems that do not report messages [s].
+_OFTEN = 0.01
 # Address space of a process [bytes].
 _MOST_MEMORY = 4 * 2**30
 _PREPARE, _TASK = (f"viscotack.app.engine.worker:{name}" for name in ("prepare", "answer"))
@@ -77,7 +79,8 @@ class Crew:
 
     def begin(self) -> None:
         """Start the first process, and serve questions from now on."""
-        asyncio.get_running_loop().add_reader(self._pool.fileno(), self._turn)
+        if (descriptor := self._pool.fileno()) is not None:
+            asyncio.get_running_loop().add_reader(descriptor, self._turn)
         self._turn()
 
     async def ask(
@@ -129,7 +132,8 @@ class Crew:
         """Kill all processes; questions that are still open fail."""
         if self._next_turn is not None:
             self._next_turn.cancel()
-        asyncio.get_running_loop().remove_reader(self._pool.fileno())
+        if (descriptor := self._pool.fileno()) is not None:
+            asyncio.get_running_loop().remove_reader(descriptor)
         self._pool.dismiss(at_once=True)
         for question in [*self._running.values(), *self._waiting]:
             _end(question, "failed", "the server ends")
@@ -167,7 +171,8 @@ class Crew:
         if self._next_turn is not None:
             self._next_turn.cancel()
         loop = asyncio.get_running_loop()
-        self._next_turn = loop.call_later(LOOK, self._turn) if self._pool.busy() else None
+        delay = _OFTEN if self._pool.fileno() is None else LOOK
+        self._next_turn = loop.call_later(delay, self._turn) if self._pool.busy() else None
 
     def _withdraw(self, question: _Question) -> None:
         """Stop a question whose answer is no longer wanted."""

@@ -1,0 +1,82 @@
+"""Campaigns and pools work without the names of POSIX, as far as this system can show it.
+
+The names are taken away in the process and its workers by tests/without_posix. It is no Windows:
+what its own kernel does is not run here.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+PLAN = """
+[[grid]]
+tabor = 1.0
+modulus_ratio = 0.1
+exponent = [0.4, 0.8]
+preload = 5.0
+rate = [1.0, 10.0, 100.0]
+"""
+
+
+def bare(program, folder):
+    """Run a program, or a command of viscotack, without the names of POSIX."""
+    paths = [str(HERE / "without_posix"), *filter(None, [os.environ.get("PYTHONPATH")])]
+    return subprocess.run(
+        [sys.executable, *program],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+def test_the_names_are_gone(tmp_path):
+    program = (
+        "import os, signal, viscotack.system as s;"
+        "print(hasattr(os, 'pread'), hasattr(signal, 'SIGUSR1'), s.lock.__code__.co_names)"
+    )
+    told = bare(["-c", program], tmp_path)
+    assert told.stdout.startswith("False False") and "msvcrt" in told.stdout, told.stderr
+
+
+def test_a_campaign_runs_and_goes_on(tmp_path):
+    (tmp_path / "plan.toml").write_text(PLAN, encoding="utf-8")
+    command = ["-m", "viscotack", "campaign", "run", "plan.toml", "--out", "c", "--workers", "2"]
+    told = bare(command, tmp_path)
+    assert told.returncode == 0, told.stderr
+    told = bare(["-m", "viscotack", "campaign", "status", "c", "--json"], tmp_path)
+    assert told.returncode == 0, told.stderr
+    assert json.loads(told.stdout)["done"] == 6
+    told = bare(["-m", "viscotack", "campaign", "verify", "c"], tmp_path)
+    assert told.returncode == 0, told.stderr
+
+
+def test_two_runs_do_not_share_a_folder(tmp_path):
+    program = """
+from pathlib import Path
+from viscotack.files.lock import FolderInUse, locked
+import subprocess, sys
+with locked(Path(".")) as hold:
+    hold.confirm()
+    if len(sys.argv) == 1:
+        again = [sys.executable, "second.py", "again"]
+        told = subprocess.run(again, capture_output=True, text=True)
+        print(told.stderr.strip().splitlines()[-1])
+with locked(Path(".")):
+    print("free again")
+"""
+    (tmp_path / "second.py").write_text(program, encoding="utf-8")
+    told = bare(["second.py"], tmp_path)
+    assert "FolderInUse" in told.stdout and "process" in told.stdout, told.stderr
+    assert told.stdout.endswith("free again\n")
+
+
+def test_tasks_report_and_are_interrupted(tmp_path):
+    tests = "progress or is_interrupted_and_its_process_is_kept"
+    options = ["-q", "-p", "no:cacheprovider", "--rootdir", str(HERE.parent), "-k", tests]
+    told = bare(["-m", "pytest", *options, str(HERE / "test_pool.py")], tmp_path)
+    assert told.returncode == 0 and "4 passed" in told.stdout, told.stdout
