@@ -23,6 +23,7 @@ from viscotack import (
     AtRadius,
     Bonded,
     Cone,
+    Disc,
     Dugdale,
     Dwell,
     Elastic,
@@ -31,6 +32,7 @@ from viscotack import (
     Groups,
     LennardJones,
     LoadTo,
+    MeasuredProfile,
     MoveTo,
     PowerLawProfile,
     Prony,
@@ -40,8 +42,10 @@ from viscotack import (
     Sphere,
     StandardSolid,
     Tabulated,
+    WavySphere,
 )
 from viscotack.geometry import FlatPunch, Layer
+from viscotack.theory.elastic import indenter
 from viscotack.traction import effective_range
 
 sys.path.append(str(Path(__file__).parents[1] / "examples" / "own"))
@@ -54,6 +58,11 @@ SPEEDS, DURATIONS = (1e-2, 1e4), (1e-2, 1e2)
 # Largest pressure that may be asked of a wall, beside what it bears at no gap at all.
 _BORNE = 0.5
 _PUNCHES, _WITH_SPRING, _WITH_HISTORY = 0.1, 1 / 3, 1 / 3
+# Layers under shapes of revolution: thickness [beta] and base.
+THICKNESSES = (0.05, 100.0)
+BASES = (Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5)))
+# Radii [beta] at which random profiles are tabulated.
+_RADII = np.linspace(0.0, 6.0, 121)
 
 
 class Luck:
@@ -85,11 +94,14 @@ class Luck:
         return bool(self._random.random() < share)
 
 
-def problem(seed: int, number: int) -> Groups:
-    """Return one problem; those of one seed are the same however many are asked for."""
+def problem(seed: int, number: int, *, films: bool = False) -> Groups:
+    """Return one problem, with `films` of a shape of revolution on a layer.
+
+    Those of one seed are the same however many are asked for.
+    """
     luck = Luck(seed, number)
     material = solid(luck)
-    drawn = punch if luck.happens(_PUNCHES) else tip
+    drawn = film if films else punch if luck.happens(_PUNCHES) else tip
     return drawn(luck, material, with_history=luck.happens(_WITH_HISTORY))
 
 
@@ -259,6 +271,63 @@ def punch(luck: Luck, material: Any, *, with_history: bool) -> Groups:
     )
 
 
+def film(luck: Luck, material: Any, *, with_history: bool) -> Groups:
+    """Return a shape of revolution, of six kinds, on a layer."""
+    kind = luck.one(dict.fromkeys(("sphere", "cone", "power", "disc", "measured", "wavy"), 1.0))
+    body = Layer(luck.decades(*THICKNESSES), luck.one(dict.fromkeys(BASES, 1.0)))
+    drawn = indenter.drawn(
+        1.0, shape=Sphere(1.0), body=body, contact_modulus=1.0, work_of_adhesion=1.0
+    )
+    # of a half-space; a thin layer presses harder and lengthens less
+    share = min(1.0, float(drawn) / np.sqrt(2 * np.pi))
+    firmness = (1.0 if kind == "sphere" else 0.1) * (material.modulus_ratio if with_history else 1)
+    traction, tabor, widest = bearing(luck, firmness * share)
+    travel = tabor * share + effective_range(traction)
+    end = traction.points[-1][0] if isinstance(traction, Tabulated) else 1.0
+
+    def press() -> Any:
+        match luck.one({"depth": 0.5, "force": 0.4, "radius": 0.0 if kind == "disc" else 0.1}):
+            case "depth":
+                return AtDepth(travel * luck.decades(0.03, 10))
+            case "force":
+                return AtForce(luck.decades(0.01, 10))
+            case _:
+                return AtRadius(min(luck.within(1.3, 3.0), widest / np.pi ** (1 / 3)))
+
+    scene = Scene(travel, end + 3 * effective_range(traction) + 6 * travel, 1.0, press)
+    stiffness, machine = driven(luck, material, scene, with_history)
+    return Groups(
+        tabor=tabor,
+        material=material,
+        traction=traction,
+        geometry=detailed(luck, kind) or geometry(luck, kind),
+        body=body,
+        stiffness=stiffness,
+        **machine,
+    )
+
+
+def detailed(luck: Luck, kind: str) -> Any:
+    """Return a reduced disc, tip of measured heights or wavy sphere; None of another kind."""
+    if kind == "wavy":
+        return WavySphere(1.0, luck.decades(0.01, 0.5), luck.within(0.3, 1.2))
+    if kind == "disc":
+        width = luck.within(0.05, 0.3)
+        return Disc(1.0, width, width * luck.within(0.2, 1.0)) if luck.happens(0.5) else Disc(1.0)
+    if kind != "measured":
+        return None
+    at, wide, high = luck.within(0.3, 1.2), luck.within(0.1, 0.4), luck.decades(0.03, 1.0)
+    height = luck.one(
+        {
+            (lambda r: max(r * r - at * at, 0.0) / 2): 1,  # worn flat
+            (lambda r: r * r / 2 + high * np.exp(-((r / at) ** 2))): 1,  # a hollow tip
+            (lambda r: r * r / 2 + high * np.exp(-(((r - at) / wide) ** 2))): 1,  # a ring
+        }
+    )
+    profile = MeasuredProfile.sampled(height, _RADII)
+    return profile.reduced(1.0, 1 / profile.equivalent_radius(1.0))
+
+
 def driven(
     luck: Luck, material: Any, scene: Scene, with_history: bool
 ) -> tuple[float | None, dict[str, Any]]:
@@ -324,6 +393,8 @@ def words(groups: Groups) -> str:
     else:
         shape: Any = groups.geometry
         what = f"{shape.word}, mu {groups.tabor:.3g} (effective {groups.effective_tabor:.3g})"
+        if isinstance(groups.body, Layer):
+            what += f" on {groups.body.thickness:.3g} {groups.body.base}"
     numbers = {n: getattr(traction, n) for n in ("decay", "rise", "fall") if hasattr(traction, n)}
     of_law = "".join(f" {name} {value:.2g}" for name, value in numbers.items())
     machine = [_brief(groups.start), *map(_brief, groups.moves)]

@@ -5,7 +5,7 @@ with the kernels of every --core-type that is named, runs --noise of them with r
 1e-14 in all that is worked out, and --finer of those that have an answer ten times as accurately.
 Each run is a file of the folder, a line for each problem as it is done; a run that was cut short
 goes on where it was. Then the figures are printed beside what is asked of them, and what is worst.
-Without --out the files are not kept.
+Without --out the files are not kept. ``--films`` draws shapes of revolution on layers.
 
 ``--report FILE ...`` prints them for files that are there, the first being what the others are held
 against; ``--show NUMBER`` prints a problem and its record.
@@ -50,6 +50,11 @@ class Asked:
     accuracy: float
     noise: bool = False
     estimate: bool = True
+    films: bool = False
+
+    def problem(self, number: int) -> Any:
+        """Return one of its problems."""
+        return problem(self.seed, number, films=self.films)
 
 
 def answer(asked: Asked, number: int) -> dict[str, Any]:
@@ -57,7 +62,7 @@ def answer(asked: Asked, number: int) -> dict[str, Any]:
     began = process_time()
     row: dict[str, Any] = {"number": number, "case": "a law that the package refuses"}
     try:
-        groups = problem(asked.seed, number)
+        groups = asked.problem(number)
         row["case"] = words(groups)
         with warnings.catch_warnings(), noisy(number) if asked.noise else nullcontext():
             warnings.simplefilter("error")
@@ -130,7 +135,7 @@ def run(
             work, left, limit=limit, workers=workers, kernels=kernels
         ):
             if isinstance(row, str):
-                case = words(problem(asked.seed, number))
+                case = words(asked.problem(number))
                 end = "too slow" if row.startswith("more than") else "failed"
                 row = {"number": number, "case": case, "end": end, "status": row}
             written.write(json.dumps(row) + "\n")
@@ -143,7 +148,7 @@ def run(
 def runs(given: argparse.Namespace, folder: Path) -> list[Path]:
     """Do all runs that are wanted, each in a file of a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    plain = Asked(given.seed, given.accuracy)
+    plain = Asked(given.seed, given.accuracy, films=given.films)
     first = given.core_type[0]
     files = []
 
@@ -159,7 +164,7 @@ def runs(given: argparse.Namespace, folder: Path) -> list[Path]:
         add("noise", replace(plain, noise=True), numbers, first, 1.0)
     if given.finer:
         answered = sorted(read(files[0]).answered)[: given.finer]
-        finer = Asked(given.seed, given.accuracy / FINER, estimate=False)
+        finer = replace(plain, accuracy=given.accuracy / FINER, estimate=False)
         add("finer", finer, answered, first, FINER)
     return files
 
@@ -170,6 +175,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, metavar="FOLDER")
     parser.add_argument("--seed", type=int, default=17)
     parser.add_argument("--count", type=int, default=600)
+    parser.add_argument("--films", action="store_true", help="shapes of revolution on layers")
     parser.add_argument("--core-type", nargs="+", default=[""], metavar="NAME", help="of OpenBLAS")
     parser.add_argument("--noise", type=int, default=0, metavar="COUNT")
     parser.add_argument("--finer", type=int, default=0, metavar="COUNT")
@@ -180,7 +186,7 @@ def main() -> None:
     parser.add_argument("--show", type=int, metavar="NUMBER")
     given = parser.parse_args()
     if given.show is not None:
-        shown = problem(given.seed, given.show)
+        shown = problem(given.seed, given.show, films=given.films)
         print(words(shown), json.dumps(to_dict(shown), indent=2), sep="\n")
         return
     if given.report:

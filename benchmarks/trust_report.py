@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from random_problems import problem
 
-from viscotack import Apart, AtDepth, AtForce, Groups, Sphere
+from viscotack import Apart, AtDepth, AtForce, Groups, HalfSpace, Sphere
 
 Row = dict[str, Any]
 # What another processor may change, beside the stated error; what theory leaves to round-off.
@@ -43,7 +43,7 @@ class Run:
 
     def problem(self, number: int) -> Any:
         """Return what was asked."""
-        return _problem(self.head["seed"], number)
+        return _problem(self.head["seed"], number, self.head.get("films", False))
 
     def stated(self, row: Row, name: str = "force") -> float:
         """Return the relative error that an answer states."""
@@ -159,7 +159,7 @@ def _outside(
     misses, whole = [], 0
     for number, row in run.answered.items():
         groups = run.problem(number)
-        sphere = isinstance(groups, Groups) and isinstance(groups.geometry, Sphere)
+        sphere = isinstance(groups.geometry, Sphere) and isinstance(groups.body, HalfSpace)
         if not sphere or row["force"] is None or not held(groups, row):
             continue
         whole += 1
@@ -247,5 +247,5 @@ def coverage(run: Run, finer: Run) -> Iterator[Figure]:
 
 
 @lru_cache(maxsize=2000)
-def _problem(seed: int, number: int) -> Any:
-    return problem(seed, number)
+def _problem(seed: int, number: int, films: bool) -> Any:
+    return problem(seed, number, films=films)

@@ -184,3 +184,47 @@ def test_a_layer_responds_at_lower_rates_and_saturates_sooner():
 def test_a_thin_incompressible_layer_holds_less_than_jkr_at_a_finite_range():
     layer = Layer(0.05, SQUEEZED)
     assert 1.5 * on(layer, 16.0) / pull_off(layer) == pytest.approx(0.953, abs=0.005)
+
+
+# --- shapes with details --------------------------------------------------------------------------
+
+WAVES = vt.WavySphere(1.0, 0.2, 0.2)
+WORN = vt.MeasuredProfile.sampled(lambda r: max(r * r - 0.25, 0.0) / 2, np.linspace(0, 4, 41))
+WORN = WORN.reduced(1.0, 1 / WORN.equivalent_radius(1.0))
+
+
+@pytest.mark.parametrize("shape", [WAVES, WORN], ids=["waves", "worn"])
+@pytest.mark.parametrize("thickness", [0.1, 1.0, 20.0])
+def test_one_factorization_solves_the_equation_of_many_radii(shape, thickness):
+    layer, a = Layer(thickness, BASES[4]), np.linspace(0.3, 4.0, 9)
+    alone = np.transpose([on_layer._direct(x / thickness, shape, layer) for x in a])
+    found = on_layer._at_once(tuple(a / thickness), shape, layer)
+    off = np.max(np.abs(found - alone), axis=1) / np.max(np.abs(alone), axis=1)
+    assert np.max(off) < (1e-5 if shape is WAVES else 1e-4)  # kinks
+
+
+def test_many_waves_on_a_thick_layer_are_resolved():
+    a = np.array([3.0, 4.02, 5.0])
+    force = np.asarray(indenter.force(a, shape=WAVES, **UNITS))
+    found = np.asarray(indenter.force(a, shape=WAVES, body=Layer(3e4, BASES[2]), **UNITS))
+    assert np.max(np.abs(found - force)) < 1e-3 * np.max(np.abs(force))
+
+
+@pytest.mark.parametrize("shape", [vt.WavySphere(1.0, 0.1, 1.0), WORN], ids=["waves", "worn"])
+def test_a_shape_with_details_is_pulled_off_a_thin_layer(shape):
+    # a bound of 1,000 contact radii must not ask for JKR beyond 100 thicknesses
+    layer = Layer(0.3, BASES[2])
+    groups = vt.Groups(0.5, ELASTIC, vt.AtDepth(0.2), 1.0, geometry=shape, body=layer)
+    result = vt.solve(groups, until="pull-off", accuracy=5e-3, estimate_error=False)
+    assert vt.pull_off_force(result) > 0.5 and abs(result.energy_residual) < 1e-3
+
+
+def test_a_contact_too_wide_for_the_layer_or_the_profile_is_rejected_in_words():
+    layer = Layer(0.01, BASES[2])
+    for shape, words in ((WAVES, "wider than 100 thicknesses"), (WORN, "100 thicknesses")):
+        groups = vt.Groups(3.0, ELASTIC, vt.AtForce(40.0), 1.0, geometry=shape, body=layer)
+        with pytest.raises(vt.InputError, match=words):
+            vt.solve(groups)
+    groups = vt.Groups(3.0, ELASTIC, vt.AtForce(900.0), 1.0, geometry=WORN)
+    with pytest.raises(vt.InputError, match="larger than the profile is known"):
+        vt.solve(groups)

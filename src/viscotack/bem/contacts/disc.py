@@ -38,6 +38,11 @@ class DiscContact(ShapeContact):
         """Return the radius [beta] of the disc, the end of its profile."""
         return self.shape.radius
 
+    @property
+    def _known(self) -> float:
+        """Infinity: the edge of a disc is that of its contact, and not of what is known of it."""
+        return np.inf
+
     def bare_radius(self, depth: float) -> float:
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         if self.shape.is_sharp:

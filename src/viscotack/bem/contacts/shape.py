@@ -27,7 +27,7 @@ from viscotack.bem.mesh import Grading, check_count, finer
 from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.geometry import Layer, Shape, detail, end
-from viscotack.protocol import Apart, Start
+from viscotack.protocol import Apart, AtRadius, Start
 from viscotack.theory.elastic import indenter, on_layer
 
 # Range of radii [beta] in which contacts are searched for.
@@ -36,6 +36,8 @@ _LEAST, _MOST = 1e-6, 1e9
 _LOOKS, _MOST_LOOKS = 8, 4000
 # Initial outer limit of the search [beta, or details].
 _FAR = 8.0
+# JKR contacts are looked for up to this multiple of the radius to which a profile is known.
+_BEYOND = 2.0
 # Allowed deviation of a chord from such a shape, as a fraction of the range of the law; largest
 # number of nodes per detail; and points per detail of the grid from which nodes are chosen.
 _CHORD, _PER_DETAIL, _GRID = 0.01, 12, 16
@@ -70,7 +72,7 @@ class ShapeContact(RevolutionContact):
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         if depth <= 0:
             return 0.0
-        return self._where_last(self._bare_depth, depth, _LEAST)
+        return self._where_last(self._bare_depth, depth, _LEAST, self._widest)
 
     def jkr_depth(self, radius: Any) -> Any:
         """Return the JKR depth [h0] at a contact radius [beta]."""
@@ -78,11 +80,11 @@ class ShapeContact(RevolutionContact):
 
     def jkr_radius(self, depth: float) -> float:
         """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
-        return self._where_last(self.jkr_depth, depth, self._last_by_depth)
+        return self._where_last(self.jkr_depth, depth, self._last_by_depth, self._widest)
 
     def jkr_radius_at_force(self, force: float) -> float:
         """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
-        return self._where_last(self._jkr_force, force, self._last_by_force)
+        return self._where_last(self._jkr_force, force, self._last_by_force, self._widest)
 
     def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
@@ -148,22 +150,60 @@ class ShapeContact(RevolutionContact):
         longer = int(np.ceil(np.log1p(_WIDER * 2 * outer / step) / np.log1p(_WIDER)))
         return np.append(own, own[-1] + step * np.cumsum((1 + _WIDER) ** np.arange(1, longer + 1)))
 
-    def _where_last(self, function: Any, value: float, low: float) -> float:
-        """Return the largest radius at which an eventually increasing function has this value."""
+    def deepest(self, start: Start) -> float:
+        """Return the approximate depth [h0] of a start, by JKR as far as it is known."""
+        if isinstance(start, AtRadius):
+            widest = self._widest_on_layer / self.edge_unit
+            start = AtRadius(min(start.contact_radius, widest))
+        return super().deepest(start)
+
+    @property
+    def _known(self) -> float:
+        """Radius [beta] to which the profile is known."""
+        return end(self.shape)
+
+    @property
+    def _widest_on_layer(self) -> float:
+        """Largest radius [beta] at which JKR is known for this shape on this body."""
+        solved = isinstance(self.body, Layer) and np.isfinite(detail(self.shape))
+        return on_layer.LARGEST * self.body.decay_length if solved else np.inf
+
+    @property
+    def _widest(self) -> float:
+        """Largest radius [beta] at which JKR contacts are looked for."""
+        return min(_BEYOND * self._known, self._widest_on_layer, _MOST)
+
+    def _too_wide(self) -> str:
+        """Return the reason why a contact beyond the widest radius is rejected."""
+        if self._widest == self._widest_on_layer:
+            return (
+                f"the contact would be wider than {on_layer.LARGEST:g} thicknesses of the layer, "
+                "too wide for a shape with details; press less, or make the layer thicker"
+            )
+        return (
+            f"the contact would be larger than the profile is known, {self._known:.4g} lengths "
+            "beta; press less, or give rows farther out"
+        )
+
+    def _where_last(self, function: Any, value: float, low: float, most: float = _MOST) -> float:
+        """Return the largest radius at which an eventually increasing function has this value.
+
+        The function is evaluated up to the radius `most`.
+        """
         if np.isinf(detail(self.shape)):
             return inverse(lambda a: float(function(a)), value, low)
-        far = self._far
+        far = min(self._far, most)
         while True:
             radii, found = self._seen(function, far)
             below = np.flatnonzero(found < value)
             if not below.size:
                 return low
             last = int(below[-1])
-            if 2 * radii[last] < far:
+            if 2 * radii[last] < far or (far == most and radii[last] < far):
                 break
-            if far > _MOST:
-                raise InputError(_UNBOUND.format(value, _MOST))
-            far *= 2
+            if far == most:
+                raise InputError(self._too_wide() if most < _MOST else _UNBOUND.format(value, most))
+            far = min(2 * far, most)
         ends = float(radii[last]), float(radii[last + 1])
         return float(brentq(lambda a: float(function(a)) - value, *ends, xtol=1e-14 * ends[1]))  # type: ignore[arg-type]
 
@@ -200,7 +240,7 @@ class ShapeContact(RevolutionContact):
         """Return the radius [beta] at which a function is least, of all its minima."""
         if np.isinf(detail(self.shape)):
             return _lowest(function)
-        radii, found = self._seen(function, self._far)
+        radii, found = self._seen(function, min(self._far, self._widest))
         return float(radii[np.argmin(found)])
 
     def _seen(self, function: Any, far: float) -> tuple[npt.NDArray, npt.NDArray]:

@@ -19,14 +19,13 @@ and :math:`g_D` for the profile, E* = 2,
 .. math:: \delta = \frac{g_D(a) - \sqrt{2 \pi a \Delta\gamma_0/E^*}}{g_1(a)}, \qquad
           P = 2 E^* \int_0^a [\delta\, g_1 - g_D]\, ds .
 
-The kernel is a sum of values of one function of s - t and s + t, tabulated once for each base.
-Nodes s = a sin(angle) are dense at the edge; errors are of the order of 1e-8. Beyond 100
-thicknesses the solution is continued as a power of the radius.
+The kernel is integrated by Gauss panels in :math:`\xi`. Nodes s = a sin(angle) are dense at the
+edge; errors are of the order of 1e-8. Beyond 100 thicknesses the solution for a profile that is a
+power is continued as a power of the radius.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -41,14 +40,18 @@ from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere, detai
 
 from ._sneddon import half_space_depth
 
-# Gauss panels in the angle: smallest number, thicknesses per extra panel, points per panel.
-_PANELS, _WIDER, _POINTS = 3, 4.0, 16
+# Gauss panels in the angle: smallest number, thicknesses per extra panel; and their points.
+_PANELS, _WIDER = 3, 4.0
+_GAUSS = np.polynomial.legendre.leggauss(16)
 # Gauss panels in t, up to where the transfer function is 1, each of this phase.
 _LAST, _PHASE = 18.0, 12.0
+# Details of a shape per extra panel, and largest number of such panels.
+_DETAILS, _MOST_PANELS = 4.0, 24
+# Solutions at so many radii share panels of two points: width [b], and panels per detail.
+_MANY, _COARSEST, _PER_DETAIL = 8, 0.25, 8
+_GAUSS_2 = np.polynomial.legendre.leggauss(2)
 # Radius [b] up to which the equation is solved.
 LARGEST = 100.0
-# Places of the table of the kernel, and the degree of its splines.
-_PLACES, _DEGREE = 240, 7
 # Solutions per decade of radius for shapes that are powers, and of how many one is interpolated.
 _PER_DECADE, _AROUND = 10, 8
 _MIDDLE = (_AROUND - 1) / 2
@@ -111,7 +114,8 @@ def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Layer) 
               \right]
     """
     b = body.thickness
-    y, solved = np.maximum(position, a) / b, _solved(min(a / b, LARGEST), body.base)
+    y, a = np.maximum(position, a) / b, min(a / b, LARGEST)
+    solved = _solved(a, body.base, _for_details(a, shape, body))
     s, weight = solved.s, solved.weight
     of, of_edge = solved.profile(shape, b)
     g, edge = depth * solved.disc - of, depth * solved.disc_edge - of_edge
@@ -127,9 +131,12 @@ def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Layer) 
 
 def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
     """Return g of disc and profile at the edge, and their forces, for E* = 2 and E* = 1."""
-    b = body.thickness
-    each = [_continued(float(radius) / b, shape, body) for radius in np.ravel(a)]
-    return [np.reshape(values, np.shape(a)) for values in zip(*each, strict=True)]
+    y = np.ravel(a) / body.thickness
+    if y.size >= _MANY and np.isfinite(detail(shape)) and y.max() <= LARGEST:
+        values = _at_once(tuple(y.tolist()), shape, body)
+    else:
+        values = np.transpose([_continued(float(radius), shape, body) for radius in y])
+    return [np.reshape(each, np.shape(a)) for each in values]
 
 
 def _continued(a: float, shape: Any, body: Layer) -> Array:
@@ -169,12 +176,45 @@ def _at_step(step: int, shape: Any, body: Layer) -> Array:
     return np.log(_direct(10 ** (step / _PER_DECADE), shape, body))
 
 
+@lru_cache(maxsize=8)
+def _at_once(radii: tuple[float, ...], shape: Any, body: Layer) -> Array:
+    """Return the four sums at many radii [b], by one factorization.
+
+    With nodes in panels that end at all radii, the equation of a radius is the first part of that
+    of the largest one, and so are the Cholesky factor and what is solved with it.
+    """
+    a, b, (nodes, weights) = np.array(radii), body.thickness, _GAUSS_2
+    coarsest = min(_COARSEST, detail(shape) / (_PER_DETAIL * b))
+    even = np.linspace(0.0, a.max(), int(np.ceil(a.max() / coarsest)) + 1)
+    edges = np.union1d(even, a)
+    half = np.diff(edges)[:, None] / 2
+    s, root = (edges[:-1, None] + half * (1 + nodes)).ravel(), np.sqrt(half * weights).ravel()
+    t, kernel = _waves(body.base, 2 * a.max())
+    waves = np.cos(np.multiply.outer(np.append(s, a), t))
+    k = 2 / np.pi * (waves * kernel) @ waves[: s.size].T * root
+    factor = np.linalg.cholesky(np.eye(s.size) + root[:, None] * k[: s.size])
+    D = half_space_depth(b * np.append(s, a), shape)
+    given = np.column_stack([root, root * D[: s.size], k[s.size :].T])
+    solved = scipy.linalg.solve_triangular(factor, given, lower=True)
+    disc, profile, at_edge = solved[:, 0], solved[:, 1], solved[:, 2:]
+    many = nodes.size * np.searchsorted(edges, a)
+    at_edge = np.where(np.arange(s.size)[:, None] < many, at_edge, 0.0)
+    forces = 2 * b * np.cumsum([disc * disc, disc * profile], axis=1)[:, many - 1]
+    return np.array([1 - disc @ at_edge, D[s.size :] - profile @ at_edge, *forces])
+
+
+@lru_cache(maxsize=4096)
 def _direct(a: float, shape: Any, body: Layer) -> Array:
     """Return the four sums at a radius [b]."""
-    b, solved = body.thickness, _solved(a, body.base)
+    b, solved = body.thickness, _solved(a, body.base, _for_details(a, shape, body))
     g, edge = solved.profile(shape, b)
     force_of_disc, force_of_profile = 2 * b * (solved.weight @ np.column_stack([solved.disc, g]))
     return np.array([solved.disc_edge, edge, force_of_disc, force_of_profile])
+
+
+def _for_details(a: float, shape: Any, body: Layer) -> int:
+    """Return the number of panels that a shape needs for its details within a radius [b]."""
+    return int(min(a * body.thickness / (_DETAILS * detail(shape)), _MOST_PANELS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,38 +241,28 @@ class _Solved:
 
 
 @lru_cache(maxsize=64)
-def _solved(a: float, base: Base) -> _Solved:
-    """Return the solved equation at a radius [b]."""
-    s, weight = _nodes(a)
-    table = _kernel(base)
-    places = np.append(s, a)[:, None]
-    k = (table(np.abs(places - s)) + table(places + s)) * weight / np.pi
+def _solved(a: float, base: Base, panels: int) -> _Solved:
+    """Return the solved equation at a radius [b], with some panels more for the shape."""
+    s, weight = _nodes(a, panels)
+    t, kernel = _waves(base, 2 * a)
+    waves = np.cos(np.multiply.outer(np.append(s, a), t))
+    k = 2 / np.pi * (waves * kernel) @ waves[:-1].T * weight
     inverse = np.linalg.inv(np.eye(len(s)) + k[:-1])
     return _Solved(a, s, weight, inverse, k[-1], inverse.sum(axis=1))
 
 
-def _nodes(a: float) -> tuple[npt.NDArray, npt.NDArray]:
+def _nodes(a: float, panels: int) -> tuple[npt.NDArray, npt.NDArray]:
     """Return nodes and weights from 0 to a radius [b]."""
-    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
-    edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + 1)
+    nodes, weights = _GAUSS
+    edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + panels + 1)
     half = np.diff(edges)[:, None] / 2
     angle = (edges[:-1, None] + half * (1 + nodes)).ravel()
     return a * np.sin(angle), a * np.cos(angle) * (half * weights).ravel()
 
 
-@lru_cache(maxsize=16)
-def _kernel(base: Base) -> Callable[[npt.NDArray], npt.NDArray]:
-    """Return the integral of (kappa - 1) cos(t x) over t as a function of x."""
-    place = np.linspace(0.0, np.log1p(2 * LARGEST), _PLACES)
-    t, kernel = _waves(base, 2 * LARGEST)
-    values = [float(np.cos(t * x) @ kernel) for x in np.expm1(place)]
-    spline = scipy.interpolate.make_interp_spline(place, values, k=_DEGREE)
-    return lambda x: spline(np.log1p(x))
-
-
 def _waves(base: Base, largest: float) -> tuple[npt.NDArray, npt.NDArray]:
     """Return wave numbers [1/b] and kappa - 1 times their weights, for distances up to one [b]."""
-    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
+    nodes, weights = _GAUSS
     edges = np.linspace(0.0, _LAST, 8 + int(_LAST * largest / _PHASE) + 1)
     half = np.diff(edges)[:, None] / 2
     t = (edges[:-1, None] + half * (1 + nodes)).ravel()
