@@ -23,6 +23,8 @@ _EQUAL = 1 + 1e-9
 _RISEN = 0.03
 # Relative numerical noise of a simulated force.
 _ROUGH = 1e-3
+# Differences of the force on a plateau, relative.
+_EVEN = 1e-6
 # Number of steps after the pull-off within which the edge may vanish.
 _GONE = 3
 
@@ -372,7 +374,7 @@ def _nearest(x: Array, i: int) -> slice:
 
 def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
     """Return place and value of the minimum of the curve near its lowest point i."""
-    if 0 < i < len(x) - 1:
+    if 0 < i < len(x) - 1 and not _on_plateau(y, i):
         scale = x[i + 1] - x[i - 1]
         for points in (_nearest(x, i), slice(i - 1, i + 2)):
             u = (x[points] - x[i]) / scale
@@ -384,6 +386,18 @@ def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
                 if value >= least_between(x, y, i, place):
                     return place, value
     return float(x[i]), float(y[i])
+
+
+def _on_plateau(y: Array, i: int) -> bool:
+    """Return whether three steps in a row, the lowest point i among them, have the same force.
+
+    An interface that yields everywhere at its strength has such a plateau; a cubic through its
+    corner would go below it.
+    """
+    return any(
+        np.ptp(y[first : first + 3]) <= _EVEN * abs(y[i])
+        for first in range(max(i - 2, 0), min(i, len(y) - 3) + 1)
+    )
 
 
 def least_between(x: Array, y: Array, i: int, place: float) -> float:
