@@ -42,8 +42,9 @@ _SOFTEST = 1e-9
 _NARROWEST, _WIDEST = 1e-9, 1e9
 # Range of a law relative to that of Lennard-Jones.
 _SHORTEST, _LONGEST = 1e-6, 1e6
-# Radius [that of the outputs] of a contact of revolution; depth [h0] of a punch, which has none.
-LARGEST_RADIUS = 1000.0
+# Radii [that of the outputs] whose depths bound those of a contact of revolution: the last, and
+# smaller ones, whose JKR solution on a layer takes less time; depth [h0] of a punch.
+_RADII = (3.0, 30.0, 1000.0)
 _DEEPEST_PUNCH = 1e7
 # Largest depth change of a stable start, as a fraction of its travel.
 _MOVED = 1e-2
@@ -157,11 +158,12 @@ def _of(whose: str, noun: Any) -> Iterator[tuple[str, float, str]]:
 
 def _check_depths(groups: Groups, contact: Contact) -> None:
     """Reject a contact that is pressed too deep."""
-    deepest = _DEEPEST_PUNCH
-    if not groups.in_plane_strain:
-        deepest = contact.deepest(AtRadius(LARGEST_RADIUS))
     for whose, state in _states(groups):
-        depth = contact.deepest(state)
+        depth, deepest = contact.deepest(state), _DEEPEST_PUNCH
+        for radius in () if groups.in_plane_strain else _RADII:
+            deepest = contact.deepest(AtRadius(radius))
+            if depth <= deepest:
+                break
         if depth > deepest:
             raise InputError(
                 f"{whose}, {state}, presses to a depth of about {depth:.3g} h0, and a simulation "

@@ -72,7 +72,9 @@ class ShapeContact(RevolutionContact):
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         if depth <= 0:
             return 0.0
-        return self._where_last(self._bare_depth, depth, _LEAST, self._widest)
+        # a convex shape sinks less than this at a third of the radius at which it has risen so far
+        low = self.radius_of_rise(depth) / 3 if np.isinf(detail(self.shape)) else _LEAST
+        return self._where_last(self._bare_depth, depth, low, self._widest)
 
     def jkr_depth(self, radius: Any) -> Any:
         """Return the JKR depth [h0] at a contact radius [beta]."""

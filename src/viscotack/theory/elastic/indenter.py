@@ -238,8 +238,9 @@ def gap(
     solid: Any = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     deep = float(depth(a, shape=shape, body=body, **solid))
     if body != _HALF_SPACE:
-        around = _on(body).gap(np.ravel(r), a, deep, shape, body)
-        return np.maximum(np.reshape(around, np.shape(r)), 0.0)
+        found = np.zeros(np.shape(r))
+        found[r > a] = np.maximum(_on(body).gap(r[r > a], a, deep, shape, body), 0.0)
+        return found
     # t = a sin(angle) removes the root singularity at the contact edge for r close to a
     angle, weight = angles(shape, a)
     t = a * np.sin(angle)

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import floor, log10
 from typing import Any
 
 import numpy as np
@@ -43,18 +44,19 @@ from ._sneddon import half_space_depth
 # Gauss panels in the angle: smallest number, thicknesses per extra panel; and their points.
 _PANELS, _WIDER = 3, 4.0
 _GAUSS = np.polynomial.legendre.leggauss(16)
-# Gauss panels in t, up to where the transfer function is 1, each of this phase.
-_LAST, _PHASE = 18.0, 12.0
+# Gauss panels in t, up to where the transfer function is 1: smallest number, phase of each more.
+_LAST, _FEWEST, _PHASE = 18.0, 4, 36.0
+_GAUSS_32 = np.polynomial.legendre.leggauss(32)
 # Details of a shape per extra panel, and largest number of such panels.
 _DETAILS, _MOST_PANELS = 4.0, 24
 # Solutions at so many radii share panels of two points: width [b], and panels per detail.
 _MANY, _COARSEST, _PER_DETAIL = 8, 0.25, 8
 _GAUSS_2 = np.polynomial.legendre.leggauss(2)
 # Radius [b] up to which the equation is solved.
-LARGEST = 100.0
+LARGEST, _ROUND_OFF = 100.0, 1 + 1e-12
 # Solutions per decade of radius for shapes that are powers, and of how many one is interpolated.
 _PER_DECADE, _AROUND = 10, 8
-_MIDDLE = (_AROUND - 1) / 2
+_MIDDLE, _POWERS = (_AROUND - 1) / 2, np.arange(_AROUND)[::-1]
 POWERS = (Sphere, Cone, PowerLawProfile)
 # So many thicknesses from a contact a layer does not move: exp(-0.74 times that) if incompressible.
 _BESIDE = 25.0
@@ -132,7 +134,7 @@ def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Layer) 
 def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
     """Return g of disc and profile at the edge, and their forces, for E* = 2 and E* = 1."""
     y = np.ravel(a) / body.thickness
-    if y.size >= _MANY and np.isfinite(detail(shape)) and y.max() <= LARGEST:
+    if y.size >= _MANY and np.isfinite(detail(shape)) and y.max() <= LARGEST * _ROUND_OFF:
         values = _at_once(tuple(y.tolist()), shape, body)
     else:
         values = np.transpose([_continued(float(radius), shape, body) for radius in y])
@@ -142,8 +144,8 @@ def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
 def _continued(a: float, shape: Any, body: Layer) -> Array:
     """Return the four sums at a radius [b], beyond the largest one as powers."""
     values = _interpolated if type(shape) in POWERS else _direct
-    if a <= LARGEST:
-        return values(a, shape, body)
+    if a <= LARGEST * _ROUND_OFF:
+        return values(min(a, LARGEST), shape, body)
     if np.isfinite(detail(shape)):
         raise InputError(
             f"a contact of {a:.4g} thicknesses of the layer is too wide for a shape with details; "
@@ -155,12 +157,9 @@ def _continued(a: float, shape: Any, body: Layer) -> Array:
 
 def _interpolated(a: float, shape: Any, body: Layer) -> Array:
     """Return the four sums of a power at a radius [b], by polynomials of their logarithms."""
-    place = np.log10(a) * _PER_DECADE
-    first = min(int(np.floor(place)) - _AROUND // 2 + 1, _LAST_STEP - _AROUND + 1)
-    x, found = place - first - _MIDDLE, 0.0
-    for coefficient in _polynomials(first, shape, body):
-        found = found * x + coefficient
-    return np.exp(found)
+    place = log10(a) * _PER_DECADE
+    first = min(floor(place) - _AROUND // 2 + 1, _LAST_STEP - _AROUND + 1)
+    return np.exp((place - first - _MIDDLE) ** _POWERS @ _polynomials(first, shape, body))
 
 
 @lru_cache(maxsize=4096)
@@ -262,8 +261,8 @@ def _nodes(a: float, panels: int) -> tuple[npt.NDArray, npt.NDArray]:
 
 def _waves(base: Base, largest: float) -> tuple[npt.NDArray, npt.NDArray]:
     """Return wave numbers [1/b] and kappa - 1 times their weights, for distances up to one [b]."""
-    nodes, weights = _GAUSS
-    edges = np.linspace(0.0, _LAST, 8 + int(_LAST * largest / _PHASE) + 1)
+    nodes, weights = _GAUSS_32
+    edges = np.linspace(0.0, _LAST, _FEWEST + int(_LAST * largest / _PHASE) + 1)
     half = np.diff(edges)[:, None] / 2
     t = (edges[:-1, None] + half * (1 + nodes)).ravel()
     return t, (half * weights).ravel() * (base.transfer(t) - 1)
