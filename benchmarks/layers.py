@@ -37,7 +37,7 @@ def timed(groups: vt.Groups) -> tuple[float, int]:
     """Return the processor time [s] and the steps of a run."""
     began = process_time()
     result = vt.solve(groups, until="pull-off")
-    return process_time() - began, result.statistics["steps"]
+    return process_time() - began, int(result.statistics["steps"])
 
 
 def main() -> None:

@@ -49,7 +49,8 @@ _LAST, _FEWEST, _PHASE = 18.0, 4, 36.0
 _GAUSS_32 = np.polynomial.legendre.leggauss(32)
 # Details of a shape per extra panel, and largest number of such panels.
 _DETAILS, _MOST_PANELS = 4.0, 24
-# Solutions at so many radii share panels of two points: width [b], and panels per detail.
+# Solutions at this number of radii or more share panels of two points: width [b], and panels per
+# detail.
 _MANY, _COARSEST, _PER_DETAIL = 8, 0.25, 8
 _GAUSS_2 = np.polynomial.legendre.leggauss(2)
 # Radius [b] up to which the equation is solved.
