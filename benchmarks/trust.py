@@ -163,7 +163,9 @@ def runs(given: argparse.Namespace, folder: Path) -> list[Path]:
         numbers = range(min(given.noise, given.count))
         add("noise", replace(plain, noise=True), numbers, first, 1.0)
     if given.finer:
-        answered = sorted(read(files[0]).answered)[: given.finer]
+        answered = read(files[0]).answered
+        order = sorted(answered, key=lambda n: answered[n]["seconds"] if given.cheapest else n)
+        answered = order[: given.finer]
         finer = replace(plain, accuracy=given.accuracy / FINER, estimate=False)
         add("finer", finer, answered, first, FINER)
     return files
@@ -179,6 +181,7 @@ def main() -> None:
     parser.add_argument("--core-type", nargs="+", default=[""], metavar="NAME", help="of OpenBLAS")
     parser.add_argument("--noise", type=int, default=0, metavar="COUNT")
     parser.add_argument("--finer", type=int, default=0, metavar="COUNT")
+    parser.add_argument("--cheapest", action="store_true", help="finer runs of the cheapest")
     parser.add_argument("--accuracy", type=float, default=DEFAULT_ACCURACY)
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds a problem")
     parser.add_argument("--workers", type=int, default=2)

@@ -1,5 +1,6 @@
 """A body of a user's own, in one file: through every door, and refused by each tier but one."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,6 +30,18 @@ BODIES = {
     "bonded layer": vt.Layer(3.0, vt.Bonded(poisson_ratio=0.3)),
     "foundation": FOUNDATION(3.0),
 }
+# Each kind of shape of revolution, reduced.
+_TIP = vt.MeasuredProfile.sampled(lambda r: max(r * r - 0.25, 0.0) / 2, np.linspace(0.0, 6.0, 61))
+SHAPES = [
+    vt.Sphere(1.0),
+    vt.Cone(1.0),
+    vt.PowerLawProfile(1 / 3, 3.0),
+    vt.WavySphere(1.0, 0.1, 1.0),
+    _TIP.reduced(1.0, 1 / _TIP.equivalent_radius(1.0)),
+    vt.Disc(1.0),
+    vt.Disc(1.0, edge_width=0.1, edge_height=0.2),
+]
+STANDARD = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 CHEAP = [tier for tier in TIERS if tier.name != SIMULATION]
 
 
@@ -136,6 +149,34 @@ def test_a_tier_accepts_the_bodies_on_its_list_alone(tier, body):
         assert f"the body is {kind.__name__}" in reason
         with pytest.raises(vt.OutOfRange, match="the body is"):
             tier.answer(stranger)
+
+
+@pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
+def test_a_tier_rejects_every_shape_on_every_body_outside_its_lists(tier):
+    rejected = 0
+    for shape in SHAPES:
+        for body in BODIES.values():
+            case = vt.Groups(8.0, STANDARD, vt.AtDepth(40.0), 30.0, geometry=shape, body=body)
+            kinds = type(shape), type(getattr(body, "base", body))
+            if any(kinds[0] in v.shapes and kinds[1] in v.bodies for v in tier.verified):
+                continue
+            assert re.search("the (shape|body) is", tier.covers(case)), (shape, body)
+            with pytest.raises(vt.OutOfRange, match="the (shape|body) is"):
+                tier.answer(case)
+            rejected += 1
+    assert rejected >= len(SHAPES) * len(BODIES) - 3
+
+
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_beyond_the_simulation_only_verified_contacts_are_answered(body):
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    for shape in SHAPES:
+        case = vt.Groups(300.0, solid, vt.AtDepth(600.0), 1.0, geometry=shape, body=body)
+        if body == vt.HalfSpace() and type(shape) in (vt.Sphere, vt.Cone, vt.PowerLawProfile):
+            assert vt.solve(case, estimate_error=False).method == "crack contact"
+            continue
+        with pytest.raises(vt.InputError, match="Tabor number"):
+            vt.solve(case)
 
 
 @pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
