@@ -67,6 +67,15 @@ class DiscContact(ShapeContact):
             return float(on_layer.stiffness(np.array(self.shape.radius), self.body))
         return 2 * self.shape.radius
 
+    def relaxed_pull_off(self, edge: float) -> float:
+        """Return the force [output unit] at the strength of the law on a contact of this radius.
+
+        An upper bound whatever the work of adhesion, which decides the force of a disc at an edge.
+        """
+        if not edge > 0:
+            return 0.0
+        return np.pi * edge**2 * self.law.strength * 2 * self.tabor / (3 * np.pi)
+
     def deepest(self, start: Start) -> float:
         """Return the depth [h0] of a start; at given force that of the whole disc."""
         if isinstance(start, AtForce):
