@@ -15,6 +15,7 @@ PARTS = [
         "Random problems with every law",
         ["trust.py", "--count", "60", "--noise", "20", "--finer", "20", "--limit", "20"],
     ),
+    ("Cost of a layer beside the half-space", ["layers.py"]),
     ("The flat punch on a layer", ["punch.py"]),
     ("Tests with a history, and other traction laws", ["histories.py"]),
     ("From the rate to the state at pull-off", ["rate_law.py"]),
