@@ -374,7 +374,7 @@ def _nearest(x: Array, i: int) -> slice:
 
 def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
     """Return place and value of the minimum of the curve near its lowest point i."""
-    if 0 < i < len(x) - 1 and not _on_plateau(y, i):
+    if 0 < i < len(x) - 1:
         scale = x[i + 1] - x[i - 1]
         for points in (_nearest(x, i), slice(i - 1, i + 2)):
             u = (x[points] - x[i]) / scale
@@ -391,8 +391,7 @@ def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
 def _on_plateau(y: Array, i: int) -> bool:
     """Return whether three steps in a row, the lowest point i among them, have the same force.
 
-    An interface that yields everywhere at its strength has such a plateau; a cubic through its
-    corner would go below it.
+    An interface that yields everywhere at its strength has such a plateau.
     """
     return any(
         np.ptp(y[first : first + 3]) <= _EVEN * abs(y[i])
@@ -404,8 +403,11 @@ def least_between(x: Array, y: Array, i: int, place: float) -> float:
     """Return a lower bound of the curve next to its lowest point i.
 
     A valley lies above the line through the two points before the place. If the force breaks off
-    after the lowest step, a parabola or a cubic would be far below that line.
+    after the lowest step, a parabola or a cubic would be far below that line. A plateau is lowest
+    at its steps; a cubic through its corner would be below it.
     """
+    if _on_plateau(y, i):
+        return float(y[i] - _EVEN * abs(y[i]))
     last = i if place > x[i] else i - 1
     if last < 1:
         return float(2 * y[i] - max(y[i - 1], y[i + 1]))
