@@ -180,6 +180,18 @@ def test_no_cheap_tier_answers_for_a_shape_that_it_was_not_shown(tier, shape):
         tier.answer(stranger)
 
 
+def test_nodes_of_a_tip_grow_slowly_away_from_its_kinks():
+    # panels of seven times the length beside those of the kink had no positive definite compliance
+    shape = vt.MeasuredProfile.sampled(lambda r: max(r * r - 0.694, 0.0) / 2, RADII[::2])
+    shape = shape.reduced(1.0, 1 / shape.equivalent_radius(1.0))
+    law = vt.Dugdale(1.0, 1.0, rise=0.04, fall=0.95)
+    groups = vt.Groups(5.27, ELASTIC, vt.AtDepth(49.3), 1.0, geometry=shape, traction=law)
+    contact, settings = contact_of(groups), Settings.for_accuracy(2e-3)
+    assert contact.relaxed(groups.start, settings).edge > 3.0
+    panels = np.diff(contact.grading(settings, 49.3).own)
+    assert np.max(np.abs(np.diff(np.log(panels)))) < np.log(1.35)
+
+
 # --- the ways in ----------------------------------------------------------------------------------
 
 CASE = """

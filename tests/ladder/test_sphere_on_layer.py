@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import viscotack as vt
+from viscotack.bem.solver import contact_of
 from viscotack.geometry import Bonded, Cone, Frictionless, Layer, Sphere
 from viscotack.theory.elastic import indenter, jkr, on_body, on_layer
 
@@ -228,3 +229,13 @@ def test_a_contact_too_wide_for_the_layer_or_the_profile_is_rejected_in_words():
     groups = vt.Groups(3.0, ELASTIC, vt.AtForce(900.0), 1.0, geometry=WORN)
     with pytest.raises(vt.InputError, match="larger than the profile is known"):
         vt.solve(groups)
+
+
+def test_radii_are_found_at_the_values_of_their_table():
+    # the solution of many radii and that of one differ by 1e-6: an end may lie on the other side
+    groups = vt.Groups(3.0, ELASTIC, vt.AtDepth(1.0), 1.0, geometry=WORN, body=Layer(0.5, SQUEEZED))
+    contact = contact_of(groups)
+    radii, depths = contact._seen(contact.jkr_depth, contact._far)
+    for radius, depth in zip(radii[-16:-1:5], depths[-16:-1:5], strict=True):
+        for value in (np.nextafter(depth, -np.inf), np.nextafter(depth, np.inf)):
+            assert contact.jkr_radius(value) == pytest.approx(radius, rel=1e-3)

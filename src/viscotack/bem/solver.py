@@ -177,7 +177,10 @@ def _run(
 
 def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed, tuple[Leg, ...]]:
     """Return the relaxed start of a test and its legs; check that the first leg can hold it."""
-    start = contact.relaxed(groups.start, settings)
+    try:
+        start = contact.relaxed(groups.start, settings)
+    except ArithmeticError as reason:
+        raise InputError(f"the relaxed start was not found: {reason}") from reason
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     check_held(start, contact, legs[0])
     return start, legs

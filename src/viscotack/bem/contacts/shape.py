@@ -143,7 +143,7 @@ class ShapeContact(RevolutionContact):
         bent = r[1:-1] * np.abs(np.diff(ratio)) / np.diff(r[1:])
         bent = maximum_filter1d(np.pad(bent, (1, 1), mode="edge"), _GRID + 1)
         allowed = 8 * _CHORD * self.span / (self.tabor * np.maximum(bent, 1e-300))
-        many = np.minimum(1 / np.sqrt(allowed), _PER_DETAIL / length)
+        many = 1 / _graded(r, np.maximum(np.sqrt(allowed), length / _PER_DETAIL))
         count = np.concatenate([[0.0], np.cumsum((many[1:] + many[:-1]) / 2 * np.diff(r))])
         check_count(count[-1])
         count *= max(1.0, 2 / count[-1])  # two panels at least
@@ -207,6 +207,9 @@ class ShapeContact(RevolutionContact):
                 raise InputError(self._too_wide() if most < _MOST else _UNBOUND.format(value, most))
             far = min(2 * far, most)
         ends = float(radii[last]), float(radii[last + 1])
+        # the function at one radius has other digits than at many
+        if function(ends[0]) >= value or function(ends[1]) <= value:
+            return float(np.interp(value, found[last : last + 2], radii[last : last + 2]))
         return float(brentq(lambda a: float(function(a)) - value, *ends, xtol=1e-14 * ends[1]))  # type: ignore[arg-type]
 
     @property
@@ -275,6 +278,16 @@ class DetailedGrading(Grading):
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
         """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
         return finer(super().nodes(edge, first_edge), self.own)
+
+
+def _graded(position: npt.NDArray, spacing: npt.NDArray) -> npt.NDArray:
+    """Return the largest spacing that nowhere exceeds this one, nor grows faster than `_WIDER`.
+
+    Beside much shorter panels the discrete compliance would not be positive definite.
+    """
+    outwards = np.minimum.accumulate(spacing - _WIDER * position) + _WIDER * position
+    back = (spacing + _WIDER * position)[::-1]
+    return np.minimum(outwards, np.minimum.accumulate(back)[::-1] - _WIDER * position)
 
 
 def _lowest(function: Callable[[float], float]) -> float:
