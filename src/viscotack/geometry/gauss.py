@@ -9,7 +9,7 @@ from viscotack.arrays import Array
 
 
 def gauss(edges: npt.NDArray, points: int) -> tuple[Array, Array]:
-    """Return nodes and weights of a Gauss-Legendre rule with so many points in every panel.
+    """Return nodes and weights of the Gauss-Legendre rule with `points` nodes in each panel.
 
     Parameters
     ----------

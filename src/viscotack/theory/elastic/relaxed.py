@@ -99,7 +99,7 @@ def contact(
     else:
         by = theory.depth if isinstance(start, AtDepth) else theory.force
         value = start.depth if isinstance(start, AtDepth) else start.force
-        radii = _radii(shape, body, _length(shape, solid))
+        radii = _radii(shape, body, adhesion_length(shape, **solid))
         a = _largest_among(radii, partial(by, **case), value)
     if a is None:
         return None
@@ -142,7 +142,7 @@ def ends(
     if theory is not indenter:
         return theory.instability(**case), theory.pull_off(**case)
     depth, force = curve(shape, body=body, **solid)
-    length = _length(shape, solid)
+    length = adhesion_length(shape, **solid)
     if np.isinf(detail(shape)):
         brackets = [length * np.exp(_NEAR)] * 2
     else:
@@ -224,6 +224,28 @@ def curve(
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     theory, case = _theory(shape, body, solid)
     return partial(theory.depth, **case), partial(theory.force, **case)
+
+
+def adhesion_length(shape: Shape, *, contact_modulus: float, work_of_adhesion: float) -> float:
+    r"""Return the length [m] at which adhesion and elasticity balance.
+
+    .. math:: \beta = (R^2 \Delta\gamma_0/E_0^*)^{1/3}
+
+    Parameters
+    ----------
+    shape : shape of revolution
+        Rigid indenter; R is its equivalent radius (:func:`viscotack.geometry.equivalent_radius`).
+    contact_modulus, work_of_adhesion : float
+        :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
+
+    Examples
+    --------
+    >>> length = adhesion_length(Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.15)
+    >>> f"{length * 1e6:.0f} um"
+    '123 um'
+    """
+    adhesion = work_of_adhesion / contact_modulus
+    return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
 
 
 def largest_radius(
@@ -310,9 +332,3 @@ def _theory(shape: Shape, body: Body, solid: dict[str, float]) -> tuple[Any, dic
         case PowerLawProfile() | Cone():
             return profiles, {"exponent": shape.exponent, "coefficient": shape.coefficient, **solid}
     return indenter, {"shape": shape, **solid}
-
-
-def _length(shape: Shape, solid: dict[str, float]) -> float:
-    """Return the length beta, at which adhesion and elasticity balance."""
-    adhesion = solid["work_of_adhesion"] / solid["contact_modulus"]
-    return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
