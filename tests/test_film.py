@@ -104,7 +104,7 @@ def test_a_campaign_varies_the_thickness(problem, tmp_path):
     assert rows[0]["pull_off_force_N"] != rows[1]["pull_off_force_N"]
 
 
-@pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
+@pytest.mark.parametrize("ask", [vt.predict, vt.crack_contact])
 def test_tiers_that_have_not_learned_layers_refuse_in_words(problem, ask):
     with pytest.raises(vt.InputError, match="layer|Bonded"):
         ask(problem)

@@ -28,6 +28,7 @@ from viscotack.theory.elastic.relaxed import (
     ends,
     largest_radius,
     radius_without_adhesion,
+    strongest,
 )
 
 LENS = {"contact_modulus": 2e6, "work_of_adhesion": 0.15}
@@ -141,3 +142,12 @@ def test_a_wavy_sphere_lets_go_at_the_lowest_of_its_minima():
     assert end.force < 1.25 * jkr.pull_off(**SPHERE).force
     _, found = ends(WavySphere(5e-3, **waves), **LENS)
     assert found.force == pytest.approx(end.force, rel=1e-6)
+
+
+def test_the_strongest_contact_is_the_pull_off_or_the_start_itself():
+    end = jkr.pull_off(**SPHERE)
+    found = strongest(Sphere(5e-3), largest=3 * end.contact_radius, **LENS)
+    assert found.force == pytest.approx(end.force, rel=1e-8)
+    small = 0.5 * end.contact_radius
+    found = strongest(Sphere(5e-3), largest=small, **LENS)
+    assert found == pytest.approx((small, jkr.depth(small, **SPHERE), jkr.force(small, **SPHERE)))

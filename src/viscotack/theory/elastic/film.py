@@ -34,10 +34,10 @@ import numpy as np
 import scipy
 
 from viscotack.errors import InputError
-from viscotack.geometry import Base, HalfSpace, Layer, Shape
+from viscotack.geometry import Base, Disc, HalfSpace, Layer, Shape
 from viscotack.theory._checks import Number, Values, plain, positive
 
-from . import relaxed
+from . import disc, indenter, relaxed
 from .jkr import Point
 
 # Thicknesses [beta] of the search for that of a half-space, and factor from one to the next.
@@ -52,7 +52,8 @@ def pull_off(
     Parameters
     ----------
     shape : shape of revolution
-        Rigid indenter, e.g. :class:`viscotack.geometry.Sphere`; not a disc (:mod:`.disc`).
+        Rigid indenter, e.g. :class:`viscotack.geometry.Sphere`. A disc comes off as a whole
+        (:mod:`.disc`).
     body : Layer or HalfSpace
         The film, with its thickness [m] and its base.
     contact_modulus, work_of_adhesion : float
@@ -78,7 +79,17 @@ def pull_off(
     >>> [f"{-pull_off(body=body, **solid).force * 1e3:.2f} mN" for body in (film, HalfSpace())]
     ['1.64 mN', '1.18 mN']
     """
-    return _ends(shape, body, contact_modulus, work_of_adhesion)[1]
+    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    if not isinstance(shape, Disc):
+        return _ends(shape, body, **solid)[1]
+    if not shape.is_sharp:
+        return relaxed.strongest(shape, largest=shape.radius, body=body, **solid)
+    out = float(np.asarray(indenter.drawn(shape.radius, shape=shape, body=body, **solid)))
+    return Point(
+        shape.radius,
+        -out,
+        -float(np.asarray(disc.pull_off_force(contact_radius=shape.radius, body=body, **solid))),
+    )
 
 
 def instability(
@@ -88,7 +99,9 @@ def instability(
 
     Parameters
     ----------
-    shape, body, contact_modulus, work_of_adhesion
+    shape : shape of revolution
+        Rigid indenter, not a disc.
+    body, contact_modulus, work_of_adhesion
         As in :func:`pull_off`.
 
     Returns

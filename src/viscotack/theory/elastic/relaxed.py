@@ -45,6 +45,8 @@ _RADII, _COUNT = (1e-4, 1e6), 600
 _TOLERANCE = 1e-13
 # Their number on another body than the half-space, and per detail of a shape.
 _FEWER, _PER_DETAIL = 200, 8
+# Radii among which the strongest contact is searched for, over the largest one, and their number.
+_SMALLEST, _LOOKS = 1e-3, 60
 # Logarithms of the ends, over beta, between which the minima of a shape without details lie.
 _NEAR = (-5.0, 5.0)
 
@@ -153,14 +155,63 @@ def ends(
     return fold, end
 
 
+def strongest(
+    shape: Shape,
+    *,
+    largest: float,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
+) -> Point:
+    r"""Compute the contact of the smallest force among those up to a radius.
+
+    It is the pull-off of a contact that begins there and only shrinks, or of a disc of this radius.
+
+    Parameters
+    ----------
+    shape : shape of revolution
+        Rigid indenter.
+    largest : float
+        Largest contact radius [m].
+    contact_modulus, work_of_adhesion : float
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+    body : HalfSpace, Layer or a user-defined body
+        Elastic body.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N, negative in tension].
+
+    Examples
+    --------
+    >>> lens = dict(contact_modulus=2e6, work_of_adhesion=0.15)
+    >>> small, large = (strongest(Sphere(5e-3), largest=a, **lens) for a in (1e-4, 1e-3))
+    >>> f"{small.force * 1e3:.2f} mN, {large.force * 1e3:.2f} mN"
+    '-2.24 mN, -3.53 mN'
+    """
+    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    depth, force = curve(shape, body=body, **solid)
+    radii = largest * np.geomspace(_SMALLEST, 1.0, _LOOKS)
+    if np.isfinite(detail(shape)):
+        many = int(np.clip(_PER_DETAIL * largest / detail(shape), 2, _FEWER))
+        radii = np.unique(np.append(radii, largest * np.arange(1, many + 1) / many))
+    values = np.asarray(force(radii))
+    at = int(np.argmin(values))
+    near = radii[max(at - 1, 0)], radii[min(at + 1, radii.size - 1)]
+    found = least(force, near)
+    a = found if force(found) < values[at] else float(radii[at])
+    return Point(a, float(depth(a)), float(force(a)))
+
+
 def contact_in_groups(
-    start: Start | Apart, *, tabor: float, shape: Shape = _SPHERE
+    start: Start | Apart, *, tabor: float, shape: Shape = _SPHERE, body: Body = _HALF_SPACE
 ) -> Point | None:
     r"""Compute the contact of :func:`contact` for a start and a shape of dimensionless groups.
 
     The start is in h0, :math:`\tfrac32 \pi R \Delta\gamma_0` or :math:`(\pi R^2
-    \Delta\gamma_0/E_0^*)^{1/3}`; the contact is in the units in which R, :math:`E_0^*` and
-    :math:`\Delta\gamma_0` are 1.
+    \Delta\gamma_0/E_0^*)^{1/3}`, the thickness of a `body` in :math:`\beta`; the contact is in the
+    units in which R, :math:`E_0^*` and :math:`\Delta\gamma_0` are 1.
 
     Examples
     --------
@@ -176,7 +227,7 @@ def contact_in_groups(
             scaled = AtForce(start.force * (1.5 * np.pi))
         case AtRadius():
             scaled = AtRadius(start.contact_radius * np.pi ** (1 / 3))
-    return contact(scaled, shape=shape, contact_modulus=1.0, work_of_adhesion=1.0)
+    return contact(scaled, shape=shape, contact_modulus=1.0, work_of_adhesion=1.0, body=body)
 
 
 def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: float = 2.0) -> float:
