@@ -104,7 +104,8 @@ def draw(forces: dict[float, list[float]], path: str) -> None:
         left.loglog(rates, by_crack(body_of(thickness, GLUED), rates), color=colour, label=name)
     left.set(xlabel=r"speed [$\beta^2/(R\,\tau_0)$]")
     left.set_ylabel(r"pull-off force [$1.5\,\pi R\,\Delta\gamma_0$]")
-    left.set_title("circles simulated, lines theory", fontsize=10)
+    title = "circles: simulated, Tabor number 8; lines: theory, forces of short range"
+    figure.suptitle(title, fontsize=10)
     left.legend(frameon=False)
     thick = np.geomspace(0.05, 20.0, 25)
     rows = np.array([by_crack(body_of(b, GLUED), RATES) for b in thick])

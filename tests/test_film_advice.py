@@ -47,18 +47,17 @@ def row(advice, tier):
 
 
 def test_the_limits_of_a_film_are_those_of_jkr():
-    for base in (GLUED, vt.Frictionless()):
-        layer = vt.Layer(0.5, base)
-        contact = vt.advise(groups(layer)).contact
-        for work, found in ((1.0, contact.slow_force), (10.0, contact.fast_force)):
-            solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
-            force = -film.pull_off(shape=vt.Sphere(1.0), body=layer, **solid).force
-            assert found == pytest.approx(force / LOAD, rel=1e-4)
-        thick = [
-            film.half_space_thickness(shape=vt.Sphere(1.0), base=base, tolerance=x, **UNITS)
-            for x in (0.1, 0.05, 0.01)
-        ]
-        assert contact.half_space_thickness == pytest.approx(thick)
+    layer = vt.Layer(0.5, GLUED)
+    contact = vt.advise(groups(layer)).contact
+    for work, found in ((1.0, contact.slow_force), (10.0, contact.fast_force)):
+        solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
+        force = -film.pull_off(shape=vt.Sphere(1.0), body=layer, **solid).force
+        assert found == pytest.approx(force / LOAD, rel=1e-4)
+    thick = [
+        film.half_space_thickness(shape=vt.Sphere(1.0), base=GLUED, tolerance=x, **UNITS)
+        for x in (0.1, 0.05, 0.01)
+    ]
+    assert contact.half_space_thickness == pytest.approx(thick)
 
 
 def test_a_start_smaller_than_the_fast_contact_has_a_lower_fast_limit():
@@ -114,6 +113,7 @@ def test_a_film_too_thin_for_the_range_of_the_forces_is_left_to_the_simulation()
     receding = row(advice, "receding crack")
     assert not receding.applies and "too thin for the range" in receding.why
     assert advice.use == "simulation" and advice.rate_regime == "unknown"
+    assert advice.adhesion == "transition" and advice.contact.reaches_through
     assert any("saturates is not known here" in words for words in advice.sentences)
 
 

@@ -103,3 +103,10 @@ def test_the_integral_equation_and_the_influence_matrix_have_the_same_stiffness(
     layer, a = Layer(0.4, BASES[2]), np.array([0.3, 1.0])
     found = indenter.stiffness(a, body=layer, contact_modulus=2.0)
     assert found == pytest.approx(2 * on_body.stiffness(a, layer), rel=5e-4)
+
+
+def test_the_work_to_pull_off_tends_to_that_of_a_half_space():
+    thick = film.work_to_pull_off(shape=BALL, body=Layer(1e4, SQUEEZED), **UNITS)
+    assert thick == pytest.approx(jkr.work_to_pull_off(radius=1.0, **UNITS), rel=1e-3)
+    thin = film.work_to_pull_off(shape=BALL, body=Layer(0.3, SQUEEZED), **UNITS)
+    assert thin < thick

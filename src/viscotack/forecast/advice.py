@@ -45,7 +45,8 @@ class Advice:
         Tabor number by the effective range of the law (the same for Lennard-Jones), and Tabor
         number of the fast limit, the effective one times k^(1/3).
     adhesion : str
-        "jkr" (effective Tabor number above 3), "transition" or "dmt" (below 0.1).
+        "jkr" (effective Tabor number above 3, and on a film forces that do not reach through it),
+        "transition" or "dmt" (below 0.1).
     pull_off_force : float or None
         Prediction of :func:`viscotack.predict` with its default budget [1.5 pi R dg0]; None if
         no tier within it is verified for this problem.
@@ -150,12 +151,19 @@ def advice_on(asked: Question) -> Advice:
     """Return :func:`advise` for a question with cached intermediate results."""
     check_contact(asked.groups)
     check_test(asked.groups)
+    if is_classic(asked.groups):
+        return _of_sphere(asked, _best(asked))
+    # the search for the relaxed start of a simulation takes a second on a film
+    known = not all(tier.refuses(asked) for tier in TIERS if tier.cost <= SOON)
+    return _of_other(asked, _best(asked) if known else None)
+
+
+def _best(asked: Question) -> Prediction | None:
+    """Return the prediction of the best fast tier, None if there is none."""
     try:
-        found = best(asked, SOON)
+        return best(asked, SOON)
     except OutOfRange:
-        found = None
-    advice = _of_sphere if is_classic(asked.groups) else _of_other
-    return advice(asked, found)
+        return None
 
 
 def _of_sphere(asked: Question, found: Prediction | None) -> Advice:
@@ -184,6 +192,8 @@ def _of_other(asked: Question, found: Prediction | None) -> Advice:
     if isinstance(asked.problem, Problem) and (strain := contact.film_strain) is not None:
         strain *= shared["length_scale"] / asked.problem.radius
         contact = replace(contact, film_strain=strain)
+    if contact.reaches_through and shared["adhesion"] == "jkr":
+        shared["adhesion"] = "transition"
     regime = contact.regime_of(None if found is None else found.pull_off_force)
     return Advice(
         **shared,
