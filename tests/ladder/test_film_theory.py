@@ -5,7 +5,8 @@ import pytest
 
 import viscotack as vt
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
-from viscotack.theory import disc, film, indenter, jkr, profiles
+from viscotack.theory import SteadyCrack, disc, film, indenter, jkr, profiles
+from viscotack.theory.crack.contact import profile_on, recede
 from viscotack.theory.elastic import on_body, relaxed
 
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
@@ -110,3 +111,33 @@ def test_the_work_to_pull_off_tends_to_that_of_a_half_space():
     assert thick == pytest.approx(jkr.work_to_pull_off(radius=1.0, **UNITS), rel=1e-3)
     thin = film.work_to_pull_off(shape=BALL, body=Layer(0.3, SQUEEZED), **UNITS)
     assert thin < thick
+
+
+SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def receding(body, rates, start=4.0):
+    crack = SteadyCrack(SOLID, vt.LennardJones(1.0, 1.0))
+    given = dict(radius=np.full(len(rates), start), rate=np.array(rates), tabor=np.array(8.0))
+    found = recede(crack, profile_on(BALL, body), **given)
+    return -found.force.min(axis=0)
+
+
+def test_a_crack_that_recedes_on_a_thick_layer_is_that_on_a_half_space():
+    rates = (0.01, 1.0, 100.0)
+    thick = receding(Layer(1e4, SQUEEZED), rates)
+    assert thick == pytest.approx(receding(HalfSpace(), rates), rel=1e-3)
+
+
+def test_a_crack_that_recedes_on_a_layer_has_the_limits_of_jkr():
+    layer = Layer(0.3, BASES[3])
+    slow, fast = receding(layer, (1e-7, 1e8))
+    for found, work in ((slow, 1.0), (fast, 10.0)):
+        solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
+        force = -film.pull_off(shape=BALL, body=layer, **solid).force
+        assert found == pytest.approx(force, rel=2e-3)
+
+
+def test_a_profile_with_several_edges_is_refused_on_a_layer():
+    with pytest.raises(vt.InputError, match="several edges"):
+        profile_on(vt.WavySphere(1.0, 0.06, 0.5), Layer(1.0))
