@@ -173,6 +173,8 @@ def test_flags_state_a_disc_on_a_layer_and_a_measured_profile(capsys, tmp_path, 
         record = by_python(question).record
         assert record["slow_force"] > 0
         assert by_study(question).record == by_http(question, http).record == record
+        elsewhere = Question("advise", {"problem": given | {"points": "/etc/hostname"}})
+        assert "must name a file FILE.csv" in by_http(elsewhere, http).refused
     finally:
         http.close()
 
@@ -191,5 +193,6 @@ def test_theories_of_a_film_are_asked_in_si():
     assert "kN/m" in answer.words() or "MN/m" in answer.words()
     limit = disc.strength_limit(contact_radius=5e-3, strength=50e3)
     assert answer.record()["pull_off_force_N"] == limit
+    assert answer.record()["over_half_space"] > 1
     with pytest.raises(vt.InputError, match="give its thickness as well"):
         ask("theory disc", **lens, bonded=0.3)

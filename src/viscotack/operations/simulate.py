@@ -94,10 +94,9 @@ class Simulate(Operation):
         "profile": """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic
     half-space.
 
-    By dimensionless numbers, R being the equivalent radius (a measured profile by --points),
-    or in SI by a file that has a table
-    [profile] in place of [sphere]: `slope` of a cone, or `exponent`, and `height` at a radius
-    `at_radius`.
+    By dimensionless numbers, R being the equivalent radius (a measured profile by --points), or in
+    SI by a file that has a table [profile] in place of [sphere]: `slope` of a cone, or `exponent`,
+    and `height` at a radius `at_radius`.
 
     Example: viscotack simulate profile examples/from_toml/cone.toml
     """,

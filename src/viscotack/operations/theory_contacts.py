@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from viscotack.geometry import HalfSpace, Layer
     from viscotack.methods.by_crack import CrackContact
 
-# Largest radius of a disc that is drawn, over the thickness of its layer.
-_WIDEST = 100.0
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0, metavar="LENGTH")
 _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0, metavar="PRESSURE")
 _WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0, metavar="ENERGY")
@@ -186,11 +184,10 @@ class OfDisc(Operation):
             if self.thickness is None:
                 crossover = disc.crossover_radius(strength=self.strength, **solid)
                 record["crossover_radius_m"] = crossover
-        else:
-            record["over_half_space"] = force / disc.pull_off_force(contact_radius=a, **solid)
-        radii = a * np.geomspace(0.1, 10.0, 61)
         if self.thickness is not None:
-            radii = radii[radii <= _WIDEST * self.thickness]
+            whole = disc.pull_off_force(contact_radius=a, strength=self.strength, **solid)
+            record["over_half_space"] = force / whole
+        radii = a * np.geomspace(0.1, 10.0, 61)
         curve = radii, np.asarray(disc.pull_off_force(contact_radius=radii, **limits))
         labels = ("radius of the disc [m]", "pull-off force [N]")
         return closed_form(force, record, curve, labels, logarithmic=True)

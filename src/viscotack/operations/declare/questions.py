@@ -319,6 +319,8 @@ def stated(
 
 def _measured(file: str) -> MeasuredProfile:
     """Read a profile without dimensions, scaled to the equivalent radius 1."""
+    if not file.endswith(".csv"):
+        raise InputError(f"--{_FILE} must name a file FILE.csv, got {file!r:.60}")
     columns = read_quantities(file, {"radius": "1", "height": "1"})
     shape = MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
     return shape.reduced(1.0, 1 / shape.equivalent_radius(1.0))
