@@ -38,6 +38,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere, detail
+from viscotack.geometry.gauss import gauss
 
 from ._sneddon import half_space_depth
 
@@ -134,16 +135,23 @@ def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
 
 def _continued(a: float, shape: Any, body: Layer) -> Array:
     """Return the four sums at a radius [b], beyond the largest one as powers."""
-    values = _interpolated if type(shape) in POWERS else _direct
     if a <= LARGEST:
-        return values(a, shape, body)
+        return (_interpolated if type(shape) in POWERS else _direct)(a, shape, body)
     if np.isfinite(detail(shape)):
         raise InputError(
             f"a contact of {a:.4g} thicknesses of the layer is too wide for a shape with details; "
             f"it may be up to {LARGEST:g}: make the layer thicker"
         )
-    last, before = (np.log(values(x, shape, body)) for x in (LARGEST, LARGEST / 1.2))
-    return np.exp(last + (last - before) * np.log(a / LARGEST) / np.log(1.2))
+    last, power = _beyond(shape, body)
+    return last * (a / LARGEST) ** power
+
+
+@lru_cache(maxsize=64)
+def _beyond(shape: Any, body: Layer) -> tuple[Array, Array]:
+    """Return the four sums at the largest radius, and their powers of the radius beyond it."""
+    values = _interpolated if type(shape) in POWERS else _direct
+    last, before = (values(x, shape, body) for x in (LARGEST, LARGEST / 1.2))
+    return last, np.log(last / before) / np.log(1.2)
 
 
 def _interpolated(a: float, shape: Any, body: Layer) -> Array:
@@ -213,11 +221,9 @@ def _solved(a: float, base: Base) -> _Solved:
 
 def _nodes(a: float) -> tuple[npt.NDArray, npt.NDArray]:
     """Return nodes and weights from 0 to a radius [b]."""
-    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
-    edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + 1)
-    half = np.diff(edges)[:, None] / 2
-    angle = (edges[:-1, None] + half * (1 + nodes)).ravel()
-    return a * np.sin(angle), a * np.cos(angle) * (half * weights).ravel()
+    panels = _PANELS + int(a / _WIDER)
+    angle, weight = gauss(np.linspace(0.0, np.pi / 2, panels + 1), _POINTS)
+    return a * np.sin(angle), a * np.cos(angle) * weight
 
 
 @lru_cache(maxsize=16)
@@ -232,8 +238,6 @@ def _kernel(base: Base) -> Callable[[npt.NDArray], npt.NDArray]:
 
 def _waves(base: Base, largest: float) -> tuple[npt.NDArray, npt.NDArray]:
     """Return wave numbers [1/b] and kappa - 1 times their weights, for distances up to one [b]."""
-    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
-    edges = np.linspace(0.0, _LAST, 8 + int(_LAST * largest / _PHASE) + 1)
-    half = np.diff(edges)[:, None] / 2
-    t = (edges[:-1, None] + half * (1 + nodes)).ravel()
-    return t, (half * weights).ravel() * (base.transfer(t) - 1)
+    panels = 8 + int(_LAST * largest / _PHASE)
+    t, weight = gauss(np.linspace(0.0, _LAST, panels + 1), _POINTS)
+    return t, weight * (base.transfer(t) - 1)
