@@ -415,3 +415,81 @@ def test_a_request_that_is_too_long_is_refused_also_where_it_does_not_say_so(beh
     assert ask("POST", "/", content=pieces()).status_code == 413
     upload = {"content-type": "multipart/form-data; boundary=x"}
     assert ask("POST", "/", content=b"x" * 1100, headers=upload).status_code == 200
+
+
+def test_a_name_in_brackets_ends_with_the_bracket(behind):
+    ask = behind(hosts=("127.0.0.1", "[::1]"))
+    assert ask("GET", "/", headers={"host": "[::1]:8642"}).status_code == 200
+    for host in ("[::1].evil.com", "[::1].evil.com:80", "127.0.0.1:80:90", "127.0.0.1:x"):
+        assert ask("GET", "/", headers={"host": host}).status_code == 403
+
+
+def test_a_request_that_does_not_arrive_in_time_is_refused(behind):
+    ask = behind(patience=0.05)
+
+    async def slow():
+        yield b"x"
+        await asyncio.sleep(0.3)
+        yield b"x"
+
+    refused = ask("POST", "/", content=slow())
+    assert refused.status_code == 408 and "within 0.05 s" in refused.json()["error"]
+    assert ask("POST", "/", content=b"xx").status_code == 200
+
+
+def test_the_application_does_not_answer_a_rejected_request(behind):
+    async def parsing(scope, receive, send):
+        try:
+            await echo(scope, receive, send)
+        except Exception:  # as frameworks do
+            await send({"type": "http.response.start", "status": 500, "headers": []})
+            await send({"type": "http.response.body", "body": b"Internal Server Error"})
+            raise
+
+    async def pieces():
+        for _ in range(30):
+            yield b"x" * 100
+
+    asking = Asking(Guard(parsing, Rules(body=1000)))
+    assert asking("POST", "/", content=pieces()).status_code == 413
+    asking.loop.close()
+
+
+def test_requests_together_are_bounded_in_number_and_size():
+    answering = asyncio.Event()
+
+    async def held(scope, receive, send):
+        await receive()
+        await answering.wait()
+        await echo(scope, receive, send)
+
+    async def ask(guard, size):
+        body = [{"type": "http.request", "body": b"x" * size, "more_body": False}] * 2
+        statuses = []
+
+        async def receive():
+            return body.pop()
+
+        async def send(message):
+            statuses.append(message.get("status"))
+
+        scope = {"type": "http", "headers": [], "query_string": b"", "path": "/"}
+        await guard(scope, receive, send)
+        return statuses[0]
+
+    async def all_of(guard, sizes):
+        answering.clear()
+        tasks = [asyncio.ensure_future(ask(guard, size)) for size in sizes]
+        await asyncio.sleep(0.01)
+        answering.set()
+        return await asyncio.gather(*tasks)
+
+    async def main():
+        guard = Guard(held, Rules(requests=2, together=1000))
+        # the third is one too many; then the second is too large beside the first
+        assert await all_of(guard, [100, 100, 100]) == [200, 200, 503]
+        assert await all_of(guard, [600, 600]) == [200, 503]
+        # what was held is given back
+        assert await all_of(guard, [900]) == [200]
+
+    asyncio.run(main())

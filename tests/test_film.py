@@ -10,6 +10,8 @@ import viscotack as vt
 from command_line import exit_status
 from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
 from viscotack.campaign import Store, read_plan, run
+from viscotack.operations import ask
+from viscotack.theory import disc, film
 from viscotack.theory.elastic import indenter
 
 CASE = """
@@ -104,10 +106,10 @@ def test_a_campaign_varies_the_thickness(problem, tmp_path):
     assert rows[0]["pull_off_force_N"] != rows[1]["pull_off_force_N"]
 
 
-@pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
-def test_tiers_that_have_not_learned_layers_refuse_in_words(problem, ask):
+@pytest.mark.parametrize("tier", [vt.predict, vt.crack_contact])
+def test_tiers_that_have_not_learned_layers_refuse_in_words(problem, tier):
     with pytest.raises(vt.InputError, match="layer|Bonded"):
-        ask(problem)
+        tier(problem)
 
 
 def test_a_film_is_not_pressed_beyond_half_its_thickness(problem):
@@ -139,3 +141,58 @@ def test_a_disc_is_pressed_by_the_stiffness_of_its_layer():
     vt.Problem(**parts, body=thin, protocol=vt.Retraction(vt.AtForce(1.5), 1e-8))
     with pytest.raises(vt.InputError, match="deeper than half the thickness of the layer"):
         vt.Problem(**parts, body=vt.Layer(1e-4), protocol=vt.Retraction(vt.AtDepth(4e-4), 1e-8))
+
+
+def test_flags_state_a_disc_on_a_layer_and_a_measured_profile(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    test = "--tabor 1 --material elastic --accuracy 0.02 --json".split()
+    layer = "--preload 0.5 --thickness 0.5 --bonded 0.3".split()
+    assert exit_status(["simulate", "disc", *test, *layer]) == 0
+    found = json.loads(capsys.readouterr().out)
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    body = vt.Layer(0.5, vt.Bonded(poisson_ratio=0.3))
+    case = {"tabor": 1.0, "material": solid, "rate": 1.0}
+    stamp = vt.Groups(**case, start=vt.AtDepth(0.5), body=body, geometry=vt.Disc(1.0))
+    assert found["pull_off_force"] == vt.solve(stamp, accuracy=0.02).pull_off_force
+    rows = [(r / 10, max(r / 10 - 0.3, 0.0) ** 2) for r in range(41)]
+    text = "\n".join(f"{r},{z}" for r, z in rows)
+    Path("worn.csv").write_text(f"radius_1,height_1\n{text}\n")
+    flags = ["simulate", "profile", *test, "--preload", "1"]
+    assert exit_status([*flags, "--points", "worn.csv"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    worn = vt.MeasuredProfile(tuple(rows))
+    worn = worn.reduced(1.0, 1 / worn.equivalent_radius(1.0))
+    worn = vt.Groups(**case, start=vt.AtDepth(1.0), geometry=worn)
+    assert found["pull_off_force"] == vt.solve(worn, accuracy=0.02).pull_off_force
+    assert exit_status([*flags, "--points", "worn.csv", "--profile-exponent", "2"]) == 2
+    assert "not both" in capsys.readouterr().err
+    http = Http()
+    try:
+        given = {"indenter": "profile", "tabor": 1.0, "material": "elastic", "preload": 1.0}
+        question = Question("advise", {"problem": given | {"points": "worn.csv"}})
+        record = by_python(question).record
+        assert record["slow_force"] > 0
+        assert by_study(question).record == by_http(question, http).record == record
+        elsewhere = Question("advise", {"problem": given | {"points": "/etc/hostname"}})
+        assert "must name a file FILE.csv" in by_http(elsewhere, http).refused
+    finally:
+        http.close()
+
+
+def test_theories_of_a_film_are_asked_in_si():
+    lens = {"radius": "5 mm", "contact_modulus": "2 MPa", "work_of_adhesion": "50 mJ/m^2"}
+    record = ask("theory jkr", **lens, thickness="50 um", bonded=0.5).record()
+    solid = {"contact_modulus": 2e6, "work_of_adhesion": 0.05}
+    layer = vt.Layer(50e-6, vt.Bonded(poisson_ratio=0.5))
+    end = film.pull_off(shape=vt.Sphere(5e-3), body=layer, **solid)
+    assert record["pull_off_force_N"] == -end.force
+    assert record["over_half_space"] == pytest.approx(-end.force / (1.5e-3 * 0.25 * 3.14159265))
+    work = film.work_to_pull_off(shape=vt.Sphere(5e-3), body=layer, **solid)
+    assert record["work_to_pull_off_J"] == work
+    answer = ask("theory disc", **lens, thickness="50 um", strength="50 kPa")
+    assert "kN/m" in answer.words() or "MN/m" in answer.words()
+    limit = disc.strength_limit(contact_radius=5e-3, strength=50e3)
+    assert answer.record()["pull_off_force_N"] == limit
+    assert answer.record()["over_half_space"] > 1
+    with pytest.raises(vt.InputError, match="give its thickness as well"):
+        ask("theory disc", **lens, bonded=0.3)

@@ -10,7 +10,14 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from viscotack.errors import InputError, OutOfRange
-from viscotack.identify import PullOff, identify_rates, identify_slow, pull_offs, slow_test
+from viscotack.identify import (
+    PullOff,
+    forecast_rates,
+    identify_rates,
+    identify_slow,
+    pull_offs,
+    slow_test,
+)
 from viscotack.identify.forward import Changed, Forward
 from viscotack.identify.travel import travels
 from viscotack.lab.tack import Measured, survey
@@ -244,7 +251,16 @@ def test_whole_curves_narrow_a_series_and_must_be_there():
     # two pull-offs leave two ranges, a hundred times apart, and say so; both are in the interval
     ends = alone.intervals["equilibrium_gap"]
     assert ends.split and ends.low < 1e-9 and ends.high > 200e-9
-    assert "two separate ranges" in " ".join(alone.words)
+    assert "2 interfaces fit these forces" in " ".join(alone.words)
+    assert "a test at 100 nm/s" in " ".join(alone.words)
+    # a slower test tells them apart, so its forecast covers both
+    slow = [
+        float(alone.forward.pulled(*one.values.values(), 1e-7, PRELOAD).force)
+        for one in alone.solutions
+    ]
+    assert max(slow) > 1.2 * min(slow)
+    forecast = forecast_rates(alone, 1e-7)
+    assert forecast.low[0] < min(slow) and max(slow) < forecast.high[0]
     ends = whole.intervals["equilibrium_gap"]
     assert not ends.split and 150e-9 < ends.low < 200e-9 < ends.high < 260e-9
     bare = [PullOff(one.speed, one.force, one.preload) for one in series]

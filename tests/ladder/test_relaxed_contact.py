@@ -3,10 +3,24 @@
 import numpy as np
 import pytest
 
-from viscotack import Apart, AtDepth, AtForce, AtRadius, Cone, Groups, PowerLawProfile, Sphere
+from viscotack import (
+    Apart,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Bonded,
+    Cone,
+    Groups,
+    Layer,
+    MeasuredProfile,
+    PowerLawProfile,
+    Sphere,
+    WavySphere,
+)
 from viscotack.forecast.closed_forms import closed_forms
 from viscotack.materials import StandardSolid
-from viscotack.theory import jkr, profiles
+from viscotack.theory import jkr, profiles, wavy
+from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (
     contact,
     contact_in_groups,
@@ -14,6 +28,7 @@ from viscotack.theory.elastic.relaxed import (
     ends,
     largest_radius,
     radius_without_adhesion,
+    strongest,
 )
 
 LENS = {"contact_modulus": 2e6, "work_of_adhesion": 0.15}
@@ -105,3 +120,34 @@ def test_closed_forms_have_no_start_of_a_radius_that_nothing_holds():
         assert found.start_radius == (pytest.approx(radius) if held else None)
         unloading = next(x for x in found.estimates if x.tier == "unloading")
         assert held or not unloading.applies
+
+
+WORN = MeasuredProfile(((0.0, 0.0), (1e-4, 0.0), (2e-4, 1e-6), (3e-4, 3e-6)))
+
+
+@pytest.mark.parametrize("start", [AtDepth(1e-7), AtRadius(1.5e-4)])
+def test_a_worn_tip_on_a_thin_layer_has_a_contact_at_its_start(start):
+    layer = Layer(1e-5, Bonded(poisson_ratio=0.3))
+    case = dict(shape=WORN, body=layer, contact_modulus=1e6, work_of_adhesion=0.05)
+    found = contact(start, **case)
+    assert found.depth == pytest.approx(indenter.depth(found.contact_radius, **case), rel=1e-8)
+    assert found.force == pytest.approx(indenter.force(found.contact_radius, **case), rel=1e-8)
+    (wanted,) = vars(start).values()
+    assert wanted in found
+
+
+def test_a_wavy_sphere_lets_go_at_the_lowest_of_its_minima():
+    waves = dict(amplitude=2e-7, wavelength=4e-5)
+    end = wavy.pull_off(radius=5e-3, **waves, **LENS)
+    assert end.force < 1.25 * jkr.pull_off(**SPHERE).force
+    _, found = ends(WavySphere(5e-3, **waves), **LENS)
+    assert found.force == pytest.approx(end.force, rel=1e-6)
+
+
+def test_the_strongest_contact_is_the_pull_off_or_the_start_itself():
+    end = jkr.pull_off(**SPHERE)
+    found = strongest(Sphere(5e-3), largest=3 * end.contact_radius, **LENS)
+    assert found.force == pytest.approx(end.force, rel=1e-8)
+    small = 0.5 * end.contact_radius
+    found = strongest(Sphere(5e-3), largest=small, **LENS)
+    assert found == pytest.approx((small, jkr.depth(small, **SPHERE), jkr.force(small, **SPHERE)))

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 from viscotack.errors import OutOfRange
 from viscotack.geometry import Sphere
+from viscotack.methods.crack_problem import ROOT
 from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
 from viscotack.renamed import Renamed
 from viscotack.units import readable
 
-from .closed_forms import ClosedForms, Estimate, check_retraction
+from .closed_forms import ClosedForms, Estimate, check_test, is_classic
+from .other_contacts import SATURATED, TOLERANCES, OtherContact, check_contact, other_contact
 from .prediction import Prediction
 from .question import Question
 from .simulation import SIMULATION
-from .theories import CLOSED_FORM, closed_form_limits, estimate_of, forms_of
+from .theories import CLOSED_FORM, CRACK_CONTACT, closed_form_limits, estimate_of, forms_of
 from .tiers import SOON, THEORIES, TIERS, Tier, best
 
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
@@ -26,6 +29,8 @@ LINEAR_SPEED = 100e-6
 # Effective Tabor number up to which a simulation takes about a second.
 _FAST_TABOR = 15.0
 _SMALL_STRAIN = 0.2
+# Strain of a film up to which linear elasticity is a good approximation.
+_SMALL_FILM_STRAIN = 0.1
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,8 @@ class Advice:
         Tabor number by the effective range of the law (the same for Lennard-Jones), and Tabor
         number of the fast limit, the effective one times k^(1/3).
     adhesion : str
-        "jkr" (effective Tabor number above 3), "transition" or "dmt" (below 0.1).
+        "jkr" (effective Tabor number above 3, and on a film forces that do not reach through it),
+        "transition" or "dmt" (below 0.1).
     pull_off_force : float or None
         Prediction of :func:`viscotack.predict` with its default budget [1.5 pi R dg0]; None if
         no tier within it is verified for this problem.
@@ -73,6 +79,10 @@ class Advice:
         Estimates of all tiers.
     force_scale : float or None
         1.5 pi R dg0 [N]; None for groups.
+    length_scale, speed_scale : float or None
+        beta [m] and h0 per time unit [m/s]; None for groups.
+    contact : OtherContact or None
+        Limits by theory, and what the thickness of a film does; None for a sphere on a half-space.
     """
 
     tabor: float
@@ -93,6 +103,9 @@ class Advice:
     use: str
     estimates: tuple[Estimate, ...]
     force_scale: float | None
+    length_scale: float | None = None
+    speed_scale: float | None = None
+    contact: OtherContact | None = None
 
     crack_speed_m_per_s = Renamed("crack_speed_at_pull_off_m_per_s")
 
@@ -119,7 +132,7 @@ def advise(problem: Problem | Groups) -> Advice:
     Raises
     ------
     ValueError
-        If it is not the retraction of a relaxed spherical contact on a half-space.
+        If it is not the retraction of a relaxed contact of revolution at constant speed.
 
     Examples
     --------
@@ -136,49 +149,99 @@ def advise(problem: Problem | Groups) -> Advice:
 
 def advice_on(asked: Question) -> Advice:
     """Return :func:`advise` for a question with cached intermediate results."""
-    problem, groups = asked.problem, asked.groups
-    check_retraction(groups)
-    forms = asked.once(forms_of)
+    check_contact(asked.groups)
+    check_test(asked.groups)
+    if is_classic(asked.groups):
+        return _of_sphere(asked, _best(asked))
+    # the search for the relaxed start of a simulation takes a second on a film
+    known = not all(tier.refuses(asked) for tier in TIERS if tier.cost <= SOON)
+    return _of_other(asked, _best(asked) if known else None)
+
+
+def _best(asked: Question) -> Prediction | None:
+    """Return the prediction of the best fast tier, None if there is none."""
     try:
-        found = best(asked, SOON)
+        return best(asked, SOON)
     except OutOfRange:
-        found = None
+        return None
+
+
+def _of_sphere(asked: Question, found: Prediction | None) -> Advice:
+    """Return the advice on a sphere on a half-space."""
+    groups = asked.groups
+    forms = asked.once(forms_of)
     verified = not (CLOSED_FORM.refuses(groups) or closed_form_limits(asked))
     regime, change = _regime(forms, found), forms.preload_change if verified else None
-    preload = "any" if regime == "quasi-static" else forms.preload if change else "unknown"
-    scales = problem.scales() if isinstance(problem, Problem) else None
-    speed = strain = None
-    if scales is not None and isinstance(problem, Problem) and isinstance(problem.geometry, Sphere):
-        if forms.edge_speed is not None:
-            speed = forms.edge_speed * scales.edge_speed
-        if forms.start_radius is not None:
-            strain = forms.start_radius * scales.radius / problem.geometry.radius
-    mu = groups.effective_tabor
     return Advice(
-        tabor=groups.tabor,
-        effective_tabor=mu,
-        glassy_tabor=mu * groups.modulus_ratio ** (1 / 3),
-        adhesion="dmt" if mu < _DMT else "jkr" if mu > _JKR else "transition",
-        pull_off_force=None if found is None else found.pull_off_force,
-        interval=None if found is None else found.interval,
+        **_shared(asked, found, forms.edge_speed, forms.start_radius),
         rate_regime=regime,
         amplification=None if found is None else found.pull_off_force / forms.slowest,
-        start_radius=forms.start_radius,
-        preload=preload,
+        preload="any" if regime == "quasi-static" else forms.preload if change else "unknown",
         preload_change=change,
-        crack_speed_at_pull_off_m_per_s=speed,
-        beyond_linear=None if speed is None else speed > LINEAR_SPEED,
-        strain=strain,
-        small_strain=None if strain is None else strain < _SMALL_STRAIN,
-        use=SIMULATION if found is None else found.method,
         estimates=tuple(estimate_by(tier, asked) for tier in TIERS if tier.name not in _OTHER),
-        force_scale=None if scales is None else scales.force,
     )
+
+
+def _of_other(asked: Question, found: Prediction | None) -> Advice:
+    """Return the advice on another contact of revolution."""
+    contact = other_contact(asked.groups)
+    radius = contact.start_radius
+    shared: Any = _shared(
+        asked, found, contact.edge_speed, None if radius is None else radius / ROOT
+    )
+    if isinstance(asked.problem, Problem) and (strain := contact.film_strain) is not None:
+        strain *= shared["length_scale"] / asked.problem.radius
+        contact = replace(contact, film_strain=strain)
+    if contact.reaches_through and shared["adhesion"] == "jkr":
+        shared["adhesion"] = "transition"
+    regime = contact.regime_of(None if found is None else found.pull_off_force)
+    return Advice(
+        **shared,
+        rate_regime=regime,
+        amplification=None if found is None else found.pull_off_force / contact.slow_force,
+        preload="any" if regime == "quasi-static" else "unknown",
+        preload_change=None,
+        estimates=(*contact.estimates, *(estimate_by(tier, asked) for tier in _FOR_OTHERS)),
+        contact=contact,
+    )
+
+
+def _shared(
+    asked: Question, found: Prediction | None, edge_speed: float | None, start: float | None
+) -> dict[str, Any]:
+    """Return the part of an advice that does not depend on the kind of contact."""
+    problem, groups = asked.problem, asked.groups
+    scales: Any = problem.scales() if isinstance(problem, Problem) else None
+    speed = strain = None
+    if scales is not None and edge_speed is not None:
+        speed = edge_speed * scales.edge_speed
+    if scales is not None and start is not None and isinstance(problem.geometry, Sphere):
+        strain = start * scales.radius / problem.geometry.radius
+    mu = groups.effective_tabor
+    return {
+        "tabor": groups.tabor,
+        "effective_tabor": mu,
+        "glassy_tabor": mu * groups.modulus_ratio ** (1 / 3),
+        "adhesion": "dmt" if mu < _DMT else "jkr" if mu > _JKR else "transition",
+        "pull_off_force": None if found is None else found.pull_off_force,
+        "interval": None if found is None else found.interval,
+        "start_radius": start,
+        "crack_speed_at_pull_off_m_per_s": speed,
+        "beyond_linear": None if speed is None else speed > LINEAR_SPEED,
+        "strain": strain,
+        "small_strain": None if strain is None else strain < _SMALL_STRAIN,
+        "use": SIMULATION if found is None else found.method,
+        "force_scale": None if scales is None else scales.force,
+        "length_scale": None if scales is None else scales.radius / ROOT,
+        "speed_scale": None if scales is None else scales.length / scales.time,
+    }
 
 
 # Tiers that never apply to a sphere.
 _OTHER = ("surrogate of punches",)
-_CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != "crack contact")
+_CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != CRACK_CONTACT)
+# Tiers that may apply to other contacts.
+_FOR_OTHERS = tuple(tier for tier in TIERS if tier.name in (CRACK_CONTACT, SIMULATION))
 
 
 def _regime(forms: ClosedForms, found: Prediction | None) -> str:
@@ -242,6 +305,56 @@ def _headline(advice: Advice) -> str:
     )
 
 
+def _of_contact(advice: Advice, contact: OtherContact) -> list[str]:
+    """Describe the limits of a contact, and what the thickness of a film does."""
+
+    def force(value: float) -> str:
+        scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
+        return readable(scale * value, unit)
+
+    def length(value: float) -> str:
+        return readable(
+            value * (advice.length_scale or 1.0), "m" if advice.length_scale else "beta"
+        )
+
+    def speed(value: float) -> str:
+        unit = "m/s" if advice.speed_scale else "h0/tau0"
+        return readable(value * (advice.speed_scale or 1.0), unit, digits=2)
+
+    slow, fast = contact.slow_force, contact.fast_force
+    limits = f"lies between {force(slow)} (relaxed) and {force(fast)} (fastest retraction from "
+    words = f"{limits}this start)" if fast > slow else f"is {force(slow)}"
+    found = [f"For forces of short range the pull-off force {words}."]
+    if contact.strength_force is not None:
+        found.append(
+            f"Uniform detachment at the strength of the interface takes "
+            f"{force(contact.strength_force)}."
+        )
+    if (ratio := contact.over_half_space) is not None:
+        found.append(
+            f"This film holds {ratio:.3g} times the slow force of a half-space; the radius of the "
+            f"contact at pull-off is {contact.radius_over_thickness:.2g} thicknesses."
+        )
+    if contact.half_space_thickness is not None:
+        each = zip(TOLERANCES, contact.half_space_thickness, strict=True)
+        words = ", ".join(f"{length(value)} (to {part:.0%})" for part, value in each)
+        found.append(f"In slow retraction the film is a half-space from a thickness of {words} on.")
+    here, half_space = contact.saturation_rate, contact.half_space_saturation_rate
+    if here is not None:
+        on_film = "" if half_space is None else f", on a half-space at {speed(half_space)}"
+        found.append(
+            f"The force reaches {SATURATED:.0%} of the fast limit at a retraction speed of about "
+            f"{speed(here)}{on_film}, by the theory of a receding crack."
+        )
+    elif advice.glassy_tabor < advice.effective_tabor:
+        found.append("The speed at which the gain saturates is not known here: simulate.")
+    if advice.length_scale is not None and (strain := contact.film_strain) is not None:
+        small = strain < _SMALL_FILM_STRAIN
+        verdict = "small" if small else "not small; use the numbers as estimates"
+        found.append(f"The largest strain of the film at the start is {strain:.2g}: {verdict}.")
+    return found
+
+
 def _sentences(advice: Advice) -> list[str]:
     words = {
         "jkr": "The forces have a short range: the contact peels like a crack (JKR).",
@@ -252,15 +365,18 @@ def _sentences(advice: Advice) -> list[str]:
         "speed.",
         "glassy": "The retraction is so fast that the edge is glassy: more speed adds little "
         "force.",
-        "unknown": "No fast tier was verified for this problem: simulate.",
+        "unknown": "The regime is unknown.",
     }
+    simulate = "" if advice.pull_off_force else " No fast tier was verified here: simulate."
     effective = ""
     if abs(advice.effective_tabor / advice.tabor - 1) > 1e-9:
         effective = f", {advice.effective_tabor:.3g} (effective) for the range of this law"
     found = [
         f"{words[advice.adhesion]} Tabor number {advice.tabor:.3g}{effective}.",
-        f"{words[advice.rate_regime]}{_headline(advice)}",
+        f"{words[advice.rate_regime]}{_headline(advice)}{simulate}",
     ]
+    if advice.contact is not None:
+        found += _of_contact(advice, advice.contact)
     if advice.preload_change is not None:
         found.append(_pressing(advice.preload, *advice.preload_change))
     if advice.beyond_linear and (speed := advice.crack_speed_at_pull_off_m_per_s) is not None:

@@ -283,12 +283,22 @@ _JKR_FORCE = 1.5 * np.pi
 
 def check_retraction(groups: Groups) -> None:
     """Raise an InputError for tests that the closed forms do not cover."""
-    if not isinstance(groups.geometry, Sphere) or not isinstance(groups.body, HalfSpace):
+    if not is_classic(groups):
         shape, body = groups.geometry.word, groups.body.word
         where = "" if isinstance(groups.body, HalfSpace) else f" on a {body}"
         raise InputError(
-            f"advice covers spheres on a half-space, got a {shape}{where}; simulate it"
+            f"the closed forms cover spheres on a half-space, got a {shape}{where}; simulate it"
         )
+    check_test(groups)
+
+
+def is_classic(groups: Groups) -> bool:
+    """Whether it is a sphere on a half-space, which the closed forms cover."""
+    return isinstance(groups.geometry, Sphere) and isinstance(groups.body, HalfSpace)
+
+
+def check_test(groups: Groups) -> None:
+    """Raise an InputError for tests other than a retraction from rest at constant speed."""
     check_of_gap_alone(groups.traction, "advice")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:

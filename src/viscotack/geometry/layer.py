@@ -52,6 +52,7 @@ from scipy.special import xlogy, zeta
 
 from viscotack.errors import InputError
 from viscotack.geometry.bases import Base
+from viscotack.geometry.gauss import gauss
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).
 _NEAR, _FAR = 1.0, 48.0
@@ -186,9 +187,7 @@ def _near(base: Base, y: npt.NDArray) -> npt.NDArray:
     Taken off is the half-plane: -ln y is the integral of (cos ty - exp -t)/t.
     """
     edges = np.concatenate([np.linspace(0.0, 4.0, 9), np.linspace(6.0, 40.0, 18)])
-    nodes, weights = np.polynomial.legendre.leggauss(16)
-    half = np.diff(edges)[:, None] / 2
-    t, w = (edges[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
+    t, w = gauss(edges, 16)
     rest = 1 - base.transfer(t)
     sinc = np.sinc(np.multiply.outer(y, t) / (2 * np.pi))
     return 1.5 / np.pi + (np.exp(-t) - rest * sinc * sinc) @ (w / t) / np.pi

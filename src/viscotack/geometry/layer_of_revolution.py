@@ -29,6 +29,7 @@ from scipy.special import j0
 
 from viscotack.errors import InputError
 from viscotack.geometry.bases import Base
+from viscotack.geometry.gauss import gauss
 from viscotack.geometry.half_space import influence as half_space_influence
 from viscotack.geometry.layer import own_displacement
 
@@ -116,10 +117,7 @@ def _table(base: Base, places: int) -> npt.NDArray:
     """Return k(y, y') at multiples of b/8."""
     y = np.arange(places) / _PER_THICKNESS
     panels = max(8, int(np.ceil(2 * y[-1] * _LAST / _PHASE)))
-    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
-    edges = np.linspace(0.0, _LAST, panels + 1)
-    half = np.diff(edges)[:, None] / 2
-    t, w = (edges[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
+    t, w = gauss(np.linspace(0.0, _LAST, panels + 1), _POINTS)
     weight = 2 * w * (base.transfer(t) - 1)
     found = np.zeros((places, places))
     for first in range(0, t.size, _BLOCK):

@@ -90,6 +90,30 @@ class Sphere:
         return Sphere(_snapped(self.radius * height / along**2, 1.0))
 
 
+def effective_sphere(first: Sphere, second: Sphere) -> Sphere:
+    r"""Return the sphere on a flat body that stands for a sphere on a sphere.
+
+    .. math:: \frac{1}{R} = \frac{1}{R_1} + \frac{1}{R_2}
+
+    Parameters
+    ----------
+    first, second : Sphere
+        Convex spheres with radii [m] much larger than their contact.
+
+    Returns
+    -------
+    Sphere
+        The gap between the two is its gap to a plane. For two soft spheres the material is
+        :func:`viscotack.materials.two_bodies.effective_solid`.
+
+    Examples
+    --------
+    >>> effective_sphere(Sphere(2e-3), Sphere(2e-3))
+    Sphere(radius=0.001)
+    """
+    return Sphere(1 / (1 / first.radius + 1 / second.radius))
+
+
 @dataclass(frozen=True)
 class FlatPunch:
     """Rigid flat punch, long in the third direction: plane strain.

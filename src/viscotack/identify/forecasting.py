@@ -30,6 +30,7 @@ from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
 
 _MOST = 200  # largest number of speeds
+_SAME = 0.03  # relative difference of equal speeds and equal preloads
 _DRAWS, _TIMES = 200, 10  # number of sampled interfaces, and of forces per interface
 
 
@@ -145,7 +146,7 @@ def forecast_rates(
     left = spread[m:, m:] - gain @ spread[:m, m:]
     root = _root(left)
 
-    chain = posterior(fit.objective, fit.best, seed=seed)
+    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
     draws = chain.thinned(_DRAWS)
     works, gaps = draws[:, :1], draws[:, 1:2]
     laws = None
@@ -158,8 +159,13 @@ def forecast_rates(
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
     sample = np.exp(moved + noise).reshape(-1, v.size) * changed
+    slower, uncertain = _slower(fit, v, load, passport, spring, dwell)
+    draws = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
+    sample = np.maximum(sample, draws)
     part = (1 - level) / 2
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
+    raised = slower > median
+    median, high = np.maximum(median, slower), np.maximum(high, slower)
     return RateForecast(
         v,
         median,
@@ -170,7 +176,7 @@ def forecast_rates(
         passport.temperature,
         dwell,
         chain,
-        tuple(_words(fit, v, middle.crack_speed, chain)),
+        tuple([*_words(fit, v, middle.crack_speed, chain), *_raised_words(v[raised])]),
     )
 
 
@@ -197,6 +203,41 @@ def _check(
             f"dwell must not be negative and approach_speed must be positive, got {dwell} s, "
             f"{approach} m/s"
         )
+
+
+def _slower(
+    fit: RateSeriesFit,
+    speed: Array,
+    preload: float,
+    passport: Passport,
+    stiffness: float | None,
+    dwell: float | None,
+) -> tuple[Array, Array]:
+    """Return the largest force measured at a slower speed, and its relative uncertainty.
+
+    Pull-off forces of a linear solid grow with the speed and do not fall with the preload of a
+    relaxed contact. Zero where no such force was measured under the same conditions.
+    """
+    same = passport.temperature == fit.passport.temperature and dwell is None
+    slower, uncertain = np.zeros(speed.size), np.zeros(speed.size)
+    if not same or stiffness != fit.stiffness:
+        return slower, uncertain
+    for one in (*fit.series, *fit.excluded):
+        if one.preload is None or one.preload > (1 + _SAME) * preload:
+            continue
+        at = (speed > (1 + _SAME) * one.speed) & (one.force.value > slower)
+        slower[at], uncertain[at] = one.force.value, one.force.uncertainty / one.force.value
+    return slower, uncertain
+
+
+def _raised_words(speed: Array) -> list[str]:
+    if not speed.size:
+        return []
+    at = readable(float(speed.min()), "m/s", digits=3, to=float(speed.max()))
+    return [
+        f"at {at} the model predicts less than was measured at a slower speed; there the forecast "
+        "is the measured force"
+    ]
 
 
 def _check_growth(fit: RateSeriesFit, passport: Passport) -> None:
@@ -267,8 +308,8 @@ def _words(fit: RateSeriesFit, speed: Array, crack: Array, chain: Posterior) -> 
     said.append(
         f"the crack speed at pull-off is {readable(crack.min(), 'm/s', digits=2, to=crack.max())}"
     )
-    if any(ends.split for ends in fit.intervals.values()):
-        said.append("the band covers only the more likely of two ranges of attraction")
+    if len(fit.solutions) > 1:
+        said.append(f"the band covers the {len(fit.solutions)} interfaces that fit the forces")
     if not chain.converged:
         said.append(
             "too few independent samples of the posterior: the correlation time is "

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscotack.lab.tack import Cycle, Measured
+from viscotack.units import readable
 
+from .repeats import Repeats, pooled
 from .travel import travels
 
 _SAME = 0.03  # relative difference below which speeds are equal
@@ -26,35 +28,56 @@ class PullOff:
         Force under which the contact relaxed [N].
     travels : tuple of Measured, optional
         Travels along the curve [m], from :func:`.travel.travels`.
+    remarks : tuple of str
+        Sentences on the tests at this speed.
     """
 
     speed: float
     force: Measured
     preload: float | None = None
     travels: tuple[Measured, ...] | None = None
+    remarks: tuple[str, ...] = ()
 
 
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     """Return one pull-off per speed; repeated cycles are averaged.
 
-    Speeds within 3 % are equal. The uncertainty of a mean includes the scatter of its cycles. The
-    preload is the force at the start of the retractions, or None if one begins in tension.
+    Speeds within 3 % are equal. The uncertainty of a mean includes the scatter of repeated cycles,
+    which is pooled over all speeds (:mod:`.repeats`). The preload is the force at the start of the
+    retractions, or None if one begins in tension.
     """
-    found: list[PullOff] = []
-    rest = sorted(cycles, key=lambda cycle: cycle.speed.value)
-    while rest:
-        first = rest[0].speed.value
-        same = [cycle for cycle in rest if cycle.speed.value <= (1 + _SAME) * first]
-        rest = rest[len(same) :]
-        forces = np.array([cycle.pull_off_force.value for cycle in same])
-        own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
-        spread = float(np.std(forces, ddof=1) / np.sqrt(forces.size)) if forces.size > 1 else 0.0
-        speed = float(np.mean([cycle.speed.value for cycle in same]))
-        begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
-        force = Measured(float(forces.mean()), float(np.hypot(own, spread)))
-        preload = float(np.mean(begins)) if min(begins) > 0 else None
-        found.append(PullOff(speed, force, preload, _mean([travels(cycle) for cycle in same])))
-    return found
+    groups: list[list[Cycle]] = []
+    for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
+        if groups and cycle.speed.value <= (1 + _SAME) * groups[-1][0].speed.value:
+            groups[-1].append(cycle)
+        else:
+            groups.append([cycle])
+    repeats = pooled([[one.pull_off_force.value for one in same] for same in groups])
+    rows = zip(groups, repeats.means, repeats.far, strict=True)
+    return [_of_one_speed(same, mean, repeats, far) for same, mean, far in rows]
+
+
+def _of_one_speed(
+    same: Sequence[Cycle], mean: float, repeats: Repeats, far: Sequence[int]
+) -> PullOff:
+    speed = float(np.mean([cycle.speed.value for cycle in same]))
+    own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
+    spread = mean * repeats.uncertainty(len(same))
+    begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
+    at = readable(speed, "m/s", digits=3)
+    remarks = tuple(
+        f"one of {len(same)} tests at {at} is far from the others there and counts little: "
+        f"{readable(same[i].pull_off_force.value, 'N', digits=3)}, their mean is "
+        f"{readable(mean, 'N', digits=3)} (scatter of single tests {repeats.scatter:.1%})"
+        for i in far
+    )
+    return PullOff(
+        speed,
+        Measured(mean, float(np.hypot(own, spread))),
+        float(np.mean(begins)) if min(begins) > 0 else None,
+        _mean([travels(cycle) for cycle in same]),
+        remarks,
+    )
 
 
 def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:

@@ -26,12 +26,26 @@ from .interpolated_forces import Table
 from .machine_compliance import Yielding, yielding_near
 from .objective import Best, Interval, Objective
 from .pull_off import PullOff
-from .search import LEAST_TABOR, Data, Search, closely, plain_table, pulled_with_growth, widely
+from .search import (
+    LEAST_TABOR,
+    Data,
+    Search,
+    closely,
+    plain_table,
+    pulled_with_growth,
+    settled,
+    widely,
+)
+from .solutions import solution_words, solutions
 
 # Relative standard uncertainty of the forward model, without and with growth.
 _THEORY, _GROWING_THEORY = 0.02, 0.03
 _LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _MOST = 40  # largest number of speeds
+_BETWEEN, _CLOSE = (
+    (1e-3, 1.0),
+    0.05,
+)  # searched scatters between speeds, and their relative accuracy
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 
@@ -51,11 +65,18 @@ class RateSeriesFit:
     forces : tuple of float
         Pull-off forces of the most likely interface at the measured speeds [N].
     scatter : float
-        Root mean square of the residuals over their uncertainty.
+        Root mean square of the residuals over their uncertainty, without `between_speeds`.
+    between_speeds : float
+        Relative scatter of the forces from speed to speed beyond that of repeated tests and of the
+        theory, in the covariance; 0 if the residuals need none.
+    solutions : tuple of Best
+        Separate interfaces that fit the forces, the most likely first; mostly one.
     words : tuple of str
         Sentences on the result and on what the data do not determine.
     series : tuple of PullOff
         Fitted pull-offs, each with its preload.
+    excluded : tuple of PullOff
+        Pull-offs at speeds for which the theory does not hold.
     passport : Passport
         Passport of the material.
     forward : Forward
@@ -82,8 +103,11 @@ class RateSeriesFit:
     intervals: dict[str, Interval]
     forces: tuple[float, ...]
     scatter: float
+    between_speeds: float
+    solutions: tuple[Best, ...]
     words: tuple[str, ...]
     series: tuple[PullOff, ...]
+    excluded: tuple[PullOff, ...]
     passport: Passport
     forward: Forward
     covariance: Array
@@ -180,27 +204,36 @@ def identify_rates(
         Forward(passport.material, radius), data_of, series, passport, gaps, stiffness, growth
     )
     if growth:
-        search, best, intervals = closely(forward, search, level)
+        fit, intervals = closely(forward, search, level)
     else:
-        best = search.best()
-        intervals = search.intervals(best, level)
+        fit = settled(search)
+        intervals = fit.search.intervals(fit.best, level)
+    search, best = fit.search, fit.best
     _check_place(forward, search, best, stiffness)
     found = _growth(forward, search, replace(search, table=plain, opening=None), best)
     objective, data = search.objective, search.data
-    rest = objective.residuals(best.values)
-    noisy = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
+    several = solutions(objective, best, intervals, level)
     doubted = bool(allowed(passport))
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
-    words = [*_words(best, intervals, noisy, level, doubted, found), *_left_out(dropped)]
+    words = [
+        *_words(best, intervals, fit.scatter, level, doubted, found),
+        *_between_words(fit.between),
+        *solution_words(several, forward, search.opening, data.speed, data.load, theory),
+        *_left_out(dropped),
+        *(remark for one in series for remark in one.remarks),
+    ]
     return RateSeriesFit(
         work_of_adhesion=w,
         equilibrium_gap=gap,
         tabor=forward.problem(w, gap, float(data.load[0])).groups().tabor,
         intervals=intervals,
         forces=tuple((search.table(best.values) * search.yielding(best.values)).tolist()),
-        scatter=noisy,
+        scatter=fit.scatter,
+        between_speeds=fit.between,
+        solutions=several,
         words=tuple(words),
         series=tuple(data.series),
+        excluded=tuple(one for one in series if one.speed in dropped),
         passport=passport,
         forward=forward,
         covariance=search.spread,
@@ -410,6 +443,15 @@ def _words(
     return said
 
 
+def _between_words(between: float) -> list[str]:
+    if not between:
+        return []
+    return [
+        f"forces scatter by {between:.1%} from speed to speed beyond repeated tests and theory; "
+        "the intervals include this"
+    ]
+
+
 def _speed(value: float) -> str:
     return readable(value, "m/s", digits=3)
 
@@ -429,7 +471,6 @@ def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -
         said = [f"{label}: not identifiable from these speeds"]
     if ends.split:
         said.append(
-            f"the interval of the {label} consists of two separate ranges that fit these forces; "
-            "another speed, whole curves or a slow test would distinguish them"
+            f"the interval of the {label} consists of separate ranges that fit these forces"
         )
     return said

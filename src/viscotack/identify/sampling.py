@@ -1,5 +1,6 @@
 """Sample the posterior of an objective by an ensemble of walkers."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,7 +48,14 @@ class Posterior:
         return self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
 
 
-def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: int = 0) -> Posterior:
+def posterior(
+    objective: Objective,
+    best: Best,
+    *,
+    others: Sequence[Best] = (),
+    steps: int = _STEPS,
+    seed: int = 0,
+) -> Posterior:
     """Sample the parameters from the posterior density of an objective.
 
     Without a given prior, it is uniform between the bounds, in the logarithm of positive
@@ -59,6 +67,10 @@ def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: in
         Objective of a fit.
     best : Best
         Most likely parameters, near which the walkers start.
+    others : sequence of Best
+        Separate solutions. Walkers do not cross the unlikely range between solutions, so each has
+        its own walkers, and their shares are the evidence of each solution, with the covariance of
+        its samples (Laplace's approximation).
     steps : int
         Steps of each of the 16 walkers, after 100 discarded steps.
     seed : int
@@ -73,6 +85,37 @@ def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: in
     ----------
     Foreman-Mackey et al., emcee: the MCMC hammer (2013), doi:10.1086/670067.
     """
+    starts = (best, *others)
+    chains = [_sampled(objective, one, steps, seed + i) for i, one in enumerate(starts)]
+    evidence = np.array(
+        [
+            -start.misfit / 2 + _volume(inner)
+            for start, (inner, _) in zip(starts, chains, strict=True)
+        ]
+    )
+    shares = np.exp(evidence - evidence.max())
+    counts = np.round(shares / shares.sum() * chains[0][0].shape[0]).astype(int)
+    rng = np.random.default_rng(seed)
+    inner = np.concatenate(
+        [
+            chain if count == len(chain) else rng.choice(chain, count)
+            for (chain, _), count in zip(chains, counts, strict=True)
+        ]
+    )
+    parameters = objective.parameters
+    values = [p.outer_of(x) for p, x in zip(parameters, inner.T, strict=True)]
+    time = max(time for _, time in chains)
+    enough = steps * _WALKERS > _INDEPENDENT * time
+    return Posterior(parameters, np.stack(values, axis=1), time, enough)
+
+
+def _volume(inner: Array) -> float:
+    """Return the logarithm of the volume of a cloud of samples, up to a constant."""
+    return float(np.linalg.slogdet(np.atleast_2d(np.cov(inner.T)))[1]) / 2
+
+
+def _sampled(objective: Objective, best: Best, steps: int, seed: int) -> tuple[Array, float]:
+    """Return samples around one solution in search coordinates, and the correlation time."""
     try:
         import emcee
     except ImportError as error:
@@ -93,7 +136,4 @@ def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: in
     sampler.reset()
     sampler.run_mcmc(state, steps)
     time = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
-    inner = np.asarray(sampler.get_chain(flat=True))
-    values = [p.outer_of(x) for p, x in zip(parameters, inner.T, strict=True)]
-    enough = steps * _WALKERS > _INDEPENDENT * time
-    return Posterior(parameters, np.stack(values, axis=1), time, enough)
+    return np.asarray(sampler.get_chain(flat=True)), time

@@ -6,10 +6,11 @@ interfaces, and a fine table covers only these.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import root_scalar
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -29,6 +30,7 @@ LEAST_TABOR = 2.0  # effective: below it the theory does not hold
 _COARSE, _COARSE_RADII, _COARSE_SPEEDS = (0.57, 0.57, 0.5, 0.2), 40, 6
 # The same for the fine table, with all pull-offs.
 _FINE, _FINE_RADII = (0.29, 0.46, 0.4, 0.15), 80
+_BETWEEN, _CLOSE = (1e-3, 1.0), 0.05  # searched scatters between speeds, relative accuracy
 _FEWEST = 5  # smallest number of values of an unknown
 # Refinement of the coarse table for the search, and misfits above the minimum that are kept
 # at first, and where an interval needs more.
@@ -77,6 +79,10 @@ class Search:
         """Matrix that makes the residuals independent with unit variance."""
         at = slice(None) if self.some is None else np.ix_(self.some, self.some)
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])), dtype=np.float64)
+
+    def scattered(self, between: float) -> "Search":
+        """Return this search with a relative scatter between speeds added to its covariance."""
+        return replace(self, spread=self.spread + between**2 * np.eye(len(self.spread)))
 
     def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
         """Return relative residuals of the forces, corrected for the machine's stiffness."""
@@ -200,10 +206,55 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     return replace(plain, table=table, opening=opening, some=some)
 
 
-def closely(
-    forward: Forward, coarse: Search, level: float
-) -> tuple[Search, Best, dict[str, Interval]]:
-    """Return a fine search near the likely interfaces, its best fit and the intervals."""
+class Settled(NamedTuple):
+    """A search with the scatter between speeds that its residuals need.
+
+    Attributes
+    ----------
+    search : Search
+        Search with that scatter in its covariance.
+    best : Best
+        Its best fit.
+    scatter : float
+        Root mean square of the residuals over their uncertainty, without that scatter.
+    between : float
+        Relative scatter between speeds.
+    """
+
+    search: Search
+    best: Best
+    scatter: float
+    between: float
+
+
+def settled(search: Search) -> Settled:
+    """Add the scatter between speeds with which residuals are as large as expected.
+
+    This is the estimate of Paule and Mandel (1982), doi:10.6028/jres.087.022: at the best fit for
+    that scatter, the sum of squares of the residuals equals the degrees of freedom.
+    """
+    best = search.best()
+    rest = search.objective.residuals(best.values)
+    scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
+    count = search.data.speed.size
+    freedom = count - len(best.values)
+
+    def excess(log_scatter: float) -> float:
+        wider = search.scattered(float(np.exp(log_scatter))).objective
+        forces = wider.residuals(wider.best(near=best).values)[:count]
+        return float(forces @ forces) - freedom
+
+    low, high = (float(np.log(x)) for x in _BETWEEN)
+    if freedom <= 0 or excess(low) <= 0:
+        return Settled(search, best, scatter, 0.0)
+    root = high if excess(high) >= 0 else root_scalar(excess, bracket=(low, high), xtol=_CLOSE).root
+    between = float(np.exp(root))
+    wider = search.scattered(between)
+    return Settled(wider, wider.best(), scatter, between)
+
+
+def closely(forward: Forward, coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]:
+    """Return a fine search near the likely interfaces, settled, and the intervals."""
     data, widest = coarse.data, {one.name: one for one in coarse.parameters}
     points, misfits = coarse.scanned(_DENSE)
     least = misfits.min()
@@ -224,12 +275,11 @@ def closely(
             travels=data.curves,
             radii=_FINE_RADII,
         )
-        search = replace(coarse, table=table, some=None)
-        best = search.best()
-        intervals = search.intervals(best, level)
+        found = settled(replace(coarse, table=table, some=None))
+        intervals = found.search.intervals(found.best, level)
         if not any(_cut(intervals[name], axes[name], widest[name]) for name in axes):
             break
-    return search, best, intervals
+    return found, intervals
 
 
 def _cut(interval: Interval, axis: Array, widest: Parameter) -> bool:

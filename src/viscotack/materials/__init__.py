@@ -10,6 +10,7 @@ from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
+from viscotack.materials.two_bodies import effective_solid
 
 __all__ = [
     "WLF",
@@ -26,6 +27,7 @@ __all__ = [
     "RetardationPowerLaw",
     "StandardSolid",
     "TabulatedShift",
+    "effective_solid",
     "published",
     "read_passport",
     "write_passport",

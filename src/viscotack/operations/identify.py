@@ -210,7 +210,9 @@ class IdentifyRates(Operation):
             files={"output": study_file(self, caller.folder)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
-                "corner": lambda: draw_posterior(posterior(fit.objective, fit.best), fit),
+                "corner": lambda: draw_posterior(
+                    posterior(fit.objective, fit.best, others=fit.solutions[1:]), fit
+                ),
             },
             notes=refusals(found.survey),
         )

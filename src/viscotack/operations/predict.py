@@ -168,7 +168,9 @@ class Predict(Operation):
 class Advise(Operation):
     """Determine the regime of a contact and the reliability of each method.
 
-    The problem is stated as for simulate sphere, by flags or by a file in SI.
+    The problem is stated as for simulate sphere, by flags or by a file in SI with any indenter of
+    revolution. For a film (--thickness) the answer says when it is a half-space, how much more it
+    holds, and at which speed the gain saturates; for discs and profiles it has the two limits.
 
     Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73
     --rate 316.23
@@ -177,7 +179,10 @@ class Advise(Operation):
     word: ClassVar = "advise"
     takes_own: ClassVar = True
 
-    problem: Annotated[Statement, Stated("The contact, of a sphere.", whole=False)]
+    problem: Annotated[
+        Statement,
+        Stated("The contact, of revolution.", indenters=("sphere", "profile", "disc")),
+    ]
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
@@ -185,7 +190,10 @@ class Advise(Operation):
 
         problem = self.problem.problem
         if problem.groups().in_plane_strain:
-            raise InputError("advice is for a sphere, got a punch; viscotack predict answers it")
+            raise InputError(
+                "advice is for shapes of revolution; this problem contains a punch, which "
+                "viscotack predict answers"
+            )
         advice = advise(problem)
         return Answer(
             advice,
@@ -197,12 +205,30 @@ class Advise(Operation):
 
 def _advised(advice: "Advice") -> dict[str, Any]:
     """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
-    record = asdict(advice) | {"sentences": list(advice.sentences)}
+    record: dict[str, Any] = asdict(advice) | {"sentences": list(advice.sentences)}
+    scales = record.pop("length_scale"), record.pop("speed_scale")
+    if (contact := record.pop("contact")) is not None:
+        del contact["receding"], contact["start_radius"], contact["edge_speed"]
+        record |= contact | _in_si(contact, scales)
     if (unit := advice.force_scale) is not None:
         force, interval = advice.pull_off_force, advice.interval
         record["pull_off_force_N"] = None if force is None else force * unit
         record["interval_N"] = None if interval is None else [end * unit for end in interval]
     return record
+
+
+def _in_si(contact: dict[str, Any], scales: tuple[float | None, float | None]) -> dict[str, Any]:
+    """Return thicknesses [m] and speeds [m/s] of the advice on a film."""
+    found: dict[str, Any] = {}
+    length, speed = scales
+    if length is None or speed is None:
+        return found
+    if (thick := contact["half_space_thickness"]) is not None:
+        found["half_space_thickness_m"] = [length * value for value in thick]
+    for name in ("saturation_rate", "half_space_saturation_rate"):
+        if (rate := contact[name]) is not None:
+            found[f"{name.removesuffix('rate')}speed_m_per_s"] = rate * speed
+    return found
 
 
 def _simulated(problem: "Case") -> "Result":

@@ -94,13 +94,14 @@ class Simulate(Operation):
         "profile": """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic
     half-space.
 
-    By dimensionless numbers, R being the equivalent radius, or in SI by a file that has a table
-    [profile] in place of [sphere]: `slope` of a cone, or `exponent`, and `height` at a radius
-    `at_radius`.
+    By dimensionless numbers, R being the equivalent radius (a measured profile by --points), or in
+    SI by a file that has a table [profile] in place of [sphere]: `slope` of a cone, or `exponent`,
+    and `height` at a radius `at_radius`.
 
     Example: viscotack simulate profile examples/from_toml/cone.toml
     """,
-        "disc": """Pull a disc, the flat end of a cylinder, off a soft viscoelastic half-space.
+        "disc": """Pull a disc, the flat end of a cylinder, off a soft viscoelastic half-space or
+    a layer.
 
     The problem is given by dimensionless numbers with R = a sqrt(a E0*/dg0), a the radius of the
     disc, so that the Tabor number is sqrt(a dg0/E0*)/h0; the edge is sharp. In SI it is given by a

@@ -1,4 +1,4 @@
-"""The operations ``theory jkr``, ``maugis`` and ``crack-contact``: contacts without simulation."""
+"""The operations ``theory jkr``, ``disc``, ``maugis`` and ``crack-contact``: no simulation."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
@@ -19,6 +19,7 @@ from .parts.tables import as_text
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from viscotack.geometry import HalfSpace, Layer
     from viscotack.methods.by_crack import CrackContact
 
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0, metavar="LENGTH")
@@ -26,12 +27,38 @@ _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0, metavar=
 _WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0, metavar="ENERGY")
 
 
+_THICKNESS = Number(
+    'Thickness of a layer on a rigid base, "60 um"; a half-space when left out.',
+    unit="m",
+    above=0,
+    metavar="LENGTH",
+)
+_GLUED = Number(
+    "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer slides "
+    "on its base.",
+    least=0,
+    most=0.5,
+    metavar="NU",
+)
+
+
+def _body(thickness: float | None, bonded: float | None) -> "HalfSpace | Layer":
+    """Return the half-space, or the layer of a thickness."""
+    from viscotack.geometry import Bonded, Frictionless, HalfSpace, Layer
+
+    if thickness is None:
+        if bonded is not None:
+            raise InputError("--bonded needs a layer; give its --thickness as well")
+        return HalfSpace()
+    return Layer(thickness, Frictionless() if bonded is None else Bonded(poisson_ratio=bonded))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Jkr(Operation):
-    """Detachment of an elastic sphere, forces of short range (JKR).
+    """Detachment of an elastic sphere, forces of short range (JKR), from a half-space or a film.
 
     Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
-    "50 mJ/m^2"
+    "50 mJ/m^2" --thickness "60 um" --bonded 0.49
     """
 
     word: ClassVar = "theory jkr"
@@ -40,9 +67,16 @@ class Jkr(Operation):
     radius: Annotated[float, _RADIUS]
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
+    thickness: Annotated[float | None, _THICKNESS] = None
+    bonded: Annotated[float | None, _GLUED] = None
+
+    def __post_init__(self) -> None:
+        _body(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
+        if self.thickness is not None:
+            return self._on_film()
         from viscotack.theory import jkr
 
         case = {
@@ -63,6 +97,100 @@ class Jkr(Operation):
         }
         curve = jkr.depth(a, **case), jkr.force(a, **case)
         return closed_form(end, record, curve, ("depth [m]", "force [N]"))
+
+    def _on_film(self) -> Answer:
+        from viscotack.geometry import HalfSpace, Layer, Sphere
+        from viscotack.protocol import AtForce
+        from viscotack.theory import film
+        from viscotack.theory.elastic import relaxed
+
+        body = _body(self.thickness, self.bonded)
+        assert isinstance(body, Layer), "it has a thickness"
+        solid: Any = {
+            "shape": Sphere(self.radius),
+            "contact_modulus": self.contact_modulus,
+            "work_of_adhesion": self.work_of_adhesion,
+        }
+        end, fold = film.pull_off(body=body, **solid), film.instability(body=body, **solid)
+        free = relaxed.contact(AtForce(0.0), body=body, **solid)
+        assert free is not None, "every JKR contact has a state without load"
+        whole = film.pull_off(body=HalfSpace(), **solid)
+        limit = {"radius": self.radius, "work_of_adhesion": self.work_of_adhesion}
+        record = {
+            "pull_off_force_N": -end.force,
+            "contact_radius_at_pull_off_m": end.contact_radius,
+            "depth_at_pull_off_m": end.depth,
+            "work_to_pull_off_J": film.work_to_pull_off(body=body, **solid),
+            "contact_radius_without_load_m": free.contact_radius,
+            "instability_depth_m": fold.depth,
+            "over_half_space": end.force / whole.force,
+            "thin_limit_N": film.thin_limit(base=body.base, **limit),
+            "half_space_thickness_m": film.half_space_thickness(base=body.base, **solid),
+        }
+        a = np.linspace(0.0, 1.5 * float(free.contact_radius), 201)[1:]
+        depth, force = relaxed.curve(body=body, **solid)
+        return closed_form(end, record, (depth(a), force(a)), ("depth [m]", "force [N]"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfDisc(Operation):
+    """Detachment of a disc, the flat end of a cylinder, from a half-space or a film (Kendall).
+
+    Example: viscotack theory disc --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
+    "50 mJ/m^2" --strength "50 kPa" --thickness "200 um" --bonded 0.49
+    """
+
+    word: ClassVar = "theory disc"
+    outputs: ClassVar = (picture("Draw the force against the radius of the disc."),)
+
+    radius: Annotated[
+        float, Number('Radius of the disc a, "1 mm".', unit="m", above=0, metavar="LENGTH")
+    ]
+    contact_modulus: Annotated[float, _MODULUS]
+    work_of_adhesion: Annotated[float, _WORK]
+    strength: Annotated[
+        float | None,
+        Number(
+            'Of the interface, "50 kPa"; its force limits that of Kendall.',
+            unit="Pa",
+            above=0,
+            metavar="PRESSURE",
+        ),
+    ] = None
+    thickness: Annotated[float | None, _THICKNESS] = None
+    bonded: Annotated[float | None, _GLUED] = None
+
+    def __post_init__(self) -> None:
+        _body(self.thickness, self.bonded)
+
+    def answer(self, caller: Caller) -> Answer:
+        """Evaluate the theory."""
+        from viscotack.theory import disc, indenter
+
+        a, E, body = self.radius, self.contact_modulus, _body(self.thickness, self.bonded)
+        solid: Any = {"contact_modulus": E, "work_of_adhesion": self.work_of_adhesion}
+        limits: Any = {**solid, "strength": self.strength, "body": body}
+        force = disc.pull_off_force(contact_radius=a, **limits)
+        stiffness = indenter.stiffness(a, contact_modulus=E, body=body)
+        record = {
+            "pull_off_force_N": force,
+            "depth_at_pull_off_m": -np.asarray(force) / stiffness,
+            "stiffness_N_per_m": stiffness,
+            "kendall_force_N": disc.pull_off_force(contact_radius=a, body=body, **solid),
+        }
+        if self.strength is not None:
+            uniform = disc.strength_limit(contact_radius=a, strength=self.strength)
+            record["strength_force_N"] = uniform
+            if self.thickness is None:
+                crossover = disc.crossover_radius(strength=self.strength, **solid)
+                record["crossover_radius_m"] = crossover
+        if self.thickness is not None:
+            whole = disc.pull_off_force(contact_radius=a, strength=self.strength, **solid)
+            record["over_half_space"] = force / whole
+        radii = a * np.geomspace(0.1, 10.0, 61)
+        curve = radii, np.asarray(disc.pull_off_force(contact_radius=radii, **limits))
+        labels = ("radius of the disc [m]", "pull-off force [N]")
+        return closed_form(force, record, curve, labels, logarithmic=True)
 
 
 @dataclass(frozen=True, kw_only=True)

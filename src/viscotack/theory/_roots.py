@@ -1,4 +1,4 @@
-"""Vectorised root finding, one root per element."""
+"""Vectorised root finding, one root per element, and a minimum."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import scipy
 
 # Bisections that reduce a bracket of a hundred to round-off.
 _HALVINGS = 64
@@ -43,3 +44,14 @@ def regula_falsi(function: Callable[[Any], Any], low: Any, high: Any, *, noise: 
         low, high = np.where(side < 0, x, low), np.where(side > 0, x, high)
         before = side
     return x
+
+
+def least(function: Callable[[float], Any], ends: Any) -> float:
+    """Find where a function that falls and then grows is least, between two positive numbers.
+
+    The search is in the logarithm, to five digits.
+    """
+    found: Any = scipy.optimize.minimize_scalar(
+        lambda x: float(function(float(np.exp(x)))), bounds=tuple(np.log(ends)), method="bounded"
+    )
+    return float(np.exp(found.x))

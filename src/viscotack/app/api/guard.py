@@ -1,6 +1,8 @@
-"""Access control: host, origin, token and size of a request are checked before its content."""
+"""Access control: host, origin, token, size, time and number of requests are bounded."""
 
+import asyncio
 import json
+import re
 import secrets
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from dataclasses import dataclass
@@ -14,6 +16,8 @@ Send = Callable[[Message], Awaitable[None]]
 Application = Callable[[Message, Receive, Send], Awaitable[None]]
 
 _COOKIE = "viscotack"
+_BUSY = "this server answers as many requests as it may; ask again later"
+_HOST = re.compile(r"(\[[^\]]*\]|[^:\[\]]*)(?::\d*)?")
 # The page, and uploads that it shows, load nothing from other servers and send nothing to them.
 _HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; style-src 'self' "
@@ -35,23 +39,41 @@ class Rules:
         Token that a request must contain; "" for none.
     body, uploads : int
         Largest request, and largest request with files [bytes].
+    together : int
+        Largest size of all requests that are being answered [bytes].
+    requests : int
+        Largest number of requests that are answered at once.
+    patience : float
+        Longest time within which a request must arrive [s].
     """
 
     hosts: tuple[str, ...] = ()
     token: str = ""
     body: int = 1_000_000
     uploads: int = 20_000_000
+    together: int = 100_000_000
+    requests: int = 200
+    patience: float = 60.0
 
 
-class TooLarge(Exception):
-    """A request exceeds its size limit."""
+class Rejected(Exception):
+    """A request exceeds a limit while it arrives."""
 
 
 class Guard:
-    """ASGI application that enforces the rules."""
+    """ASGI application that enforces the rules.
+
+    Attributes
+    ----------
+    rules : Rules
+        Rules of access and limits.
+    held : int
+        Size of all requests that are being answered [bytes].
+    """
 
     def __init__(self, application: Application, rules: Rules) -> None:
-        self._application, self._rules = application, rules
+        self._application, self.rules = application, rules
+        self._requests = self.held = 0
 
     async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
         """Forward a request, or reject it with a reason."""
@@ -71,35 +93,51 @@ class Guard:
         if int(_digits(headers.get("content-length", "0"))) > limit:
             await _refuse(send, 413, _too_large(limit))
             return
+        if self._requests >= self.rules.requests:
+            await _refuse(send, 503, _BUSY)
+            return
+        self._requests += 1
+        arriving = _Arriving(self, receive, limit)
+        try:
+            await self._forward(scope, arriving, send)
+        finally:
+            self._requests -= 1
+            self.held -= arriving.taken
+
+    async def _forward(self, scope: Message, arriving: "_Arriving", send: Send) -> None:
         began = False
 
         async def guarded(message: Message) -> None:
             nonlocal began
+            if arriving.rejected is not None and not began:
+                return  # the application may answer with an error of its own
             if message["type"] == "http.response.start":
                 began = True
                 message["headers"] = [*message["headers"], *_pairs(_HEADERS)]
             await send(message)
 
         try:
-            await self._application(scope, _counted(receive, limit), guarded)
-        except TooLarge:
-            if not began:
-                await _refuse(send, 413, _too_large(limit))
+            await self._application(scope, arriving.receive, guarded)
+        except Exception:
+            if arriving.rejected is None:
+                raise
+        if arriving.rejected is not None and not began:
+            await _refuse(send, *arriving.rejected)
 
     def _limit(self, headers: MutableMapping[str, str]) -> int:
         is_upload = headers.get("content-type", "").startswith("multipart/form-data")
-        return self._rules.uploads if is_upload else self._rules.body
+        return self.rules.uploads if is_upload else self.rules.body
 
     def _refusal(self, scope: Message, headers: MutableMapping[str, str]) -> tuple[int, str] | None:
         """Return status and reason for a rejected request, None for an accepted one."""
         host = headers.get("host", "")
-        if self._rules.hosts and _bare(host) not in self._rules.hosts:
-            return 403, f"this server is called {' or '.join(self._rules.hosts)}, not {host!r}"
+        if self.rules.hosts and _bare(host) not in self.rules.hosts:
+            return 403, f"this server is called {' or '.join(self.rules.hosts)}, not {host!r}"
         origin = headers.get("origin", "")
         if origin and urlsplit(origin).netloc != host:
             # a page of another origin in the browser of the user
             return 403, "pages from elsewhere may not ask this server"
-        if not self._rules.token or self._knows(scope, headers):
+        if not self.rules.token or self._knows(scope, headers):
             return None
         return 401, (
             "this server wants its token: the header Authorization: Bearer TOKEN, or in a browser "
@@ -115,14 +153,14 @@ class Guard:
             morsel = None
         given += [] if morsel is None else [morsel.value]
         given += parse_qs(scope["query_string"].decode("latin-1")).get("token", [])
-        return any(secrets.compare_digest(x.encode(), self._rules.token.encode()) for x in given)
+        return any(secrets.compare_digest(x.encode(), self.rules.token.encode()) for x in given)
 
     def _entered(self, scope: Message) -> str:
         """Return the cookie for a browser that opened the link with the token, else ""."""
         query = parse_qs(scope["query_string"].decode("latin-1"))
-        if not self._rules.token or scope["path"] != "/" or "token" not in query:
+        if not self.rules.token or scope["path"] != "/" or "token" not in query:
             return ""
-        return f"{_COOKIE}={self._rules.token}; Path=/; HttpOnly; SameSite=Strict"
+        return f"{_COOKIE}={self.rules.token}; Path=/; HttpOnly; SameSite=Strict"
 
 
 def _without_token(scope: Message) -> str:
@@ -132,24 +170,43 @@ def _without_token(scope: Message) -> str:
     return scope["path"] + (f"?{query}" if query else "")
 
 
-def _counted(receive: Receive, limit: int) -> Receive:
-    """Return a receiver that raises TooLarge if a request exceeds the limit."""
-    taken = 0
+class _Arriving:
+    """A request that arrives within the limits of size and time, or is rejected."""
 
-    async def counted() -> Message:
-        nonlocal taken
-        message = await receive()
-        taken += len(message.get("body", b""))
-        if taken > limit:
-            raise TooLarge
+    def __init__(self, guard: Guard, receive: Receive, limit: int) -> None:
+        self._guard, self._receive, self._limit = guard, receive, limit
+        self._until = asyncio.get_running_loop().time() + guard.rules.patience
+        self._complete, self.taken = False, 0
+        self.rejected: tuple[int, str] | None = None
+
+    async def receive(self) -> Message:
+        if self._complete:  # only the end of the connection may follow, at any time
+            return await self._receive()
+        try:
+            async with asyncio.timeout_at(self._until):
+                message = await self._receive()
+        except TimeoutError:
+            words = f"the request did not arrive within {self._guard.rules.patience:g} s"
+            raise self._reject(408, words) from None
+        count = len(message.get("body", b""))
+        self.taken += count
+        self._guard.held += count
+        if self.taken > self._limit:
+            raise self._reject(413, _too_large(self._limit))
+        if self._guard.held > self._guard.rules.together:
+            raise self._reject(503, _BUSY)
+        self._complete = not message.get("more_body")
         return message
 
-    return counted
+    def _reject(self, status: int, words: str) -> Rejected:
+        self.rejected = status, words
+        return Rejected(words)
 
 
 def _bare(host: str) -> str:
-    """Return the name of a host without its port."""
-    return host.rpartition("]")[0] + "]" if host.startswith("[") else host.partition(":")[0]
+    """Return the name of a host without its port; all of it if it has another form."""
+    found = _HOST.fullmatch(host)
+    return host if found is None else found[1]
 
 
 def _digits(text: str) -> str:

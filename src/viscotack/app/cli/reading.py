@@ -270,11 +270,24 @@ def _problem(option: Option, indenter: str | None, said: Mapping[str, Any]) -> d
     case, what = answers.pop("case", None), answers.pop("what", None)
     if what is not None and what not in card.indenters:
         return _of_file(option, what, case, answers)
-    word = what or indenter or (card.indenters[0] if indenter is None and case is None else None)
+    word = (
+        what
+        or indenter
+        or (_first_with(card, answers) if indenter is None and case is None else None)
+    )
     if case is None and not word:
         return {name: None}
     stated = {"indenter": word} if word else {}
     return {name: stated | answers | ({} if case is None else {"case": str(case)})}
+
+
+def _first_with(card: Stated, answers: Mapping[str, Any]) -> str:
+    """Return the first indenter that asks for all that was given."""
+    given = {name.replace("_", "-") for name in answers}
+    for word in card.indenters:
+        if given <= {question.name for question in indenter_named(word).questions}:
+            return word
+    return card.indenters[0]
 
 
 def _of_file(

@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 from scipy.ndimage import maximum_filter1d
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.contacts.revolution import RevolutionContact
@@ -28,10 +28,13 @@ from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.geometry import Layer, Shape, detail, end
 from viscotack.protocol import Apart, AtRadius, Start
+from viscotack.theory._roots import least
 from viscotack.theory.elastic import indenter, on_layer
 
 # Range of radii [beta] in which contacts are searched for.
 _LEAST, _MOST = 1e-6, 1e9
+# Ends of the search for the minima of a shape without details [beta].
+_NEAR_BETA = np.exp([-5.0, 5.0])
 # Search radii for a shape with details: number per detail, and largest total number.
 _LOOKS, _MOST_LOOKS = 8, 4000
 # Initial outer limit of the search [beta, or details].
@@ -244,7 +247,7 @@ class ShapeContact(RevolutionContact):
     def _lowest(self, function: Any) -> float:
         """Return the radius [beta] at which a function is least, of all its minima."""
         if np.isinf(detail(self.shape)):
-            return _lowest(function)
+            return least(function, _NEAR_BETA)
         radii, found = self._seen(function, min(self._far, self._widest))
         return float(radii[np.argmin(found)])
 
@@ -288,15 +291,6 @@ def _graded(position: npt.NDArray, spacing: npt.NDArray) -> npt.NDArray:
     outwards = np.minimum.accumulate(spacing - _WIDER * position) + _WIDER * position
     back = (spacing + _WIDER * position)[::-1]
     return np.minimum(outwards, np.minimum.accumulate(back)[::-1] - _WIDER * position)
-
-
-def _lowest(function: Callable[[float], float]) -> float:
-    """Return the radius at which a function that falls and then grows is least."""
-    # all lengths are of the order of beta where adhesion and elasticity balance
-    found = minimize_scalar(
-        lambda x: function(float(np.exp(x))), bounds=(-5.0, 5.0), method="bounded"
-    )
-    return float(np.exp(found.x))
 
 
 def inverse(function: Callable[[float], float], value: float, low: float) -> float:

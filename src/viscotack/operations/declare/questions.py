@@ -5,13 +5,23 @@ An :class:`Indenter` has :attr:`Indenter.questions`, each with name, description
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, Disc, FlatPunch, Frictionless, Layer, PowerLawProfile, Sphere
+from viscotack.files.quantities import read_quantities
+from viscotack.geometry import (
+    Bonded,
+    Disc,
+    FlatPunch,
+    Frictionless,
+    Layer,
+    MeasuredProfile,
+    PowerLawProfile,
+    Sphere,
+)
 from viscotack.materials import (
     Elastic,
     Material,
@@ -152,10 +162,11 @@ class Indenter:
             f"{word}{' (also when left out)' if word == self.material else ''}: {words}"
             for word, words in _MATERIALS.items()
         )
-        has_layer = "thickness" in {**self.numbers, **self.more}
+        numbers = {**self.numbers, **self.more}
         asked = [
-            *(Question(n, question_of(card)) for n, card in {**self.numbers, **self.more}.items()),
-            *([Question("bonded", _GLUED)] if has_layer else ()),
+            *(Question(n, question_of(card)) for n, card in numbers.items()),
+            *([Question(_FILE, _MEASURED, text=True)] if "profile-exponent" in numbers else ()),
+            *([Question("bonded", _GLUED)] if "thickness" in numbers else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
             Question("temperature", f"{_TEMPERATURE} {_ALONE}", text=True),
             Question("modulus-ratio", question_of(card_of(ModulusRatio))),
@@ -193,6 +204,12 @@ def question_of(card: Quantity, unit: str = "") -> str:
     return words + (f', for example "{card.example}"' if card.example and not unit else "") + "."
 
 
+_FILE = "points"
+_MEASURED = (
+    "In place of --profile-exponent: CSV file of a measured profile with the columns radius_1 (in "
+    "beta) and height_1 (heights in any unit; they are scaled so that the sphere closest to the "
+    "profile has the radius R)."
+)
 _GLUED = (
     "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer slides "
     "on its base."
@@ -220,7 +237,12 @@ PROFILE = Indenter(
     more=_LAYER,
 )
 DISC = Indenter(
-    "disc", _TABOR, revolution.GROUPS, ("preload", "preload-force", "apart"), "power-law"
+    "disc",
+    _TABOR,
+    revolution.GROUPS,
+    ("preload", "preload-force", "apart"),
+    "power-law",
+    more=_LAYER,
 )
 PUNCH = Indenter("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
 # Of a problem that a file states whole.
@@ -247,6 +269,10 @@ def stated(
         If a value is missing, excluded by another one, or invalid.
     """
     given, nouns = given_of(answers), known(also)
+    if _FILE in given:
+        if "profile-exponent" in given:
+            raise InputError(f"give either --profile-exponent or --{_FILE}, not both")
+        indenter = replace(indenter, numbers=_TABOR)
     given |= _scales_of_passport(given, nouns)
     in_si = bool(given.keys() & SCALES.keys())
     if "temperature" in given and not in_si:
@@ -276,7 +302,9 @@ def stated(
     if indenter is PUNCH:
         parts |= {"geometry": FlatPunch(numbers["size"]), "body": _layer(given)}
         return Groups(tabor=None, cohesion=numbers["cohesion"], **parts)
-    if indenter is PROFILE:
+    if _FILE in given:
+        parts["geometry"] = _measured(given[_FILE])
+    elif indenter is PROFILE:
         q = numbers.pop("profile_exponent")
         parts["geometry"] = PowerLawProfile(1 / q, q)
     if indenter is DISC:
@@ -287,6 +315,15 @@ def stated(
         raise InputError("--bonded needs a layer; give its --thickness as well")
     groups = Groups(**numbers, **parts)
     return _in_si(groups, given, "s" if elastic else unit) if in_si else groups
+
+
+def _measured(file: str) -> MeasuredProfile:
+    """Read a profile without dimensions, scaled to the equivalent radius 1."""
+    if not file.endswith(".csv"):
+        raise InputError(f"--{_FILE} must name a file FILE.csv, got {file!r:.60}")
+    columns = read_quantities(file, {"radius": "1", "height": "1"})
+    shape = MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
+    return shape.reduced(1.0, 1 / shape.equivalent_radius(1.0))
 
 
 def _layer(given: Mapping[str, Any]) -> Layer:

@@ -25,6 +25,7 @@ _INDENTER, _CASE, _TEMPERATURE = "indenter", "case", "temperature"
 _NAMING = {
     "material": Spelled("", before=("prony:",), endings=(".toml",), objects=(Passport,)),
     "law": Spelled("", before=("table:",)),
+    "points": Spelled("", endings=(".csv",)),
 }
 
 

@@ -8,7 +8,7 @@ from viscotack.problem.outputs import Unit
 from viscotack.units import readable
 
 # Ends of names, as `Unit.tail` spells them -> unit; the longest first.
-_TAILS = {Unit("", "", "", si).tail: si for si in ("J/m^2", "m/s", "Pa", "N", "J", "m", "s")}
+_TAILS = {Unit("", "", "", si).tail: si for si in ("J/m^2", "N/m", "m/s", "Pa", "N", "J", "m", "s")}
 
 
 def record_words(record: Mapping[str, Any]) -> str:

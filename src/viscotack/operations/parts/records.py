@@ -115,6 +115,8 @@ def rates_record(fit: Any) -> dict[str, Any]:
         "tabor": fit.tabor,
         "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
         "scatter": fit.scatter,
+        "scatter_between_speeds": fit.between_speeds,
+        "solutions": [dict(one.values) for one in fit.solutions],
         "series": [
             {
                 "speed_m_s": one.speed,

@@ -10,10 +10,11 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.geometry import detail
+from viscotack.geometry.gauss import gauss
 from viscotack.theory._checks import Values
 
 # Exact to round-off for smooth profiles.
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
+_NODES = 64
 # Details of a profile per Gauss panel, and largest number of panels.
 _DETAILS, _MOST_PANELS = 1.0, 64
 # Slopes that are looked up at once.
@@ -52,6 +53,4 @@ def angles(shape: Flank, radius: float) -> tuple[Array, Array]:
 @lru_cache(maxsize=_MOST_PANELS)
 def _rule(panels: int) -> tuple[Array, Array]:
     """Return the nodes and the weights of `panels` equal panels from 0 to pi/2."""
-    width = np.pi / 2 / panels
-    angle = width * (np.arange(panels)[:, None] + (_NODES + 1) / 2)
-    return np.ravel(angle), np.tile(width / 2 * _WEIGHTS, panels)
+    return gauss(np.linspace(0.0, np.pi / 2, panels + 1), _NODES)

@@ -191,6 +191,44 @@ def force(
     return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
 
 
+def stiffness(
+    contact_radius: Values, *, contact_modulus: Values, body: Body = _HALF_SPACE
+) -> Number:
+    r"""Return the force per depth [N/m] of a rigid flat disc of this radius, positive.
+
+    On a half-space it is :math:`2 E^* a`, on a thin layer of thickness b :math:`\pi a^2 E^*/(c b)`
+    with its compliance c (:attr:`viscotack.geometry.Bonded.foundation`), and if that is 0, of a
+    bonded incompressible layer, :math:`\tfrac{3 \pi}{32} E^* a^4/b^3`.
+
+    Parameters
+    ----------
+    contact_radius : float or array_like
+        Radius of the disc a [m], positive.
+    contact_modulus : float or array_like
+        Contact modulus E* [Pa], positive.
+    body : Body
+        Elastic body, by default the half-space.
+
+    Returns
+    -------
+    float or ndarray
+        Stiffness [N/m].
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Bonded
+    >>> glued = Layer(0.5e-3, Bonded(poisson_ratio=0.5))
+    >>> bodies = HalfSpace(), glued
+    >>> each = [stiffness(1e-3, contact_modulus=1e6, body=body) for body in bodies]
+    >>> [f"{value / 1e3:.2f} kN/m" for value in each]
+    ['2.00 kN/m', '18.30 kN/m']
+    """
+    a, E = positive(contact_radius=contact_radius, contact_modulus=contact_modulus)
+    if body == _HALF_SPACE:
+        return plain(2 * E * a)
+    return plain(E * _on(body).stiffness(a, body))
+
+
 def gap(
     position: Values,
     *,

@@ -27,7 +27,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.geometry import detail
+from viscotack.geometry import Sphere, detail
 from viscotack.geometry.hats import hat_areas
 
 # Nodes of a disc, crowded at its edge; radii per decade, and of how many K and M are interpolated.
@@ -62,6 +62,11 @@ def force(a: npt.NDArray, shape: Any, body: Any, length: float) -> npt.NDArray:
     """Return the force over the contact modulus [m^2] of a contact of this radius [m]."""
     (K, K1), (M, M1) = _disc(a, shape, body)
     return (M1 / K1 - np.sqrt(4 * np.pi * a * length / K1)) * K - M
+
+
+def stiffness(a: npt.NDArray, body: Any) -> npt.NDArray:
+    """Return the force per depth over the contact modulus [m] of a flat disc of this radius [m]."""
+    return _disc(a, Sphere(1.0), body)[0][0]
 
 
 def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Any) -> npt.NDArray:

@@ -38,21 +38,20 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere, detail
+from viscotack.geometry.gauss import gauss
 
 from ._sneddon import half_space_depth
 
-# Gauss panels in the angle: smallest number, thicknesses per extra panel; and their points.
-_PANELS, _WIDER = 3, 4.0
-_GAUSS = np.polynomial.legendre.leggauss(16)
-# Gauss panels in t, up to where the transfer function is 1: smallest number, phase of each more.
+# Gauss panels in the angle: smallest number, thicknesses per extra panel, points per panel.
+_PANELS, _WIDER, _POINTS = 3, 4.0, 16
+# Gauss panels in t of twice the points, up to where the transfer function is 1: smallest number,
+# phase of each more.
 _LAST, _FEWEST, _PHASE = 18.0, 4, 36.0
-_GAUSS_32 = np.polynomial.legendre.leggauss(32)
 # Details of a shape per extra panel, and largest number of such panels.
 _DETAILS, _MOST_PANELS = 4.0, 24
 # Solutions at this number of radii or more share panels of two points: width [b], and panels per
 # detail.
 _MANY, _COARSEST, _PER_DETAIL = 8, 0.25, 8
-_GAUSS_2 = np.polynomial.legendre.leggauss(2)
 # Radius [b] up to which the equation is solved.
 LARGEST, _ROUND_OFF = 100.0, 1 + 1e-12
 # Solutions per decade of radius for shapes that are powers, and of how many one is interpolated.
@@ -144,16 +143,24 @@ def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
 
 def _continued(a: float, shape: Any, body: Layer) -> Array:
     """Return the four sums at a radius [b], beyond the largest one as powers."""
-    values = _interpolated if type(shape) in POWERS else _direct
     if a <= LARGEST * _ROUND_OFF:
-        return values(min(a, LARGEST), shape, body)
+        a = min(a, LARGEST)
+        return (_interpolated if type(shape) in POWERS else _direct)(a, shape, body)
     if np.isfinite(detail(shape)):
         raise InputError(
             f"a contact of {a:.4g} thicknesses of the layer is too wide for a shape with details; "
             f"it may be up to {LARGEST:g}: make the layer thicker"
         )
-    last, before = (np.log(values(x, shape, body)) for x in (LARGEST, LARGEST / 1.2))
-    return np.exp(last + (last - before) * np.log(a / LARGEST) / np.log(1.2))
+    last, power = _beyond(shape, body)
+    return last * (a / LARGEST) ** power
+
+
+@lru_cache(maxsize=64)
+def _beyond(shape: Any, body: Layer) -> tuple[Array, Array]:
+    """Return the four sums at the largest radius, and their powers of the radius beyond it."""
+    values = _interpolated if type(shape) in POWERS else _direct
+    last, before = (values(x, shape, body) for x in (LARGEST, LARGEST / 1.2))
+    return last, np.log(last / before) / np.log(1.2)
 
 
 def _interpolated(a: float, shape: Any, body: Layer) -> Array:
@@ -183,12 +190,12 @@ def _at_once(radii: tuple[float, ...], shape: Any, body: Layer) -> Array:
     With nodes in panels that end at all radii, the equation of a radius is the first part of that
     of the largest one, and so are the Cholesky factor and what is solved with it.
     """
-    a, b, (nodes, weights) = np.array(radii), body.thickness, _GAUSS_2
+    a, b = np.array(radii), body.thickness
     coarsest = min(_COARSEST, detail(shape) / (_PER_DETAIL * b))
     even = np.linspace(0.0, a.max(), int(np.ceil(a.max() / coarsest)) + 1)
     edges = np.union1d(even, a)
-    half = np.diff(edges)[:, None] / 2
-    s, root = (edges[:-1, None] + half * (1 + nodes)).ravel(), np.sqrt(half * weights).ravel()
+    s, weight = gauss(edges, 2)
+    root = np.sqrt(weight)
     t, kernel = _waves(body.base, 2 * a.max())
     waves = np.cos(np.multiply.outer(np.append(s, a), t))
     k = 2 / np.pi * (waves * kernel) @ waves[: s.size].T * root
@@ -197,7 +204,7 @@ def _at_once(radii: tuple[float, ...], shape: Any, body: Layer) -> Array:
     given = np.column_stack([root, root * D[: s.size], k[s.size :].T])
     solved = scipy.linalg.solve_triangular(factor, given, lower=True)
     disc, profile, at_edge = solved[:, 0], solved[:, 1], solved[:, 2:]
-    many = nodes.size * np.searchsorted(edges, a)
+    many = 2 * np.searchsorted(edges, a)
     at_edge = np.where(np.arange(s.size)[:, None] < many, at_edge, 0.0)
     forces = 2 * b * np.cumsum([disc * disc, disc * profile], axis=1)[:, many - 1]
     return np.array([1 - disc @ at_edge, D[s.size :] - profile @ at_edge, *forces])
@@ -253,17 +260,13 @@ def _solved(a: float, base: Base, panels: int) -> _Solved:
 
 def _nodes(a: float, panels: int) -> tuple[npt.NDArray, npt.NDArray]:
     """Return nodes and weights from 0 to a radius [b]."""
-    nodes, weights = _GAUSS
     edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + panels + 1)
-    half = np.diff(edges)[:, None] / 2
-    angle = (edges[:-1, None] + half * (1 + nodes)).ravel()
-    return a * np.sin(angle), a * np.cos(angle) * (half * weights).ravel()
+    angle, weight = gauss(edges, _POINTS)
+    return a * np.sin(angle), a * np.cos(angle) * weight
 
 
 def _waves(base: Base, largest: float) -> tuple[npt.NDArray, npt.NDArray]:
     """Return wave numbers [1/b] and kappa - 1 times their weights, for distances up to one [b]."""
-    nodes, weights = _GAUSS_32
-    edges = np.linspace(0.0, _LAST, _FEWEST + int(_LAST * largest / _PHASE) + 1)
-    half = np.diff(edges)[:, None] / 2
-    t = (edges[:-1, None] + half * (1 + nodes)).ravel()
-    return t, (half * weights).ravel() * (base.transfer(t) - 1)
+    panels = _FEWEST + int(_LAST * largest / _PHASE)
+    t, weight = gauss(np.linspace(0.0, _LAST, panels + 1), 2 * _POINTS)
+    return t, weight * (base.transfer(t) - 1)

@@ -19,25 +19,36 @@ from typing import Any
 import numpy as np
 import scipy
 
+from viscotack.arrays import Array
 from viscotack.geometry import (
     Body,
     Cone,
     HalfSpace,
+    Layer,
     PowerLawProfile,
     Shape,
     Sphere,
+    detail,
+    end,
     equivalent_radius,
 )
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory._checks import ROUND_OFF
+from viscotack.theory._roots import least
 
-from . import indenter, jkr, profiles
+from . import indenter, jkr, on_layer, profiles
 from .jkr import Point
 
 _SPHERE, _HALF_SPACE = Sphere(1.0), HalfSpace()
 # Range of radii of the search, over the length beta, and their number.
 _RADII, _COUNT = (1e-4, 1e6), 600
 _TOLERANCE = 1e-13
+# Their number on another body than the half-space, and per detail of a shape.
+_FEWER, _PER_DETAIL = 200, 8
+# Radii among which the strongest contact is searched for, over the largest one, and their number.
+_SMALLEST, _LOOKS = 1e-3, 60
+# Logarithms of the ends, over beta, between which the minima of a shape without details lie.
+_NEAR = (-5.0, 5.0)
 
 
 def contact(
@@ -82,19 +93,16 @@ def contact(
         return None
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     theory, case = _theory(shape, body, solid)
-    fold, end = ends(shape, body=body, **solid)
-    a = None
     if isinstance(start, AtRadius):
+        fold, _ = ends(shape, body=body, **solid)
         a = start.contact_radius if start.contact_radius >= fold.contact_radius else None
+    elif theory is jkr:
+        a = _radius_of_sphere(start, case)
     else:
-        by_depth = isinstance(start, AtDepth)
-        value, least = (start.depth, fold.depth) if by_depth else (start.force, end.force)
-        if theory is not jkr:
-            by = partial(theory.depth if by_depth else theory.force, **case)
-            a = largest_radius(by, value, length=_length(shape, solid))
-        elif value >= np.asarray(least) * (1 + ROUND_OFF):
-            by = jkr.contact_radius_at_depth if by_depth else jkr.contact_radius_at_force
-            a = float(by(value, **case))
+        by = theory.depth if isinstance(start, AtDepth) else theory.force
+        value = start.depth if isinstance(start, AtDepth) else start.force
+        radii = _radii(shape, body, adhesion_length(shape, **solid))
+        a = _largest_among(radii, partial(by, **case), value)
     if a is None:
         return None
     with np.errstate(over="ignore", invalid="ignore"):
@@ -136,19 +144,74 @@ def ends(
     if theory is not indenter:
         return theory.instability(**case), theory.pull_off(**case)
     depth, force = curve(shape, body=body, **solid)
-    radii = (_least(function, _length(shape, solid)) for function in (depth, force))
+    length = adhesion_length(shape, **solid)
+    if np.isinf(detail(shape)):
+        brackets = [length * np.exp(_NEAR)] * 2
+    else:
+        looks = _radii(shape, body, length)
+        brackets = [_around_least(looks, function) for function in (depth, force)]
+    radii = (least(*each) for each in zip((depth, force), brackets, strict=True))
     fold, end = (Point(a, float(depth(a)), float(force(a))) for a in radii)
     return fold, end
 
 
+def strongest(
+    shape: Shape,
+    *,
+    largest: float,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
+) -> Point:
+    r"""Compute the contact of the smallest force among those up to a radius.
+
+    It is the pull-off of a contact that begins there and only shrinks, or of a disc of this radius.
+
+    Parameters
+    ----------
+    shape : shape of revolution
+        Rigid indenter.
+    largest : float
+        Largest contact radius [m].
+    contact_modulus, work_of_adhesion : float
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+    body : HalfSpace, Layer or a user-defined body
+        Elastic body.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N, negative in tension].
+
+    Examples
+    --------
+    >>> lens = dict(contact_modulus=2e6, work_of_adhesion=0.15)
+    >>> small, large = (strongest(Sphere(5e-3), largest=a, **lens) for a in (1e-4, 1e-3))
+    >>> f"{small.force * 1e3:.2f} mN, {large.force * 1e3:.2f} mN"
+    '-2.24 mN, -3.53 mN'
+    """
+    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    depth, force = curve(shape, body=body, **solid)
+    radii = largest * np.geomspace(_SMALLEST, 1.0, _LOOKS)
+    if np.isfinite(detail(shape)):
+        many = int(np.clip(_PER_DETAIL * largest / detail(shape), 2, _FEWER))
+        radii = np.unique(np.append(radii, largest * np.arange(1, many + 1) / many))
+    values = np.asarray(force(radii))
+    at = int(np.argmin(values))
+    near = radii[max(at - 1, 0)], radii[min(at + 1, radii.size - 1)]
+    found = least(force, near)
+    a = found if force(found) < values[at] else float(radii[at])
+    return Point(a, float(depth(a)), float(force(a)))
+
+
 def contact_in_groups(
-    start: Start | Apart, *, tabor: float, shape: Shape = _SPHERE
+    start: Start | Apart, *, tabor: float, shape: Shape = _SPHERE, body: Body = _HALF_SPACE
 ) -> Point | None:
     r"""Compute the contact of :func:`contact` for a start and a shape of dimensionless groups.
 
     The start is in h0, :math:`\tfrac32 \pi R \Delta\gamma_0` or :math:`(\pi R^2
-    \Delta\gamma_0/E_0^*)^{1/3}`; the contact is in the units in which R, :math:`E_0^*` and
-    :math:`\Delta\gamma_0` are 1.
+    \Delta\gamma_0/E_0^*)^{1/3}`, the thickness of a `body` in :math:`\beta`; the contact is in the
+    units in which R, :math:`E_0^*` and :math:`\Delta\gamma_0` are 1.
 
     Examples
     --------
@@ -164,7 +227,7 @@ def contact_in_groups(
             scaled = AtForce(start.force * (1.5 * np.pi))
         case AtRadius():
             scaled = AtRadius(start.contact_radius * np.pi ** (1 / 3))
-    return contact(scaled, shape=shape, contact_modulus=1.0, work_of_adhesion=1.0)
+    return contact(scaled, shape=shape, contact_modulus=1.0, work_of_adhesion=1.0, body=body)
 
 
 def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: float = 2.0) -> float:
@@ -214,6 +277,28 @@ def curve(
     return partial(theory.depth, **case), partial(theory.force, **case)
 
 
+def adhesion_length(shape: Shape, *, contact_modulus: float, work_of_adhesion: float) -> float:
+    r"""Return the length [m] at which adhesion and elasticity balance.
+
+    .. math:: \beta = (R^2 \Delta\gamma_0/E_0^*)^{1/3}
+
+    Parameters
+    ----------
+    shape : shape of revolution
+        Rigid indenter; R is its equivalent radius (:func:`viscotack.geometry.equivalent_radius`).
+    contact_modulus, work_of_adhesion : float
+        :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
+
+    Examples
+    --------
+    >>> length = adhesion_length(Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.15)
+    >>> f"{length * 1e6:.0f} um"
+    '123 um'
+    """
+    adhesion = work_of_adhesion / contact_modulus
+    return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
+
+
 def largest_radius(
     function: Callable[[Any], Any], value: float, *, length: float = 1.0
 ) -> float | None:
@@ -238,15 +323,54 @@ def largest_radius(
     >>> f"{largest_radius(lambda a: a**2 - 1, 3.0):.3f}"
     '2.000'
     """
-    radii = length * np.geomspace(*_RADII, _COUNT)
+    return _largest_among(length * np.geomspace(*_RADII, _COUNT), function, value)
+
+
+def _largest_among(radii: Array, function: Callable[[Any], Any], value: float) -> float | None:
+    """Find the largest radius of a value between ascending radii; None if there is none."""
     below = np.flatnonzero(function(radii) <= value)
     if not below.size or below[-1] == radii.size - 1:
         return None
     bracket = radii[below[-1]], radii[below[-1] + 1]
     found: Any = scipy.optimize.brentq(
-        lambda a: function(a) - value, *bracket, xtol=_TOLERANCE * length
+        lambda a: function(a) - value, *bracket, xtol=_TOLERANCE * bracket[0]
     )
     return float(found)
+
+
+def _around_least(radii: Array, function: Callable[[Any], Any]) -> Array:
+    """Return the radii on both sides of that of the least value."""
+    place = int(np.argmin(function(radii)))
+    return radii[[max(place - 1, 0), min(place + 1, radii.size - 1)]]
+
+
+def _radius_of_sphere(start: AtDepth | AtForce, case: dict[str, Any]) -> float | None:
+    """Return the radius of a sphere's contact on a half-space, None past the end of its branch."""
+    if isinstance(start, AtDepth):
+        if start.depth < np.asarray(jkr.instability(**case).depth) * (1 + ROUND_OFF):
+            return None
+        return float(np.asarray(jkr.contact_radius_at_depth(start.depth, **case)))
+    if start.force < np.asarray(jkr.pull_off(**case).force) * (1 + ROUND_OFF):
+        return None
+    return float(np.asarray(jkr.contact_radius_at_force(start.force, **case)))
+
+
+def _radii(shape: Shape, body: Body, length: float) -> Array:
+    """Return the radii [m] at which contacts are searched for.
+
+    On a layer each costs milliseconds, and there is no theory of a shape with details beyond 100
+    thicknesses.
+    """
+    low, high = length * np.array(_RADII)
+    many = _COUNT if body == _HALF_SPACE else _FEWER
+    if np.isinf(detail(shape)):
+        return np.geomspace(low, high, many)
+    if isinstance(body, Layer):
+        high = min(high, on_layer.LARGEST * body.thickness)
+    far = min(high, end(shape))
+    looks = int(np.clip(_PER_DETAIL * far / detail(shape), 2, many))
+    even = np.arange(1, looks + 1) * detail(shape) / _PER_DETAIL
+    return np.unique(np.concatenate([np.geomspace(low, high, many // 2), even[even < high]]))
 
 
 def _theory(shape: Shape, body: Body, solid: dict[str, float]) -> tuple[Any, dict[str, Any]]:
@@ -259,17 +383,3 @@ def _theory(shape: Shape, body: Body, solid: dict[str, float]) -> tuple[Any, dic
         case PowerLawProfile() | Cone():
             return profiles, {"exponent": shape.exponent, "coefficient": shape.coefficient, **solid}
     return indenter, {"shape": shape, **solid}
-
-
-def _length(shape: Shape, solid: dict[str, float]) -> float:
-    """Return the length beta, at which adhesion and elasticity balance."""
-    adhesion = solid["work_of_adhesion"] / solid["contact_modulus"]
-    return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
-
-
-def _least(function: Callable[[Any], Any], length: float) -> float:
-    """Return the radius of the minimum of a function that decreases and then increases."""
-    found: Any = scipy.optimize.minimize_scalar(
-        lambda x: function(length * np.exp(x)), bounds=(-5.0, 5.0), method="bounded"
-    )
-    return length * float(np.exp(found.x))

@@ -88,6 +88,7 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
         *_growth(found),
         ("Tabor number", f"{fit.tabor:.3g}"),
         ("residuals over their uncertainty", f"{fit.scatter:.2g}"),
+        ("scatter from speed to speed beyond that", f"{fit.between_speeds:.2g}"),
     ]
 
 

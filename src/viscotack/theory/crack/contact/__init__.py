@@ -5,7 +5,14 @@ unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
 from . import growing, history, recession
-from ._profile import Profile, profile_of, radius_at_depth, radius_at_force
+from ._profile import (
+    LayerProfile,
+    Profile,
+    profile_of,
+    profile_on,
+    radius_at_depth,
+    radius_at_force,
+)
 from .growing import GrowingCracks, GrowingEdges, NeighbourEdges
 from .history import Contact, Curve, Drive
 from .recession import Curves, recede
@@ -17,11 +24,13 @@ __all__ = [
     "Drive",
     "GrowingCracks",
     "GrowingEdges",
+    "LayerProfile",
     "NeighbourEdges",
     "Profile",
     "growing",
     "history",
     "profile_of",
+    "profile_on",
     "radius_at_depth",
     "radius_at_force",
     "recede",

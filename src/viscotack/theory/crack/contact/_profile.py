@@ -17,11 +17,14 @@ import numpy as np
 import scipy
 
 from viscotack.errors import InputError
+from viscotack.geometry import HalfSpace, Layer, detail
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import largest_radius
 
 # Radii between which a user-defined shape is tabulated [beta], and rows per decade.
 _RADII, _ROWS = (1e-6, 1e4), 60
+# The same of a shape on a layer.
+_ON_LAYER, _ROWS_ON_LAYER = (1e-4, 1e4), 20
 
 
 class Profile:
@@ -62,28 +65,94 @@ class Profile:
             return factor * s ** (q + 1) / (q + 1)
         return self._total(np.maximum(s, self._inner[0]))
 
+    def drawn(self, radius: Any) -> Any:
+        """Return by how much a work of adhesion of 1 draws a contact out."""
+        return np.sqrt(2 * np.pi * np.asarray(radius))
+
+    def force(self, radius: Any, depth: Any) -> Any:
+        """Return the force of a contact of this radius and depth."""
+        a = np.asarray(radius)
+        return 2 * (a * depth - self.total(a))
+
     def relaxed_depth(self, radius: Any) -> Any:
         """Return the depth of a relaxed adhesive contact (JKR)."""
-        return self.depth(radius) - np.sqrt(2 * np.pi * np.asarray(radius))
+        return self.depth(radius) - self.drawn(radius)
 
     def relaxed_force(self, radius: Any) -> Any:
         """Return the force of a relaxed adhesive contact (JKR)."""
-        a = np.asarray(radius)
-        return 2 * (a * self.relaxed_depth(a) - self.total(a))
+        return self.force(radius, self.relaxed_depth(radius))
+
+
+class LayerProfile:
+    r"""The same of a contact on a layer, where annuli are not independent.
+
+    A contact of radius a and depth D carries :math:`P = P_1(a) - K(a) [g(a) - D]`, with the force
+    without adhesion and the stiffness of a disc, and releases :math:`(D - g)^2/\Delta^2`, where
+    :math:`\Delta` is by how much a work of adhesion of 1 draws it out. Depth and force are those of
+    :mod:`viscotack.theory.elastic.on_layer`, tabulated.
+    """
+
+    def __init__(self, shape: Any, layer: Layer) -> None:
+        if np.isfinite(detail(shape)):
+            raise InputError(
+                f"the contact of a {shape.word} on a layer may have several edges; simulate it"
+            )
+        a = np.geomspace(*_ON_LAYER, int(_ROWS_ON_LAYER * np.log10(_ON_LAYER[1] / _ON_LAYER[0])))
+        bare = {"shape": shape, "body": layer, "contact_modulus": 1.0}
+        columns = (
+            indenter.bare_depth(a, shape=shape, body=layer),
+            indenter.drawn(a, work_of_adhesion=1.0, **bare),
+            indenter.stiffness(a, contact_modulus=1.0, body=layer),
+            indenter.force(a, work_of_adhesion=0.0, **bare),
+        )
+        self._table = [scipy.interpolate.CubicSpline(np.log(a), np.log(x)) for x in columns]
+
+    def _of(self, column: int, radius: Any) -> Any:
+        return np.exp(self._table[column](np.log(np.maximum(radius, _ON_LAYER[0]))))
+
+    def depth(self, radius: Any) -> Any:
+        """Return the depth of a contact without adhesion."""
+        return self._of(0, radius)
+
+    def drawn(self, radius: Any) -> Any:
+        """Return by how much a work of adhesion of 1 draws a contact out."""
+        return self._of(1, radius)
+
+    def force(self, radius: Any, depth: Any) -> Any:
+        """Return the force of a contact of this radius and depth."""
+        return self._of(3, radius) - self._of(2, radius) * (self.depth(radius) - depth)
+
+    def relaxed_depth(self, radius: Any) -> Any:
+        """Return the depth of a relaxed adhesive contact (JKR)."""
+        return self.depth(radius) - self.drawn(radius)
+
+    def relaxed_force(self, radius: Any) -> Any:
+        """Return the force of a relaxed adhesive contact (JKR)."""
+        return self.force(radius, self.relaxed_depth(radius))
 
 
 @lru_cache(maxsize=32)
 def profile_of(shape: Any) -> Profile:
-    """Return the profile of a reduced shape (cached)."""
+    """Return the profile of a reduced shape on a half-space (cached)."""
     return Profile(shape)
 
 
-def radius_at_depth(profile: Profile, depth: float) -> float:
+@lru_cache(maxsize=32)
+def profile_on(shape: Any, body: HalfSpace | Layer) -> Profile | LayerProfile:
+    """Return the profile of a reduced shape on a body with lengths in beta (cached)."""
+    if isinstance(body, Layer):
+        return LayerProfile(shape, body)
+    if body == HalfSpace():
+        return profile_of(shape)
+    raise InputError(f"a receding crack is known on a half-space or a layer, got a {body.word}")
+
+
+def radius_at_depth(profile: Profile | LayerProfile, depth: float) -> float:
     """Return the radius of the larger, stable relaxed contact at a depth [beta^2/R]."""
     return _found(largest_radius(profile.relaxed_depth, depth), "depth")
 
 
-def radius_at_force(profile: Profile, force: float) -> float:
+def radius_at_force(profile: Profile | LayerProfile, force: float) -> float:
     """Return the radius of the larger, stable relaxed contact under a force [R dg]."""
     return _found(largest_radius(profile.relaxed_force, force), "force")
 

@@ -6,6 +6,10 @@ psi from 1/k to 1: exact for forces of short range and any spectrum. The edge is
 
 .. math:: \frac{(D_e - g(a))^2}{2 \pi a} = \Gamma(V), \quad V = -\mu^2 \frac{da}{dt}.
 
+On a layer of one material on a rigid base the same holds with energy release rate and force of
+:class:`._profile.LayerProfile`, because at every wavelength the layer moves as an elastic one does,
+times the creep. The zone of the crack must be short beside the thickness too.
+
 The radius is the independent variable: for each radius the time is computed at which the edge
 reaches it. Units as in :mod:`._profile`; times in the material's unit.
 """
@@ -22,7 +26,7 @@ from viscotack.theory.crack.steady import SteadyCrack
 
 from ._edge import Edge, Even
 from ._memory import Chain, chain_of, hereditary_travel
-from ._profile import Profile
+from ._profile import LayerProfile, Profile
 from .growing import GrowingEdges, NeighbourEdges
 
 # Number of radii of a curve, and the smallest one: over that of the start, and of the elastic
@@ -68,7 +72,7 @@ class Curves(NamedTuple):
 
 def recede(
     crack: SteadyCrack | GrowingEdges | NeighbourEdges,
-    profile: Profile,
+    profile: Profile | LayerProfile,
     *,
     radius: Array,
     rate: Array,
@@ -81,8 +85,8 @@ def recede(
     ----------
     crack : SteadyCrack
         Crack of the solid with the reduced law, common to all cases; or one edge per case.
-    profile : Profile
-        Profile of the reduced shape.
+    profile : Profile or LayerProfile
+        Profile of the reduced shape, on a half-space or on a layer.
     radius, rate, tabor : ndarray
         For each case: radius of the relaxed start [beta], speed [beta^2/R per time unit of the
         material], Tabor number.
@@ -104,11 +108,12 @@ def recede(
     # first order in the steps: the difference of two runs at the same radii estimates the error
     (coarse, slow), (fine, fast) = marched(way[::2]), marched(way)
     a = way[::2]
+    bare, drawn = profile.depth(a), profile.drawn(a)
     fine, fast = fine[::2], fast[::2]
 
     def lifted(time: Array) -> tuple[Array, Array]:
         effective = start - r * travel(time)
-        return effective, np.minimum(effective - profile.depth(a), 0.0) ** 2 / (2 * np.pi * a)
+        return effective, (np.minimum(effective - bare, 0.0) / drawn) ** 2
 
     # do not extrapolate if the difference is large, or leads to more energy than a
     # crack can dissipate
@@ -120,7 +125,7 @@ def recede(
         time=time,
         radius=a,
         depth=start - r * time,
-        force=2 * (a * effective - profile.total(a)),
+        force=profile.force(a, effective),
         speed=np.where(bad, fast, np.maximum(2 * fast - slow, 0.0)),
         # beyond this point the contact jumps, because the available energy exceeds that of any
         # crack
@@ -138,7 +143,7 @@ def _parts(radii: int) -> Array:
 
 def _marched(
     a: Array,
-    profile: Profile,
+    profile: Profile | LayerProfile,
     edge: Edge | GrowingEdges | NeighbourEdges,
     travel: _Travel,
     *,
@@ -150,7 +155,7 @@ def _marched(
     time, speed = np.zeros_like(a), np.zeros_like(a)
     guess = np.full(start.shape, (travel.first + travel.last) / 2)
     for i in range(1, len(a)):
-        g, around = profile.depth(a[i]), 2 * np.pi * a[i]
+        g, around = profile.depth(a[i]), profile.drawn(a[i]) ** 2
         step = mobility * (a[i - 1] - a[i])
 
         def excess(
@@ -215,7 +220,9 @@ def _root(
 class _Travel:
     """Hereditary travel, tabulated in ln t over the relevant times."""
 
-    def __init__(self, chain: Chain, profile: Profile, a0: Array, r: Array, mu: Array) -> None:
+    def __init__(
+        self, chain: Chain, profile: Profile | LayerProfile, a0: Array, r: Array, mu: Array
+    ) -> None:
         far = np.max(profile.depth(a0) + 4 * np.sqrt(a0) + 4) * 30
         self.last = float(np.log(np.max(far / r)))
         self.first = float(np.log(np.min(1e-9 / r)))
@@ -230,7 +237,7 @@ class _Travel:
         return np.exp(self._travel(log) + np.minimum(log - self.first, 0.0))
 
 
-def _elastic_radius(profile: Profile) -> float:
+def _elastic_radius(profile: Profile | LayerProfile) -> float:
     """Return the radius of the largest elastic tension."""
     a = np.geomspace(1e-3, 1e2, 2000)
     return float(a[np.argmin(profile.relaxed_force(a))])

@@ -1,0 +1,143 @@
+"""JKR on a film: half-space and thin limits, a disc by its compliance, when a film is thick."""
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
+from viscotack.theory import SteadyCrack, disc, film, indenter, jkr, profiles
+from viscotack.theory.crack.contact import profile_on, recede
+from viscotack.theory.elastic import on_body, relaxed
+
+UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5))]
+SQUEEZED = BASES[-1]
+BALL = Sphere(1.0)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_a_thick_film_pulls_off_as_a_half_space_does(base):
+    thick = Layer(100.0, base)
+    end = film.pull_off(shape=BALL, body=thick, **UNITS)
+    assert end.force == pytest.approx(jkr.pull_off(radius=1.0, **UNITS).force, rel=1e-4)
+    fold = film.instability(shape=BALL, body=thick, **UNITS)
+    assert fold.depth == pytest.approx(jkr.instability(radius=1.0, **UNITS).depth, rel=1e-2)
+    a = np.array([0.5, 2.0])
+    stiff = indenter.stiffness(a, contact_modulus=1.0, body=Layer(1e5, base))
+    assert stiff == pytest.approx(2 * a, rel=1e-4)
+    kendall = disc.pull_off_force(contact_radius=a, body=Layer(1e5, base), **UNITS)
+    assert kendall == pytest.approx(np.sqrt(8 * np.pi * a**3), rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("base", "thickness"), [*((base, 0.003) for base in BASES[:3]), (SQUEEZED, 2e-4)], ids=repr
+)
+def test_a_thin_film_pulls_off_at_two_or_three_pi_r_dg(base, thickness):
+    end = film.pull_off(shape=BALL, body=Layer(thickness, base), **UNITS)
+    limit = film.thin_limit(radius=1.0, work_of_adhesion=1.0, base=base)
+    assert limit == pytest.approx((3 if base == SQUEEZED else 2) * np.pi)
+    assert -end.force == pytest.approx(limit, rel=1e-2)
+
+
+def test_the_thickness_of_a_half_space_is_that_at_which_the_force_differs_by_the_tolerance():
+    for shape, base in ((BALL, SQUEEZED), (BALL, Frictionless()), (Cone(1.0), BASES[2])):
+        whole = film.pull_off(shape=shape, body=HalfSpace(), **UNITS).force
+        for tolerance in (0.1, 0.01):
+            b = film.half_space_thickness(shape=shape, base=base, tolerance=tolerance, **UNITS)
+            force = film.pull_off(shape=shape, body=Layer(b, base), **UNITS).force
+            assert abs(force / whole - 1) == pytest.approx(tolerance, rel=1e-3)
+    assert film.half_space_thickness(shape=BALL, base=Frictionless(), tolerance=0.5, **UNITS) == 0
+    with pytest.raises(vt.InputError, match="tolerance must lie between"):
+        film.half_space_thickness(shape=BALL, base=SQUEEZED, tolerance=0.0, **UNITS)
+
+
+def test_the_thickness_of_a_half_space_has_the_units_of_length():
+    length = relaxed.adhesion_length(BALL, **UNITS)
+    lens = dict(contact_modulus=2e6, work_of_adhesion=0.05)
+    unit = relaxed.adhesion_length(Sphere(5e-3), **lens)
+    reduced = film.half_space_thickness(shape=BALL, base=SQUEEZED, **UNITS) / length
+    found = film.half_space_thickness(shape=Sphere(5e-3), base=SQUEEZED, **lens)
+    assert found == pytest.approx(reduced * unit, rel=1e-4)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_a_disc_releases_the_energy_of_its_compliance(base):
+    a, layer = np.array([0.05, 0.3, 2.0]), Layer(0.2, base)
+    inverse = [
+        1 / np.asarray(indenter.stiffness(a * x, contact_modulus=3.0, body=layer))
+        for x in (0.999, 1.001)
+    ]
+    force = -0.7 * np.asarray(indenter.stiffness(a, contact_modulus=3.0, body=layer))
+    slope = (inverse[1] - inverse[0]) / (0.002 * a)
+    found = disc.energy_release_rate(-0.7, contact_radius=a, contact_modulus=3.0, body=layer)
+    assert found == pytest.approx(-(force**2) * slope / (4 * np.pi * a), rel=1e-4)
+
+
+def test_kendall_on_a_thin_film_is_that_of_springs_or_of_a_squeezed_film():
+    a = 1.0
+    for base in BASES[:3]:
+        b = 0.01
+        springs = np.pi * a**2 * np.sqrt(2 / (base.foundation * b))
+        found = disc.pull_off_force(contact_radius=a, body=Layer(b, base), **UNITS)
+        assert found == pytest.approx(springs, rel=1e-2)
+    thin = [
+        disc.pull_off_force(contact_radius=a, body=Layer(b, SQUEEZED), **UNITS)
+        / (np.pi * a**3 * np.sqrt(3 / (32 * b**3)))
+        for b in (0.0404, 0.0202, 0.0101)
+    ]
+    assert np.all(np.diff(thin) < 0) and thin[-1] == pytest.approx(1.0, rel=0.05)
+    # the correction is of first order in b/a
+    assert 2 * thin[2] - thin[1] == pytest.approx(1.0, rel=1e-2)
+
+
+def test_kendall_on_a_half_space_is_that_of_the_profiles_and_the_strength_limits_it():
+    case = dict(contact_radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    kendall = -profiles.punch_pull_off(**case).force
+    assert disc.pull_off_force(**case) == pytest.approx(kendall, rel=1e-12)
+    thin = Layer(2e-6, SQUEEZED)
+    limit = disc.strength_limit(contact_radius=1e-3, strength=50e3)
+    assert disc.pull_off_force(**case, body=thin, strength=50e3) == limit
+    assert disc.pull_off_force(**case, body=thin) > limit
+
+
+def test_the_integral_equation_and_the_influence_matrix_have_the_same_stiffness():
+    layer, a = Layer(0.4, BASES[2]), np.array([0.3, 1.0])
+    found = indenter.stiffness(a, body=layer, contact_modulus=2.0)
+    assert found == pytest.approx(2 * on_body.stiffness(a, layer), rel=5e-4)
+
+
+def test_the_work_to_pull_off_tends_to_that_of_a_half_space():
+    thick = film.work_to_pull_off(shape=BALL, body=Layer(1e4, SQUEEZED), **UNITS)
+    assert thick == pytest.approx(jkr.work_to_pull_off(radius=1.0, **UNITS), rel=1e-3)
+    thin = film.work_to_pull_off(shape=BALL, body=Layer(0.3, SQUEEZED), **UNITS)
+    assert thin < thick
+
+
+SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def receding(body, rates, start=4.0):
+    crack = SteadyCrack(SOLID, vt.LennardJones(1.0, 1.0))
+    given = dict(radius=np.full(len(rates), start), rate=np.array(rates), tabor=np.array(8.0))
+    found = recede(crack, profile_on(BALL, body), **given)
+    return -found.force.min(axis=0)
+
+
+def test_a_crack_that_recedes_on_a_thick_layer_is_that_on_a_half_space():
+    rates = (0.01, 1.0, 100.0)
+    thick = receding(Layer(1e4, SQUEEZED), rates)
+    assert thick == pytest.approx(receding(HalfSpace(), rates), rel=1e-3)
+
+
+def test_a_crack_that_recedes_on_a_layer_has_the_limits_of_jkr():
+    layer = Layer(0.3, BASES[3])
+    slow, fast = receding(layer, (1e-7, 1e8))
+    for found, work in ((slow, 1.0), (fast, 10.0)):
+        solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
+        force = -film.pull_off(shape=BALL, body=layer, **solid).force
+        assert found == pytest.approx(force, rel=2e-3)
+
+
+def test_a_profile_with_several_edges_is_refused_on_a_layer():
+    with pytest.raises(vt.InputError, match="several edges"):
+        profile_on(vt.WavySphere(1.0, 0.06, 0.5), Layer(1.0))

@@ -1,0 +1,210 @@
+"""Advice on films, discs and profiles: limits by theory, thickness of a half-space, saturation."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from command_line import exit_status
+from front_ends import Http, Question, by_command, by_http, by_python, by_study
+from viscotack.theory import disc, film
+
+SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+GLUED = vt.Bonded(poisson_ratio=0.49)
+UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+LOAD = 1.5 * np.pi
+CASE = """
+[material]
+model = "sls"
+rubbery_modulus = "1 MPa"
+glassy_modulus = "10 MPa"
+tau0 = "1 s"
+poisson_ratio = 0.49
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "50 mJ/m^2"
+equilibrium_gap = "10 nm"
+[sphere]
+radius = "2 mm"
+[layer]
+thickness = "60 um"
+base = "bonded"
+[protocol]
+preload_force = "3 mN"
+speed = "10 um/s"
+"""
+
+
+def groups(body, *, tabor=50.0, rate=10.0, start=None, **more):
+    return vt.Groups(tabor, SOLID, start or vt.AtRadius(4.0), rate, body=body, **more)
+
+
+def row(advice, tier):
+    return next(e for e in advice.estimates if e.tier == tier)
+
+
+def test_the_limits_of_a_film_are_those_of_jkr():
+    layer = vt.Layer(0.5, GLUED)
+    contact = vt.advise(groups(layer)).contact
+    for work, found in ((1.0, contact.slow_force), (10.0, contact.fast_force)):
+        solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
+        force = -film.pull_off(shape=vt.Sphere(1.0), body=layer, **solid).force
+        assert found == pytest.approx(force / LOAD, rel=1e-4)
+    thick = [
+        film.half_space_thickness(shape=vt.Sphere(1.0), base=GLUED, tolerance=x, **UNITS)
+        for x in (0.1, 0.05, 0.01)
+    ]
+    assert contact.half_space_thickness == pytest.approx(thick)
+
+
+def test_a_start_smaller_than_the_fast_contact_has_a_lower_fast_limit():
+    layer = vt.Layer(0.5, GLUED)
+    small, large = (
+        vt.advise(groups(layer, start=vt.AtRadius(x))).contact.fast_force for x in (0.8, 4.0)
+    )
+    assert small < 0.9 * large
+
+
+def test_a_thick_film_saturates_as_a_half_space_and_a_thin_one_sooner():
+    thick = vt.advise(groups(vt.Layer(100.0, GLUED))).contact
+    assert thick.over_half_space == pytest.approx(1.0, rel=1e-4)
+    assert thick.saturation_rate == pytest.approx(thick.half_space_saturation_rate, rel=1e-2)
+    thin = vt.advise(groups(vt.Layer(0.5, GLUED))).contact
+    assert thin.half_space_saturation_rate == pytest.approx(
+        thick.half_space_saturation_rate, rel=1e-6
+    )
+    assert thin.saturation_rate < 0.6 * thin.half_space_saturation_rate
+
+
+def test_the_receding_crack_on_a_film_meets_its_limits_in_speed():
+    layer = vt.Layer(0.5, GLUED)
+    found = [vt.advise(groups(layer, rate=rate)) for rate in (1e-6, 5.0, 1e8)]
+    forces = [row(each, "receding crack").pull_off_force for each in found]
+    assert forces[0] == pytest.approx(found[0].contact.slow_force, rel=1e-2)
+    assert forces[2] == pytest.approx(found[2].contact.fast_force, rel=1e-2)
+    regimes = [each.rate_regime for each in found]
+    assert regimes == ["quasi-static", "rate-dependent", "glassy"]
+
+
+@pytest.mark.parametrize(
+    ("thickness", "base", "tabor"),
+    [
+        (1.0, GLUED, 8.0),
+        pytest.param(1.0, vt.Frictionless(), 8.0, marks=pytest.mark.slow),
+        pytest.param(3.0, GLUED, 8.0, marks=pytest.mark.slow),
+        (0.5, GLUED, 16.0),
+    ],
+)
+def test_what_is_said_to_apply_on_a_film_is_as_good_as_it_is_said_to_be(thickness, base, tabor):
+    case = groups(vt.Layer(thickness, base), tabor=tabor, rate=0.3 * tabor, start=vt.AtRadius(2.7))
+    advice = vt.advise(case)
+    result = vt.solve(case, until="pull-off", accuracy=5e-3, estimate_error=False)
+    receding = row(advice, "receding crack")
+    assert receding.applies and receding.error < 0.07
+    assert receding.pull_off_force == pytest.approx(vt.pull_off_force(result), rel=receding.error)
+    assert advice.contact.slow_force < vt.pull_off_force(result) < advice.contact.fast_force
+
+
+def test_a_film_too_thin_for_the_range_of_the_forces_is_left_to_the_simulation():
+    advice = vt.advise(groups(vt.Layer(0.1, GLUED), tabor=8.0))
+    receding = row(advice, "receding crack")
+    assert not receding.applies and "too thin for the range" in receding.why
+    assert advice.use == "simulation" and advice.rate_regime == "unknown"
+    assert advice.adhesion == "transition" and advice.contact.reaches_through
+    assert any("saturates is not known here" in words for words in advice.sentences)
+
+
+def test_a_disc_has_kendall_and_its_strength_as_limits():
+    layer = vt.Layer(0.5, GLUED)
+    for body in (vt.HalfSpace(), layer):
+        case = groups(body, tabor=8.0, geometry=vt.Disc(1.0), start=vt.AtDepth(0.0))
+        contact = vt.advise(case).contact
+        kendall = disc.pull_off_force(contact_radius=1.0, body=body, **UNITS)
+        strength = np.pi * 8.0 * case.traction.strength
+        assert contact.slow_force == pytest.approx(kendall / LOAD)
+        assert contact.strength_force == pytest.approx(strength / LOAD)
+        expected = min(kendall * np.sqrt(10.0), strength) / LOAD
+        assert contact.fast_force == pytest.approx(expected)
+        simulated = vt.solve(case, until="pull-off", accuracy=2e-2, estimate_error=False)
+        assert 0.9 * contact.slow_force < simulated.pull_off_force < contact.fast_force
+
+
+@pytest.mark.parametrize(
+    "body",
+    [vt.HalfSpace(), pytest.param(vt.Layer(1.0), marks=pytest.mark.slow)],
+    ids=["half-space", "layer"],
+)
+def test_a_profile_with_waves_has_limits(body):
+    shape = vt.WavySphere(1.0, 0.06, 0.5)
+    case = groups(body, tabor=4.0, geometry=shape, start=vt.AtDepth(12.0))
+    advice = vt.advise(case)
+    assert advice.contact.slow_force < advice.contact.fast_force
+    assert "several edges" in row(advice, "receding crack").why
+    assert any("simulate" in words for words in advice.sentences)
+
+
+def test_a_cone_keeps_the_prediction_of_its_tier():
+    case = groups(vt.HalfSpace(), tabor=8.0, geometry=vt.Cone(1.0))
+    advice, found = vt.advise(case), vt.predict(case)
+    assert advice.use == "crack contact" == found.method
+    assert advice.pull_off_force == found.pull_off_force
+
+
+def test_the_strain_of_a_film_is_judged_in_words():
+    problem = case_problem()
+    small = vt.advise(problem)
+    assert 0 < small.contact.film_strain < 0.1
+    assert any("strain of the film at the start" in words for words in small.sentences)
+    press = vt.Retraction(vt.AtForce(20e-3), 1e-5)
+    thin = vt.advise(replace(problem, body=vt.Layer(20e-6, GLUED), protocol=press))
+    assert thin.contact.film_strain > 0.1
+    assert any("not small" in words for words in thin.sentences)
+
+
+def case_problem():
+    path = Path("case.toml")
+    path.write_text(CASE)
+    return vt.read_case(path)
+
+
+@pytest.fixture(autouse=True)
+def in_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def test_every_door_gives_the_same_advice_on_a_film():
+    case_problem()
+    question = Question("advise", {"problem": "case.toml"})
+    http = Http()
+    try:
+        found = by_python(question)
+        assert found.record["half_space_thickness_m"][2] > 60e-6
+        assert found == by_command(question) == by_study(question) == by_http(question, http)
+    finally:
+        http.close()
+
+
+def test_flags_ask_for_advice_on_a_film_and_on_a_profile(capsys):
+    flags = "--tabor 50 --material sls --modulus-ratio 0.1 --preload-radius 4 --rate 10".split()
+    assert exit_status(["advise", *flags, "--thickness", "0.5", "--bonded", "0.49", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["slow_force"] == vt.advise(groups(vt.Layer(0.5, GLUED))).contact.slow_force
+    assert exit_status(["advise", *flags, "--profile-exponent", "4"]) == 0
+    assert "relaxed" in capsys.readouterr().out
+
+
+def test_bodies_of_ones_own_and_punches_get_no_advice():
+    punch = vt.Groups(
+        None,
+        SOLID,
+        vt.AtDepth(1.0),
+        1.0,
+        geometry=vt.FlatPunch(60.0),
+        body=vt.Layer(3.0),
+        cohesion=0.05,
+    )
+    with pytest.raises(vt.InputError, match="shapes of revolution on a half-space or a layer"):
+        vt.advise(punch)
