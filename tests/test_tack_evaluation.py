@@ -147,11 +147,17 @@ def test_a_bad_curve_is_refused_with_the_reason(what):
 
 
 def test_a_retraction_alone_is_taken_where_that_is_said():
-    test = tack_files.made(noise=5e-5)
-    half = replace(test, time=test.time[560:], force=test.force[560:], drive=test.drive[560:])
-    cycle = only(half, retraction_only=True)
-    assert cycle.pull_off_force.value == pytest.approx(PULL_OFF.force * -1, rel=0.01)
-    assert "no approach before contact" in " ".join(cycle.source.notes)
+    forces = []
+    for seed in range(4):
+        test = tack_files.made(noise=5e-5, seed=seed)
+        half = replace(test, time=test.time[560:], force=test.force[560:], drive=test.drive[560:])
+        cycle = only(half, retraction_only=True)
+        assert "no approach before contact" in " ".join(cycle.source.notes)
+        forces.append(cycle.pull_off_force)
+    # the noise is 1.4 % of the force, so one test is within 0.7 %
+    off = np.array([(one.value + PULL_OFF.force) / one.uncertainty for one in forces])
+    assert np.all(np.abs(off) < 3)
+    assert np.mean([one.value for one in forces]) == pytest.approx(-PULL_OFF.force, rel=0.005)
 
 
 def test_tests_that_cannot_be_evaluated_are_refused():
