@@ -60,8 +60,8 @@ def retraction_law():
     return jkr.depth(radius, **unit), jkr.force(radius, **unit), unit
 
 
-def jkr_force(depth, work, deepest):
-    """Return the force at these depths in units of the deepest contact's, for a work."""
+def jkr_force(depth, work):
+    """Return the force at these depths for a work of adhesion."""
     depths, forces, _ = retraction_law()
     # lengths go as work^(2/3), forces as work
     length = work ** (2 / 3)
@@ -92,7 +92,7 @@ def pure(rng):
         back = np.where(retraction < at, fading, back)
     work = 10 ** rng.uniform(-1.3, 0) if rng.random() < 0.5 else 0.0
     hertz = 4 / 3 * np.maximum(approach, 0) ** 1.5
-    pressed = jkr_force(approach, work, deep) * (approach > 0) if work else hertz
+    pressed = jkr_force(approach, work) * (approach > 0) if work else hertz
     held = preload + (pressed[-1] - preload) * np.exp(-np.linspace(0, 5, hold))
     fast = np.abs(deep - away)
     clocks = [np.full(down, np.ptp(approach) * 10 ** rng.uniform(-0.3, 0.3) / down)]
@@ -280,7 +280,7 @@ def report(name, signals, worst=0):
 
 
 @cache
-def lab_curves(count, first=100):
+def lab_curves(count, first):
     """Return past time, depth of drive, force, pull-off and compliance of labs' retractions."""
     import labs
 
@@ -344,7 +344,7 @@ def main():
         for j, kind in enumerate(DISTURBANCES):
             report(kind, [disturbed(drawn(j, i), kind) for i in range(each)], given.worst)
     if "labs" in given.what:
-        curves = lab_curves(max(given.count // 25, 2))
+        curves = lab_curves(max(given.count // 25, 2), 1000 * given.seed)
         for j, kind in enumerate(LAB_KINDS):
             signals = [lab_signal(drawn(j, i), curve, kind) for i, curve in enumerate(curves)]
             report(f"labs, {kind}", signals, given.worst)

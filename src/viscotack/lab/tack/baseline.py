@@ -41,6 +41,7 @@ _SINGLE = 50  # points next to contact that are not averaged
 _CANDIDATES = 28  # contact points compared at a time
 _BEYOND = 4  # points of the flank beyond its part in use
 _MISFIT = 3.0  # variance of the residuals over that of the noise that a second step may explain
+_GAIN = 20.0  # smallest gain of a second step
 _UNLIKELY = 8.0  # log evidence below the best one
 _UNSURE = 0.05  # largest probability that free points are in contact
 _FEW = 6  # smallest number of free points
@@ -99,21 +100,24 @@ class Contact:
         Its standard uncertainty [m].
     misfit : float
         Variance of the residuals over that of the noise.
+    gain : float
+        Logarithm of the evidence relative to that of a part that is free to its last points.
     """
 
     free: int
     depth: float
     uncertainty: float
     misfit: float
+    gain: float
 
 
 def _terms(time: Array, depth: Array, sines: int) -> Array:
     waves = np.sqrt(2) * np.sin(np.multiply.outer(time, _waves(sines)))
-    return np.concatenate([np.stack([np.ones_like(time), time, depth], axis=-1), waves], axis=-1)
+    return np.concatenate([np.stack([np.ones(time.shape), time, depth], axis=-1), waves], axis=-1)
 
 
 def _waves(count: int) -> Array:
-    return np.pi * (np.arange(count) + 0.5)
+    return np.pi * (np.arange(float(count)) + 0.5)
 
 
 def _widths(
@@ -155,7 +159,7 @@ def without_spikes(force: Array, noise: float) -> Array:
     signs = np.sign([*beyond, *near])
     far = np.min(np.abs(beyond), axis=0) > 9 * noise
     spike = far & (np.min(np.abs(near), axis=0) > 6 * noise) & (np.abs(signs.sum(axis=0)) == 4)
-    return np.where(spike, (left + right) / 2, force)
+    return np.asarray(np.where(spike, (left + right) / 2, force), dtype=np.float64)
 
 
 def _evidence(X: Array, y: Array, widths: Array) -> tuple[Any, ...]:
@@ -240,11 +244,18 @@ def contact_of(
     """
     found = _contact(force, depth, time, noise, share)
     while found and found.misfit > _MISFIT:
-        stop = found.free + _BEYOND
-        inner = _contact(force[:stop], depth[:stop], time[:stop], noise, share)
-        if inner is None or inner.misfit > found.misfit / 2 or inner.free < force.size // 20:
+        # with the last step, or without it where it is so large that it hides the others
+        stops = (found.free + _BEYOND, found.free)
+        with_step, without = (
+            _contact(force[:stop], depth[:stop], time[:stop], noise, share) for stop in stops
+        )
+        least = force.size // 20
+        if with_step and with_step.misfit < found.misfit / 2 and with_step.free >= least:
+            found = with_step
+        elif without and without.gain > _GAIN and without.free >= least:
+            found = without
+        else:
             break
-        found = inner
     return found
 
 
@@ -266,6 +277,7 @@ def _contact(force: Array, depth: Array, time: Array, noise: float, share: float
     )
     coarse = _between(1, last)
     logs, _ = _contact_evidence(part, coarse, widths)
+    gain = float(logs.max() - logs[-1].max())
     likely = logs > logs.max() - _UNLIKELY
     near = np.flatnonzero(likely.any(axis=1))
     begins = _between(
@@ -289,7 +301,7 @@ def _contact(force: Array, depth: Array, time: Array, noise: float, share: float
     spread = float(np.sqrt(weights @ ((places - mean) ** 2 + steps**2 / 12)))
     free = begins[int(np.argmax(np.cumsum(weights) > _UNSURE))]
     misfit = float(variance.flat[int(np.argmax(logs))])
-    return Contact(int(part.first[free]), mean, spread, misfit)
+    return Contact(int(part.first[free]), mean, spread, misfit, gain)
 
 
 def _between(low: int, high: int) -> Indices:

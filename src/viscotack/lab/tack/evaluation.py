@@ -158,14 +158,18 @@ def _cycle(
             f"the retraction has {own.end - own.retract} points, fewer than {_POINTS}; record "
             "at a higher rate"
         )
-    law, touch, leaves = _zero(time, way, raw, own)
+    noise = _noise(raw, raw[back])
+    clean = without_spikes(raw, noise)
+    law, touch, leaves = _zero(time, way, clean, own, noise)
     if not (touch or retraction_only):
         raise InputError(
             "the retraction is not preceded by an approach that begins free of contact; give the "
             "whole test, or set --retraction-only"
         )
-    force = raw - law.at(way, time)
+    zeros = law.at(way, time)
+    force = clean - zeros
     _refuse_clipped(raw[back], force[back], way[back], law.noise)
+    _refuse_lone(raw[back] - zeros[back])
     lowest = own.retract + int(np.argmin(force[back]))
     zero = law.uncertainty(way[lowest], time[lowest])
     noise = max(law.noise, _LEAST * float(np.ptp(raw)))
@@ -174,6 +178,8 @@ def _cycle(
     depth = way - compliance * force
     _refuse_compliance(depth[back], way[back], compliance, law.noise)
     notes = [_words(law, way, time)]
+    if np.any(clean != raw):
+        notes.append(f"spikes replaced by the mean of their neighbours: {np.sum(clean != raw)}")
     origin, spread, how = _origin(depth, force, own, touch, law.noise)
     depth = depth - origin
     notes.append(how)
@@ -244,13 +250,26 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
             )
 
 
+def _noise(raw: Array, back: Array) -> float:
+    """Return the noise of single points; 0 is replaced by a small fraction of the range."""
+    return max(point_noise(back), rounding(raw), _LEAST * float(np.ptp(raw)), 1e-300)
+
+
+def _refuse_lone(force: Array) -> None:
+    """Raise an error if the smallest force is a single point."""
+    at = int(np.clip(np.argmin(force), 1, force.size - 2))
+    value, before, behind = (-float(one) for one in force[[at, at - 1, at + 1]])
+    if max(before, behind) < (1 - _LONE) * value:
+        raise InputError(
+            f"the pull-off of {_force(value)} is a single point, with neighbours at "
+            f"{_force(before)} and {_force(behind)}: a spike, or a low recording rate"
+        )
+
+
 def _zero(
-    time: Array, way: Array, raw: Array, own: Segments
+    time: Array, way: Array, clean: Array, own: Segments, noise: float
 ) -> tuple[Baseline, Contact | None, Contact]:
     """Return the baseline of the force, and the first contact, if any, and the last one."""
-    noise = point_noise(raw[own.retract : own.end])
-    noise = max(noise, rounding(raw), _LEAST * float(np.ptp(raw)), 1e-300)
-    clean = without_spikes(raw, noise)
     clock = (time - time[0]) / max(float(np.ptp(time)), 1e-300)
     back, down = slice(own.retract, own.end), slice(own.dwell)
     outwards = contact_of(clean[back][::-1], way[back][::-1], clock[back][::-1], noise, 0.3)
@@ -281,12 +300,6 @@ def _least(force: Array, at: int, noise: float, zero: float) -> Extremum:
         raise InputError(
             f"the uncertainty of the force zero is {_force(zero)}, but the pull-off is "
             f"{_force(value)}: tilt or drift is too large for the free parts of the curve"
-        )
-    before, behind = -float(force[at - 1]), -float(force[at + 1])
-    if max(before, behind) < (1 - _LONE) * value:
-        raise InputError(
-            f"the pull-off of {_force(value)} is a single point, with neighbours at "
-            f"{_force(before)} and {_force(behind)}: a spike, or a low recording rate"
         )
     found = extremum(force, at, noise)
     if np.hypot(found.uncertainty, zero) > _ZERO * value:
