@@ -249,7 +249,7 @@ def contact_of(
         with_step, without = (
             _contact(force[:stop], depth[:stop], time[:stop], noise, share) for stop in stops
         )
-        least = force.size // 20
+        least = force.size // 30
         if with_step and with_step.misfit < found.misfit / 2 and with_step.free >= least:
             found = with_step
         elif without and without.gain > _GAIN and without.free >= least:
