@@ -186,7 +186,8 @@ def test_a_map_is_read_by_afmformats_curve_by_curve(tmp_path, monkeypatch):
     assert (first.into, first.compliance, second.compliance) == (-1, 1e-4, 0.0)
     assert first.source.format == "afmformats" and "curve 7" in first.source.notes[0]
     (cycle,) = tack.evaluate(second).cycles
-    assert cycle.pull_off_force.value == pytest.approx(-WHOLE.force.min())
+    # the minimum lies between two points
+    assert cycle.pull_off_force.value == pytest.approx(-WHOLE.force.min(), rel=5e-4)
 
 
 def test_a_curve_of_afmformats_without_time_needs_the_nominal_speed(tmp_path, monkeypatch):

@@ -1,22 +1,50 @@
-"""Baseline of the force out of contact: zero, tilt over depth and drift over time.
+r"""Statistical model of the force out of contact, and of the points at which contact begins.
 
-If the test is long enough, both ends of a cycle are free of contact: the approach before contact
-and the retraction after detachment. Tilt and drift are subtracted only if the free parts
-support them, by a Bayesian criterion on block means, whose scatter includes the slow wander of a
-sensor.
+.. math::
+
+   F_i = b_0 + b_1 x_i + b_2 z_i + \sum_k w_k \sqrt 2 \sin(h_k x_i)
+         + \sum_p c_p u_i^p + \sigma \varepsilon_i, \qquad h_k = \pi (k + 1/2)
+
+with zero :math:`b_0`, drift :math:`b_1` over time x and tilt :math:`b_2` over depth z, both over
+their spans. The sines are those of a random walk (:math:`w_k \propto q/h_k`) or of
+an integrated one (:math:`q/h_k^2`): the wander of the zero. The flank of a contact is a sum of
+powers p of the depth u beyond the contact point over its largest value (0 out of contact): 3/2 for
+Hertz, 0 for a jump.
+
+All coefficients have normal priors. So the evidence of a contact point, a set of powers and a
+strength q has a closed form, after integration over the noise (inverse gamma, around that of
+neighbouring points). First the contact points of both parts are averages over the evidence of all
+of these, then the baseline is that over the strengths, drift and tilt, given the free points.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.arrays import Array
 
-_BLOCKS = 12  # number per free part
-_OUT = 4.0  # standard deviations of the noise above which contact has begun
-_FEW = 8  # smallest number of points of a free part
-# factor on the usual penalty, because neighbouring blocks of a wandering sensor correlate
-_PENALTY = 2.0
+Indices = npt.NDArray[np.intp]
+
+# sines of the wander in the search of contact points; fewer would fix the zero between free parts
+_FEW_SINES, _SINES = 8, 32
+# strengths of the wander, relative to the noise: random walk, integrated
+_WANDERS = ((0.0, 0.0), (2.0, 0.0), (8.0, 0.0), (30.0, 0.0), (0.0, 10.0), (0.0, 100.0))
+_SLOPES = 0.2  # prior standard deviation of drift and tilt, relative to the range of force
+_WANDERING = 0.1  # largest strength of a random walk, relative to the range of force
+_POWERS = (0.0, 1.0, 1.5, 2.0, 3.0)  # of the flank; 0 is a jump into or out of contact
+_FLANKS = ((1.5,), (2,), (1, 2), (1.5, 2, 3), (0,), (0, 1), (0, 1.5, 2), (0, 1, 2, 3))
+_SURE = 10.0  # half of the degrees of freedom of the noise of neighbouring points
+_BLOCKS = 60  # largest number of blocks of a free part
+_SINGLE = 50  # points next to contact that are not averaged
+_CANDIDATES = 28  # contact points compared at a time
+_BEYOND = 4  # points of the flank beyond its part in use
+_MISFIT = 3.0  # variance of the residuals over that of the noise that a second step may explain
+_GAIN = 20.0  # smallest gain of a second step
+_UNLIKELY = 8.0  # log evidence below the best one
+_UNSURE = 0.05  # largest probability that free points are in contact
+_FEW = 6  # smallest number of free points
 
 
 @dataclass(frozen=True)
@@ -25,120 +53,294 @@ class Baseline:
 
     Parameters
     ----------
-    coefficients : tuple of float
-        Of the terms [N, N/m, N/s].
-    terms : tuple of str
-        Among "zero", "tilt" and "drift".
+    coefficients : ndarray
+        Of zero, drift, tilt and the sines of the wander [N].
     covariance : ndarray
-        Covariance of the coefficients.
+        Covariance of the coefficients [N^2].
     noise : float
         Standard deviation of single points [N].
-    origin : tuple of float
-        Depth [m] and time [s] at which the coefficients hold.
+    time, depth : tuple of float
+        Origin and span of time [s] and depth [m].
     """
 
-    coefficients: tuple[float, ...]
-    terms: tuple[str, ...]
+    coefficients: Array
     covariance: Array
     noise: float
-    origin: tuple[float, float]
+    time: tuple[float, float]
+    depth: tuple[float, float]
 
     def at(self, depth: Array, time: Array) -> Array:
-        """Return the force out of contact [N]."""
-        return self._terms(depth, time) @ np.array(self.coefficients)
+        """Force out of contact [N]."""
+        return self._terms(depth, time) @ self.coefficients
 
-    def uncertainty(self, depth: float, time: float) -> float:
-        """Return the standard uncertainty of the force out of contact [N]."""
-        x = self._terms(np.array([depth]), np.array([time]))[0]
+    def uncertainty(self, depth: Array, time: Array, weights: Array | float = 1.0) -> float:
+        """Return the standard uncertainty of the weighted sum of the force out of contact."""
+        x = np.sum(np.reshape(weights, (-1, 1)) * self._terms(depth, time), axis=0)
         return float(np.sqrt(max(x @ self.covariance @ x, 0.0)))
 
     def _terms(self, depth: Array, time: Array) -> Array:
-        return _terms(self.terms, depth - self.origin[0], time - self.origin[1])
+        return _terms(
+            (np.atleast_1d(time) - self.time[0]) / self.time[1],
+            (np.atleast_1d(depth) - self.depth[0]) / self.depth[1],
+            _SINES,
+        )
 
 
-def _terms(terms: tuple[str, ...], depth: Array, time: Array) -> Array:
-    columns = {"zero": np.ones(depth.shape), "tilt": depth, "drift": time}
-    return np.stack([columns[name] for name in terms], axis=-1)
+@dataclass(frozen=True)
+class Contact:
+    """First or last contact of a part of the test.
 
-
-def free_before(force: Array) -> int:
-    """Return the number of points free of contact at the beginning.
-
-    The level is that of the first quarter; contact begins where the force leaves it permanently.
+    Parameters
+    ----------
+    free : int
+        Number of points that are free of contact, counted from the outer end.
+    depth : float
+        Depth of the drive at the contact point [m].
+    uncertainty : float
+        Its standard uncertainty [m].
+    misfit : float
+        Variance of the residuals over that of the noise.
+    gain : float
+        Logarithm of the evidence relative to that of a part that is free to its last points.
     """
-    return free_after(force[::-1])
+
+    free: int
+    depth: float
+    uncertainty: float
+    misfit: float
+    gain: float
 
 
-def free_after(force: Array) -> int:
-    """Return the number of points free of contact at the end, by the same criterion."""
-    count = max(force.size // 20, _FEW)
-    if force.size < 2 * _FEW:
-        return 0
-    free = count
-    # noise of the whole signal: a few quiet points at the end are not representative
-    least = max(point_noise(force), 1e-9 * float(np.ptp(force)))
-    for _ in range(30):
-        part = force[-free:]
-        x = np.linspace(-1.0, 0.0, part.size)
-        line = np.polynomial.Polynomial.fit(x, part, 1 if free > 4 * _FEW else 0)
-        noise = max(least, float(np.std(part - line(x))))
-        # extrapolate the line only slightly
-        reach = min(force.size, int(1.3 * free) + 1)
-        ahead = force[-reach:]
-        where = np.linspace(-(reach - 1) / max(part.size - 1, 1), 0.0, reach)
-        out = np.abs(ahead - line(where)) > _OUT * noise
-        # three consecutive points, because a single outlier may be random
-        left = np.flatnonzero(out[:-2] & out[1:-1] & out[2:])
-        grown = reach - int(left[-1]) - 3 if left.size else reach
-        if grown <= free or reach == force.size:
-            return max(grown, 0) if left.size else min(reach, force.size)
-        free = grown
-    return free
+def _terms(time: Array, depth: Array, sines: int) -> Array:
+    waves = np.sqrt(2) * np.sin(np.multiply.outer(time, _waves(sines)))
+    return np.concatenate([np.stack([np.ones(time.shape), time, depth], axis=-1), waves], axis=-1)
+
+
+def _waves(count: int) -> Array:
+    return np.pi * (np.arange(float(count)) + 0.5)
+
+
+def _widths(
+    size: float, wander: tuple[float, float], slopes: tuple[float, float], sines: int
+) -> Array:
+    """Prior standard deviations of the coefficients, in units of the noise."""
+    straight = size * np.array([3.0, *slopes])
+    walk, smooth = min(wander[0], _WANDERING * size), min(wander[1], 2 * _WANDERING * size)
+    h = _waves(sines)
+    return np.concatenate([straight, walk / h + smooth / h**2])
 
 
 def point_noise(values: Array) -> float:
-    """Return the standard deviation of single points, from second differences (slope-free)."""
-    return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6))
+    """Return the standard deviation of single points, from second differences (slope-free).
+
+    Differences above 3.5 standard deviations are left out, because they belong to jumps.
+    """
+    bends = np.abs(np.diff(values, 2))
+    scale = np.inf
+    for _ in range(20):
+        scale = float(np.sqrt(np.mean(bends[bends <= 3.5 * scale] ** 2)))
+    return scale / np.sqrt(6)
 
 
-def baseline(
-    force: Array, depth: Array, time: Array, before: slice | None, after: slice
-) -> Baseline:
-    """Fit the baseline to the free parts before contact, if any, and after contact."""
-    parts = [part for part in (before, after) if part is not None]
-    blocks = [_blocks(force[p], depth[p], time[p]) for p in parts]
-    F, d, t = (np.concatenate(column) for column in zip(*blocks, strict=True))
-    origin = (float(depth[after][0]), float(time[after][0]))
-    choices: list[tuple[str, ...]] = [("zero",)]
-    if F.size >= 6:
-        choices += [("zero", "tilt")]
-        if before is not None:
-            choices += [("zero", "drift"), ("zero", "tilt", "drift")]
-    fits = [_fit(terms, F, d - origin[0], t - origin[1]) for terms in choices]
-    best = min(range(len(choices)), key=lambda i: fits[i][2])
-    values, covariance, _ = fits[best]
-    law = Baseline(tuple(values.tolist()), choices[best], covariance, 0.0, origin)
-    rest = np.concatenate([force[p] - law.at(depth[p], time[p]) for p in parts])
-    noise = float(np.std(rest))
-    return Baseline(law.coefficients, law.terms, covariance, noise, origin)
+def rounding(values: Array) -> float:
+    """Return the standard deviation of rounding to whole digits; 0 if there are none."""
+    steps = np.abs(np.diff(values))
+    digit = float(np.min(steps[steps > 1e-9 * np.ptp(values)], initial=np.inf))
+    whole = np.isfinite(digit) and np.allclose(steps / digit, np.round(steps / digit), atol=1e-3)
+    return digit / np.sqrt(12) if whole else 0.0
+
+
+def without_spikes(force: Array, noise: float) -> Array:
+    """Replace single points far from both neighbours and their extrapolations by the mean."""
+    f = np.pad(force, 2, mode="reflect", reflect_type="odd")
+    left, right = f[1:-3], f[3:-1]
+    beyond = [force - (2 * left - f[:-4]), force - (2 * right - f[4:])]
+    near = [force - left, force - right]
+    signs = np.sign([*beyond, *near])
+    far = np.min(np.abs(beyond), axis=0) > 9 * noise
+    spike = far & (np.min(np.abs(near), axis=0) > 6 * noise) & (np.abs(signs.sum(axis=0)) == 4)
+    return np.asarray(np.where(spike, (left + right) / 2, force), dtype=np.float64)
+
+
+def _evidence(X: Array, y: Array, widths: Array) -> tuple[Any, ...]:
+    """Return log evidence, root of the precision, its solution, and variance, for each prior.
+
+    Parameters
+    ----------
+    X, y : ndarray
+        Terms (..., n, p) and data (n) in units of their noise.
+    widths : ndarray, shape (priors, p)
+    """
+    gram, moment = np.swapaxes(X, -1, -2) @ X, np.swapaxes(X, -1, -2) @ y
+    M = np.eye(widths.shape[1]) + gram[..., None, :, :] * widths[:, :, None] * widths[:, None, :]
+    L = np.linalg.cholesky(M)
+    v = np.linalg.solve(L, (moment[..., None, :] * widths)[..., None])[..., 0]
+    squares = _SURE + np.maximum(y @ y - np.sum(v**2, axis=-1), 0.0) / 2
+    logs = np.log(np.diagonal(L, axis1=-2, axis2=-1)).sum(axis=-1)
+    return -logs - (_SURE + y.size / 2) * np.log(squares), L, v, squares / (_SURE + y.size / 2)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Averages over blocks of points, from the outer end inwards."""
+
+    first: Indices  # indices of the first points of the blocks
+    count: Array
+    force: Array
+    depth: Array
+    time: Array
+
+
+def _part(force: Array, depth: Array, time: Array, noise: float, share: float) -> _Part:
+    """Return the part up to a fraction of its flank, the force in units of the noise."""
+    level = float(np.median(force[: max(force.size // 10, _FEW)]))
+    change = np.abs(force - level)
+    beyond = change > np.clip(60 * noise, 0.1 * change.max(), share * change.max())
+    stop = min(int(np.argmax(beyond)) + _BEYOND, force.size) if beyond.any() else force.size
+    # single points at the inner end, where a jump may be
+    outer = max(stop - _SINGLE, 0)
+    blocks = np.linspace(0, outer, min(outer, 2 * _BLOCKS), endpoint=False)
+    first = np.concatenate([np.unique(blocks.round().astype(int)), np.arange(outer, stop)])
+    count = np.diff(first, append=stop)
+    rows = [row[:stop] for row in ((force - level) / noise, depth, time)]
+    return _Part(first, count, *(np.add.reduceat(row, first) / count for row in rows))
+
+
+def _contact_evidence(part: _Part, begins: Indices, widths: Array) -> tuple[Array, Array]:
+    """Log evidence and variance of contact from these blocks (rows) under each prior (columns)."""
+    z = part.depth
+    u = np.maximum(z - z[begins - 1][:, None], 0.0)
+    u /= np.maximum(u.max(axis=1, keepdims=True), 1e-300)
+    inside = np.arange(z.size) >= begins[:, None]
+    powers = np.stack([np.where(inside, u**p, 0.0) for p in _POWERS], axis=-1)
+    base = _terms(part.time, (z - z[0]) / max(float(np.ptp(z)), 1e-300), _FEW_SINES)
+    X = np.concatenate([np.broadcast_to(base, (begins.size, *base.shape)), powers], axis=-1)
+    weight = np.sqrt(part.count)
+    logs, _, _, variance = _evidence(X * weight[:, None], part.force * weight, widths)
+    return logs, variance
+
+
+def contact_of(
+    force: Array, depth: Array, time: Array, noise: float, share: float
+) -> Contact | None:
+    """Return the contact point of a part that is ordered from its outer end inwards.
+
+    A contact may end in several steps, of which the model has one. So the free points are searched
+    again as long as the model does not fit them.
+
+    Parameters
+    ----------
+    force, depth, time : ndarray, shape (N,)
+        Force [N], depth [m], and time over the duration of the test.
+    noise : float
+        Standard deviation of single points [N].
+    share : float
+        Fraction of the largest change of force up to which the flank is used.
+
+    Returns
+    -------
+    Contact or None
+        None if the part does not begin free of contact.
+    """
+    found = _contact(force, depth, time, noise, share)
+    while found and found.misfit > _MISFIT:
+        # with the last step, or without it where it is so large that it hides the others
+        stops = (found.free + _BEYOND, found.free)
+        with_step, without = (
+            _contact(force[:stop], depth[:stop], time[:stop], noise, share) for stop in stops
+        )
+        least = force.size // 30
+        if with_step and with_step.misfit < found.misfit / 2 and with_step.free >= least:
+            found = with_step
+        elif without and without.gain > _GAIN and without.free >= least:
+            found = without
+        else:
+            break
+    return found
+
+
+def _contact(force: Array, depth: Array, time: Array, noise: float, share: float) -> Contact | None:
+    """Return the contact point with one step or flank; see :func:`contact_of`."""
+    if force.size < 2 * _FEW:
+        return None
+    part = _part(force, depth, time, noise, share)
+    size, last = float(np.ptp(part.force)), part.force.size - 1
+    widths = np.array(
+        [
+            [
+                *_widths(size, wander, (_SLOPES, _SLOPES), _FEW_SINES),
+                *(size * (p in flank) for p in _POWERS),
+            ]
+            for wander in _WANDERS
+            for flank in _FLANKS
+        ]
+    )
+    coarse = _between(1, last)
+    logs, _ = _contact_evidence(part, coarse, widths)
+    gain = float(logs.max() - logs[-1].max())
+    likely = logs > logs.max() - _UNLIKELY
+    near = np.flatnonzero(likely.any(axis=1))
+    begins = _between(
+        int(coarse[max(near[0] - 1, 0)]), int(coarse[min(near[-1] + 1, coarse.size - 1)])
+    )
+    logs, variance = _contact_evidence(part, begins, widths[likely.any(axis=0)])
+    weights = np.exp(logs - logs.max()).sum(axis=1)
+    # a candidate stands for the points around it
+    weights *= np.gradient(part.first[begins].astype(float)) if begins.size > 1 else 1.0
+    weights /= weights.sum()
+    outer = min(max(_FEW, force.size // 8), 16)
+    if weights[part.first[begins] < outer].sum() > _UNSURE:
+        return None
+    z = part.depth
+    # a soft machine may jump back at the contact
+    steps = np.maximum(
+        np.abs(z[begins - 1] - z[np.maximum(begins - 2, 0)]), z[begins] - z[begins - 1]
+    )
+    places = z[begins - 1] + steps / 2
+    mean = float(weights @ places)
+    spread = float(np.sqrt(weights @ ((places - mean) ** 2 + steps**2 / 12)))
+    free = begins[int(np.argmax(np.cumsum(weights) > _UNSURE))]
+    misfit = float(variance.flat[int(np.argmax(logs))])
+    return Contact(int(part.first[free]), mean, spread, misfit, gain)
+
+
+def _between(low: int, high: int) -> Indices:
+    """Return whole numbers between two, with both."""
+    return np.unique(np.linspace(low, high, _CANDIDATES).round().astype(int))
+
+
+def baseline(force: Array, depth: Array, time: Array, free: list[slice], noise: float) -> Baseline:
+    """Fit the baseline to the free parts of a test."""
+    origin = float(time[0]), max(float(np.ptp(time)), 1e-300)
+    place = float(depth[free[-1]][0]), max(float(np.ptp(depth)), 1e-300)
+    blocks = [_blocks(force[p], depth[p], time[p]) for p in free]
+    F, z, t, count = (np.concatenate(column) for column in zip(*blocks, strict=True))
+    level = float(np.median(F))
+    weight = np.sqrt(count)
+    X = _terms((t - origin[0]) / origin[1], (z - place[0]) / place[1], _SINES)
+    size = float(np.ptp(force)) / noise
+    slopes = ((0.0, 0.0), (_SLOPES, 0.0), (0.0, _SLOPES), (_SLOPES, _SLOPES))
+    widths = np.array(
+        [_widths(size, wander, slope, _SINES) for wander in _WANDERS for slope in slopes]
+    )
+    logs, L, v, scale = _evidence(X * weight[:, None], (F - level) / noise * weight, widths)
+    weights = np.exp(logs - logs.max())
+    weights /= weights.sum()
+    root = noise * np.linalg.solve(L, np.eye(L.shape[-1]) * widths[:, None, :])
+    each = np.einsum("hij,hi->hj", root, v)
+    spread = np.einsum("h,hij,hik->jk", weights * scale, root, root)
+    mean = weights @ each
+    off = each - mean
+    covariance = spread + (weights[:, None] * off).T @ off
+    mean[0] += level
+    law = Baseline(mean, covariance, 0.0, origin, place)
+    rest = np.concatenate([force[p] - law.at(depth[p], time[p]) for p in free])
+    return Baseline(mean, covariance, float(np.std(rest)), origin, place)
 
 
 def _blocks(force: Array, depth: Array, time: Array) -> list[Array]:
-    """Average over blocks of equal numbers of points."""
-    cuts = np.array_split(np.arange(force.size), min(_BLOCKS, force.size))
-    return [np.array([column[cut].mean() for cut in cuts]) for column in (force, depth, time)]
-
-
-def _fit(terms: tuple[str, ...], F: Array, depth: Array, time: Array) -> tuple[Array, Array, float]:
-    """Return coefficients, their covariance and the criterion."""
-    X = _terms(terms, depth, time)
-    scale = np.maximum(np.max(np.abs(X), axis=0), 1e-300)
-    values, *_ = np.linalg.lstsq(X / scale, F, rcond=None)
-    rest = F - X / scale @ values
-    # the scatter is at least the round-off of the sum
-    least = max(float(np.max(np.abs(F))) * 1e-12, 1e-150) ** 2
-    squares = max(float(rest @ rest), least * F.size)
-    variance = squares / max(F.size - len(terms), 1)
-    covariance = variance * np.linalg.pinv((X / scale).T @ (X / scale)) / np.outer(scale, scale)
-    criterion = F.size * np.log(squares / F.size) + len(terms) * np.log(F.size) * _PENALTY
-    return values / scale, covariance, float(criterion)
+    """Average over blocks of equal numbers of points; the last column is that number."""
+    cuts = np.unique(np.linspace(0, force.size, min(_BLOCKS, force.size), endpoint=False).round())
+    cuts = cuts.astype(int)
+    count = np.diff(cuts, append=force.size)
+    return [*(np.add.reduceat(row, cuts) / count for row in (force, depth, time)), count * 1.0]

@@ -13,19 +13,23 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.units import readable
 
-from .baseline import Baseline, baseline, free_after, free_before
+from .baseline import Baseline, Contact, baseline, contact_of, point_noise, rounding, without_spikes
 from .cycle import Cycle, Measured
+from .extremum import Extremum, extremum
 from .record import TackRecord
 from .segments import Segments, depth_of, force_sign, segments
 
 _POINTS = 20  # smallest number of points of a retraction
 _FREE = 8  # smallest number of points out of contact at its end
-_FAR = 0.05  # fraction of the retraction's travel that an approach must cover before contact
+_KEPT = 0.95  # fraction of the free points in use: the rig may oscillate right after a jump
+_LEAST = 3e-5  # smallest noise relative to the range of force
 _ABOVE = 5.0  # pull-off over standard deviation of the noise, at least
 _ZERO = 0.25  # relative to the pull-off: largest uncertainty of the zero
 _LONE = 0.5  # relative to the pull-off: a point this far beyond both neighbours is a spike
 _CLIPPED = 8  # equal extreme values in a row while the drive moves ...
 _MOVED = 0.002  # ... by more than this fraction of its travel
+_OUT = 5.0  # standard deviations of the noise that it may reverse in addition
+_NEAR = 4  # points before the pull-off that give its depth
 _SLIDING = 0.1  # fraction of the travel by which the corrected depth may reverse
 
 
@@ -99,7 +103,7 @@ def evaluate(
             )
         drive = depth_of(record, into)
         found = segments(record.time, drive)
-        sign = force_sign(record.force, found)
+        sign = force_sign(without_spikes(record.force, point_noise(record.force)), found)
     except InputError as error:
         raise _named(record, error) from None
     if compression and compression != sign:
@@ -154,31 +158,42 @@ def _cycle(
             f"the retraction has {own.end - own.retract} points, fewer than {_POINTS}; record "
             "at a higher rate"
         )
-    law, before, after = _zero(time, way, raw, own)
-    if not (before or retraction_only):
+    noise = _noise(raw, raw[back])
+    clean = without_spikes(raw, noise)
+    law, touch, leaves = _zero(time, way, clean, own, noise)
+    if not (touch or retraction_only):
         raise InputError(
             "the retraction is not preceded by an approach that begins free of contact; give the "
             "whole test, or set --retraction-only"
         )
-    force = raw - law.at(way, time)
+    zeros = law.at(way, time)
+    force = clean - zeros
     _refuse_clipped(raw[back], force[back], way[back], law.noise)
-    at = own.retract + int(np.argmin(force[back]))
-    zero = law.uncertainty(float(way[at]), float(time[at]))
-    pull_off = _pull_off(force, at, own, law.noise, zero, after)
+    _refuse_lone(raw[back] - zeros[back])
+    lowest = own.retract + int(np.argmin(force[back]))
+    zero = law.uncertainty(way[lowest], time[lowest])
+    noise = max(law.noise, _LEAST * float(np.ptp(raw)))
+    least = _least(force[back], lowest - own.retract, noise, zero)
+    at = own.retract + int(least.at)
     depth = way - compliance * force
-    _refuse_compliance(depth[back], way[back], compliance)
-    notes = [_words(law)]
-    touch, spread, how = _touch(depth, force, own, before, law.noise)
-    depth = depth - touch
+    _refuse_compliance(depth[back], way[back], compliance, law.noise)
+    notes = [_words(law, way, time)]
+    if np.any(clean != raw):
+        notes.append(f"spikes replaced by the mean of their neighbours: {np.sum(clean != raw)}")
+    origin, spread, how = _origin(depth, force, own, touch, law.noise)
+    depth = depth - origin
     notes.append(how)
     if compliance:
         notes.append(f"machine compliance {readable(compliance, 'm/N')} subtracted from the depth")
     crossing = _crossing(force, own.retract, at)
-    flat = _flat(depth, force, own, at, law.noise)
+    # the pull-off lies between two points, and a soft machine may jump to the second
+    near = np.arange(max(at - _NEAR, own.retract), at + 1)
+    last = float(np.polyval(np.polyfit(near - at, depth[near], 1), own.retract + least.at - at))
+    flat = least.at_uncertainty * abs(float(depth[at + 1] - depth[at - 1])) / 2
     place = float(np.hypot(np.hypot(spread, flat), compliance_uncertainty * abs(force[at])))
     deepest = force[: own.retract + 1]
     top = int(np.argmax(deepest))
-    noise = float(np.hypot(law.noise, zero))
+    noise = float(np.hypot(law.noise, law.uncertainty(way[top], time[top])))
     level, unsure = (
         float(depth[own.retract]),
         float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract]))),
@@ -191,15 +206,22 @@ def _cycle(
         depth=depth,
         contact_radius=None if size is None else size[span],
         segments=own,
-        pull_off_force=pull_off,
-        pull_off_raw=-float(raw[at]),
+        pull_off_force=Measured(-least.value, float(np.hypot(least.uncertainty, zero))),
+        pull_off_raw=-float(raw[lowest]),
         pull_off_at=at,
-        depth_at_pull_off=Measured(float(depth[at]), place),
+        depth_at_pull_off=Measured(last, place),
         work_to_pull_off=_work(
-            depth, force, (crossing, at), law.noise, zero, compliance_uncertainty, flat
+            law,
+            (time, way, depth, force),
+            (crossing, at),
+            compliance_uncertainty,
+            Measured(last, flat),
         ),
         work_of_separation=_work(
-            depth, force, (crossing, own.end - after), law.noise, zero, compliance_uncertainty
+            law,
+            (time, way, depth, force),
+            (crossing, own.end - leaves.free),
+            compliance_uncertainty,
         ),
         preload=Measured(float(deepest[top]), noise),
         preload_depth=Measured(level, unsure),
@@ -228,49 +250,59 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
             )
 
 
-def _zero(time: Array, way: Array, raw: Array, own: Segments) -> tuple[Baseline, int, int]:
-    """Return the baseline of the force, and the numbers of free points before and after."""
-    back = raw[own.retract : own.end]
-    after = min(free_after(back), back.size - int(np.argmin(back)) - 1)
-    if after < _FREE:
+def _noise(raw: Array, back: Array) -> float:
+    """Return the noise of single points; 0 is replaced by a small fraction of the range."""
+    return max(point_noise(back), rounding(raw), _LEAST * float(np.ptp(raw)), 1e-300)
+
+
+def _refuse_lone(force: Array) -> None:
+    """Raise an error if the smallest force is a single point."""
+    at = int(np.clip(np.argmin(force), 1, force.size - 2))
+    value, before, behind = (-float(one) for one in force[[at, at - 1, at + 1]])
+    if max(before, behind) < (1 - _LONE) * value:
         raise InputError(
-            f"the force does not settle after the pull-off ({max(after, 0)} free points): "
-            "retract further, or the contact has not detached at the end"
+            f"the pull-off of {_force(value)} is a single point, with neighbours at "
+            f"{_force(before)} and {_force(behind)}: a spike, or a low recording rate"
         )
-    before = free_before(raw[: own.retract]) if own.dwell else 0
-    far = abs(way[before - 1] - way[0]) >= _FAR * np.ptp(way[own.retract : own.end])
-    before = before if far and 2 * _FREE <= before < own.retract else 0
-    first = slice(0, int(0.9 * before)) if before else None
-    # right after detachment the rig may still oscillate
-    last = slice(own.end - max(int(0.9 * after), _FREE), own.end)
-    return baseline(raw, way, time, first, last), before, after
 
 
-def _pull_off(
-    force: Array, at: int, own: Segments, noise: float, zero: float, after: int
-) -> Measured:
+def _zero(
+    time: Array, way: Array, clean: Array, own: Segments, noise: float
+) -> tuple[Baseline, Contact | None, Contact]:
+    """Return the baseline of the force, and the first contact, if any, and the last one."""
+    clock = (time - time[0]) / max(float(np.ptp(time)), 1e-300)
+    back, down = slice(own.retract, own.end), slice(own.dwell)
+    outwards = contact_of(clean[back][::-1], way[back][::-1], clock[back][::-1], noise, 0.3)
+    most = own.end - own.retract - int(np.argmin(clean[back])) - 1
+    if outwards is None or min(outwards.free, most) < _FREE:
+        raise InputError(
+            "the force does not settle after the pull-off, so no end is certainly free of "
+            "contact: retract further, or the contact has not detached at the end"
+        )
+    inwards = contact_of(clean[down], way[down], clock[down], noise, 0.5)
+    free = [slice(own.end - int(_KEPT * min(outwards.free, most)), own.end)]
+    if inwards is not None:
+        free.insert(0, slice(int(_KEPT * inwards.free)))
+    return baseline(clean, way, time, free, noise), inwards, outwards
+
+
+def _least(force: Array, at: int, noise: float, zero: float) -> Extremum:
+    """Return the smallest force of the retraction; raise an error if it is no pull-off."""
     value = -float(force[at])
     if value <= _ABOVE * noise:
         raise InputError(
             f"no pull-off above the noise: the largest tension is {_force(value)}, the noise "
             f"{_force(noise)}"
         )
-    if at <= own.retract + 1:
+    if at <= 1:
         raise InputError("the force is smallest at the start of the retraction: no pull-off")
     if zero > _ZERO * value:
         raise InputError(
             f"the uncertainty of the force zero is {_force(zero)}, but the pull-off is "
             f"{_force(value)}: tilt or drift is too large for the free parts of the curve"
         )
-    before, behind = -float(force[at - 1]), -float(force[at + 1])
-    if max(before, behind) < (1 - _LONE) * value:
-        raise InputError(
-            f"the pull-off of {_force(value)} is a single point, with neighbours at "
-            f"{_force(before)} and {_force(behind)}: a spike, or a low recording rate"
-        )
-    between = max(abs(value - before), 0.0) / 2
-    found = Measured(value, float(np.sqrt(noise**2 + zero**2 + between**2)))
-    if found.uncertainty > _ZERO * value:
+    found = extremum(force, at, noise)
+    if np.hypot(found.uncertainty, zero) > _ZERO * value:
         raise InputError(
             f"the pull-off of {_force(value)} has an uncertainty of {_force(found.uncertainty)}: "
             "too few points near it for this noise and speed"
@@ -282,27 +314,24 @@ def _force(value: float) -> str:
     return readable(value, "N", digits=3)
 
 
-def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
+def _refuse_compliance(depth: Array, way: Array, compliance: float, noise: float) -> None:
     """Raise an error if the compliance makes the depth increase while the drive retracts."""
     if not compliance:
         return
-    back = np.diff(depth)
-    if np.sum(back[back > 0]) > _SLIDING * np.ptp(way) + np.ptp(way) * 0.5:
+    rise = np.max(depth - np.minimum.accumulate(depth))
+    if rise > _SLIDING * np.ptp(way) + _OUT * compliance * noise:
         raise InputError(
             f"with a compliance of {readable(compliance, 'm/N')} the depth increases while "
             "the drive retracts: it exceeds the total compliance of rig and sample"
         )
 
 
-def _touch(
-    depth: Array, force: Array, own: Segments, before: int, noise: float
+def _origin(
+    depth: Array, force: Array, own: Segments, touch: Contact | None, noise: float
 ) -> tuple[float, float, str]:
     """Return the depth of first contact, its uncertainty, and the method in words."""
-    if before:
-        # last point out of contact; the next one may follow a jump into contact
-        at = before - 1
-        step = abs(float(depth[at] - depth[at - 1]))
-        return float(depth[at]), step, "depth is zero at the first force of the approach"
+    if touch:
+        return touch.depth, touch.uncertainty, "depth is zero at the first contact of the approach"
     back = slice(own.retract, own.end)
     at = own.retract + int(np.argmax(force[back] < 0))
     slope = abs(float(force[at] - force[max(at - 5, 0)]))
@@ -321,34 +350,27 @@ def _crossing(force: Array, begin: int, at: int) -> int:
     return begin + int(pressed[-1]) if pressed.size else begin
 
 
-def _flat(depth: Array, force: Array, own: Segments, at: int, noise: float) -> float:
-    """Return the uncertainty of the depth of a flat force minimum, from the noise [m]."""
-    back = slice(own.retract, own.end)
-    alike = depth[back][force[back] <= force[at] + 2 * noise]
-    return float(np.ptp(alike) / np.sqrt(12) + abs(depth[at] - depth[at - 1]) / 2)
-
-
 def _work(
-    depth: Array,
-    force: Array,
+    law: Baseline,
+    curve: tuple[Array, Array, Array, Array],
     ends: tuple[int, int],
-    noise: float,
-    zero: float,
     compliance_uncertainty: float,
-    flat: float = 0.0,
+    stop: Measured | None = None,
 ) -> Measured:
-    """Integrate -force d(depth) between two points [J]."""
-    d, F = depth[ends[0] : ends[1] + 1], force[ends[0] : ends[1] + 1]
-    steps = np.diff(d)
+    """Integrate -force d(depth) between two points, or to a depth near the second [J]."""
+    time, way, d, F = (row[ends[0] : ends[1] + 1] for row in curve)
+    # weights of the trapezoidal rule
+    weights = (np.diff(d, append=d[-1]) + np.diff(d, prepend=d[0])) / 2
+    stop = stop or Measured(float(d[-1]), 0.0)
     parts = (
-        noise * float(np.sqrt(np.sum(steps**2))),
-        zero * float(abs(d[-1] - d[0])),
+        law.noise * float(np.sqrt(np.sum(weights**2))),
+        law.uncertainty(way, time, weights),
         # a compliance c adds c F dF, integrated analytically
         compliance_uncertainty * float(abs(F[-1] ** 2 - F[0] ** 2)) / 2,
         # end of the integral
-        flat * float(abs(F[-1])),
+        stop.uncertainty * float(abs(F[-1])),
     )
-    value = float(np.sum((F[1:] + F[:-1]) / 2 * steps))
+    value = float(weights @ F + F[-1] * (stop.value - d[-1]))
     return Measured(value, float(np.sqrt(sum(part**2 for part in parts))))
 
 
@@ -380,10 +402,9 @@ def _approach_speed(time: Array, way: Array, own: Segments) -> float | None:
     return _slope(time[quarter], way[quarter])
 
 
-def _words(law: Baseline) -> str:
-    units = {"zero": "N", "tilt": "N/m", "drift": "N/s"}
-    said = ", ".join(
-        f"{term} {readable(value, units[term])}"
-        for term, value in zip(law.terms, law.coefficients, strict=True)
+def _words(law: Baseline, way: Array, time: Array) -> str:
+    zero = law.at(way, time)
+    return (
+        f"subtracted from the force: zero {readable(float(zero[-1]), 'N')} at the end of the test, "
+        f"which changed by {readable(float(np.ptp(zero)), 'N')} during it"
     )
-    return f"subtracted from the force: {said}"
