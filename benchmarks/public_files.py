@@ -262,7 +262,7 @@ REFUSED = (
     ("*tts_plazek.csv", "looks like headings", "columns named X and Y"),
     ("*MSD_MAX1.csv", "looks like headings", "no rheology: displacements of beads"),
     ("*creep_mucus_data_julia.csv", "begins with numbers", "columns without names"),
-    ("*export_*data_mucus*", "is the only column|begins with numbers", "one column alone"),
+    ("*export_*data_mucus*", "is the only column|one column alone", "one column alone"),
     ("*RHEOS*.csv", "begins with numbers|found .d., +.f., +.t.|found .d., .f., .t.",
      "columns without names, or d, f, t"),
     ("*raw_signal_*.txt", "begins with numbers", "raw waves without names"),

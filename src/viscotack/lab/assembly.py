@@ -1,7 +1,7 @@
 """Assemble frequency sweeps in SI from the tables of a file; functions shared by all readers."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,12 +10,14 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .columns import Columns, Table, Units
+from .columns import Columns
 from .diagnosis import cause, has_sweep
 from .grouping import GAP, grouped
 from .joining import numbered_on
 from .lab_file import LabFile
+from .options import Options
 from .sweeps import FrequencySweeps, Source
+from .tables import Table
 from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
@@ -23,20 +25,11 @@ _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is 
 _TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
 
 
-@dataclass(frozen=True)
-class Given:
-    """Kind of modulus, temperature [K] and units given by the caller, for files that lack them."""
-
-    kind: str | None
-    temperature: float | None
-    units: Units
-
-
-def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> FrequencySweeps:
+def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
     parts, notes = [], list(file.notes)
     for table in tables:
-        columns = Columns(file, table, given.units, given.kind)
+        columns = Columns(file, table, given)
         if not table.rows or not has_sweep(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
@@ -58,14 +51,14 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) ->
     return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
 
 
-def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> InputError:
+def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted: str) -> InputError:
     """Return the error for a file without the requested test; it names what the file contains."""
     expected = {
         "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
         "relaxation": "a time and a modulus (or stress and strain)",
         "creep": "a time and a compliance (or stress and strain)",
     }
-    every = [Columns(file, table, given.units) for table in tables]
+    every = [Columns(file, table, replace(given, kind=None)) for table in tables]
     why = cause(every, wanted, given.kind)
     return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
@@ -78,7 +71,7 @@ def _repeats_one_state(part: FrequencySweeps) -> bool:
     return omega.size > 1 and bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: Columns, given: Given) -> FrequencySweeps:
+def _part(columns: Columns, given: Options) -> FrequencySweeps:
     """Return the sweeps of one table."""
     parts = ("storage", "loss") if "storage" in columns else ("magnitude",)
     by_angle = "loss" not in columns or "storage" not in columns
@@ -143,7 +136,7 @@ def _tangent(columns: Columns) -> Array:
 
 
 def refuse_what_is_lacking(
-    columns: Columns, given: Given, moduli: Sequence[str], *quantities: str
+    columns: Columns, given: Options, moduli: Sequence[str], *quantities: str
 ) -> None:
     """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
@@ -164,7 +157,7 @@ def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Ar
     return {name: column[np.sort(first)] for name, column in values.items()}
 
 
-def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
+def kind_of(columns: Columns, given: Options, *quantities: str) -> str:
     """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
     said = columns.kind(*quantities)
     if said is not None and given.kind is not None and said != given.kind:
@@ -172,7 +165,7 @@ def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
     return said or given.kind or ""
 
 
-def temperatures(columns: Columns, given: Given) -> Array:
+def temperatures(columns: Columns, given: Options) -> Array:
     """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
     temperature = columns.temperature()
     if given.temperature is None:

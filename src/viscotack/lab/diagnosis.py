@@ -31,6 +31,16 @@ def test_of(columns: Columns) -> str | None:
     return "relaxation" if modulus else "creep" if compliance else None
 
 
+def best_sheet(tables: Sequence[Columns]) -> str:
+    """Return the first sheet with a test, preferably with one that lacks no unit."""
+
+    def score(columns: Columns) -> tuple[bool, bool]:
+        test = test_of(columns) if columns.table.rows else None
+        return test is not None, test is not None and not columns.lacking(*columns.quantities)
+
+    return max(tables, key=score).table.sheet
+
+
 def has_sweep(columns: Columns) -> bool:
     """Return whether the columns hold a frequency and two numbers that give a complex modulus."""
     if not ("frequency" in columns or "angular_frequency" in columns):

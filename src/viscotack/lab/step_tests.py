@@ -10,7 +10,6 @@ import numpy as np
 from viscotack.arrays import Array
 
 from .assembly import (
-    Given,
     headings_of,
     kept,
     kind_of,
@@ -20,11 +19,13 @@ from .assembly import (
     source_of,
     temperatures,
 )
-from .columns import Columns, Table
+from .columns import Columns
 from .diagnosis import test_of
 from .grouping import levels
 from .lab_file import LabFile
+from .options import Options
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
+from .tables import Table
 from .unit_checks import doubtful_modulus
 
 Test = TypeVar("Test", RelaxationTest, CreepTest)
@@ -36,7 +37,7 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 
 
 def one(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
+    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
 ) -> Test:
     """Return the single test of a kind in a file."""
     rows = _rows(file, tables, given, kind)
@@ -44,7 +45,7 @@ def one(
 
 
 def each(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
+    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
 ) -> list[Test]:
     """Return the tests of a kind in a file, one per temperature."""
     rows = _by_temperature(_rows(file, tables, given, kind))
@@ -107,10 +108,10 @@ def _by_temperature(rows: _Rows) -> list[_Rows]:
     return [replace(part, temperature=_one_temperature(part)) for part in parts]
 
 
-def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
+def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
     """Return the shift factors of a file, as log10."""
     for table in tables:
-        columns = Columns(file, table, given.units)
+        columns = Columns(file, table, given)
         if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
             break
     else:
@@ -148,12 +149,12 @@ def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
         )
 
 
-def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: type) -> _Rows:
+def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type) -> _Rows:
     """Return time, modulus or compliance, and temperature of the single matching table."""
     wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
-        columns = Columns(file, table, given.units, given.kind)
+        columns = Columns(file, table, given)
         timed = "time" in columns or "step_time" in columns
         known = under in columns or under in table.levels
         if table.rows and timed and (wanted in columns or (over in columns and known)):

@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.lab.lab_file import LabFile, huge
+from viscotack.errors import InputError
+from viscotack.lab.lab_file import LabFile, refuse_huge
 
 from .grid import Given, time_by_speed
 from .header import bending, recorded
@@ -50,11 +51,11 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
     if file.content.startswith(b"PK"):
         try:
             with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
-                too_large = huge(parts)
+                refuse_huge(parts)
         except zipfile.BadZipFile as error:
             raise file.error(f"the file is truncated or damaged: {error}") from None
-        if too_large:
-            raise file.error("it unpacks to more than 200 MB")
+        except InputError as error:
+            raise file.error(str(error)) from None
     # afmformats also logs the tracebacks of its errors
     logging.getLogger("afmformats").setLevel(logging.CRITICAL)
     try:

@@ -7,9 +7,10 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.columns import Cells, Table, ruled
+from viscotack.lab.columns import Cells
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.quantities import bare, no_unit
+from viscotack.lab.tables import Table, ruled
 
 from .header import recorded
 from .headings import POSITIONS, SIZES, factor, measures, recognise

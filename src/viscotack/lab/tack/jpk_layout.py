@@ -13,7 +13,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.lab_file import LabFile, huge
+from viscotack.lab.lab_file import LabFile, refuse_huge
 
 from .header import Words, bending, real, recorded, whole
 from .record import TackRecord
@@ -48,11 +48,10 @@ def records(file: LabFile) -> list[TackRecord]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
-            if huge(parts):
-                raise file.error("it unpacks to more than 200 MB")
+            refuse_huge(parts)
             files = {part: parts.read(part) for part in parts.namelist()}
-    except InputError:
-        raise
+    except InputError as error:
+        raise file.error(str(error)) from None
     except Exception as error:
         # The library raises many undocumented errors for damaged archives.
         raise file.error(

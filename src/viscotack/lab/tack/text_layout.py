@@ -7,9 +7,9 @@ and nanoindenters (tabs, micronewtons in Latin-1).
 
 from collections.abc import Sequence
 
-from viscotack.lab.columns import Table
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.plain_layout import below, first_line, repeats
+from viscotack.lab.tables import Table
 
 from .grid import grid, heads_columns
 from .headings import recognise
