@@ -92,7 +92,8 @@ def _part(columns: Columns, given: Options) -> FrequencySweeps:
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
         raise columns.error(
-            f"the median loss tangent is {tangent:.2g}; check the units of both moduli"
+            f"the median loss tangent is {tangent:.2g}, which no solid has; check the units of "
+            "both moduli, or whether the sample was a liquid without elasticity"
         )
     columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
     values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})

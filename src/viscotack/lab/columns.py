@@ -316,7 +316,9 @@ class Columns:
         if quantity not in self._chosen:
             first, *others = self._found[quantity]
             for other in others:
-                self._refuse_other(quantity, first, other)
+                # columns of waves are empty where the waves were not exported
+                if any(row[other[0]] for _, row in self.table.rows):
+                    self._refuse_other(quantity, first, other)
             self._chosen[quantity] = first
         return self._chosen[quantity]
 
@@ -333,7 +335,8 @@ class Columns:
             if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
                 return
-        cure = "set --kind E or --kind G" if len(kinds) > 1 else "keep one of them"
+        chosen = f'--columns "{quantity}={first[0] + 1}"'
+        cure = "set --kind E or --kind G" if len(kinds) > 1 else self.file.command(chosen)
         raise self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {cure}')
 
     def _unit(self, quantity: str) -> str:

@@ -88,10 +88,13 @@ def _nonlinear(columns: Columns) -> str:
     """Describe a table without a linear viscoelastic test; empty if unknown."""
     timed = "time" in columns or "step_time" in columns
     flows = "shear_rate" in columns or "viscosity" in columns
-    if flows and timed:
-        return "it is the start-up of a steady flow, not a test of linear response"
     if flows:
-        return "it is a flow curve, viscosity or stress over shear rate, without a modulus"
+        return "it is a flow curve or the start-up of a steady flow: a shear rate or a viscosity"
+    if timed and "stress" in columns and "strain" in columns:
+        return (
+            "neither the stress nor the strain is held constant; a step and its recovery in one "
+            "table must be separated"
+        )
     if timed and "stress" in columns:
         return "it has a stress over time without the strain; add the strain or the modulus"
     if timed and "strain" in columns:
@@ -99,6 +102,8 @@ def _nonlinear(columns: Columns) -> str:
     swept = "frequency" in columns or "angular_frequency" in columns
     if swept and ("storage" in columns or "magnitude" in columns):
         return "the complex modulus is incomplete; add a loss modulus or a loss angle"
+    if "storage" in columns and "strain" in columns:
+        return "it is an amplitude sweep, a modulus over strain, without a column of frequency"
     return ""
 
 

@@ -1,5 +1,6 @@
 """What a caller states about a file that does not state it: units, kind, columns, table."""
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -48,6 +49,9 @@ class Options:
         Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
     decimal : {".", ","}, optional
         Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    step_start : float
+        Time at which the step was applied [s], not negative, if the file counts time from the start
+        of the whole test.
     columns : str, optional
         Quantities, each with the heading or the number (from 1) of its column and, if the file
         does not state it, a unit: ``"time=1 [s]; modulus=G(t) raw [kPa]"``.
@@ -74,6 +78,7 @@ class Options:
     temperature_unit: str | None = None
     temperature_in_name: bool = False
     decimal: str | None = None
+    step_start: float = 0.0
     columns: str | None = None
     table: str | None = None
 
@@ -89,6 +94,8 @@ class Options:
             )
         if self.temperature is not None and self.temperature_in_name:
             raise InputError("give either --temperature or --temperature-in-name, not both")
+        if not 0 <= self.step_start < math.inf:
+            raise InputError(f"--step-start must not be negative, got {self.step_start!r} s")
         if self.frequency_unit is not None:
             radians_per_second(self.frequency_unit, angular="rad" in self.frequency_unit)
         if self.modulus_unit is not None:

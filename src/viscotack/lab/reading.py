@@ -30,7 +30,7 @@ from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, format_of, load, refuse_unknown
 from .options import Options
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
-from .tables import Table, apart
+from .tables import Table, pieces
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
@@ -415,7 +415,9 @@ def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
         whole = layout.tables(file)
     said = () if given.format is not None else (f"detected format: {found}",)
     cut = () if found == "trios-json" else file.left_out
-    tables, others = _selected(file, [part for table in whole for part in apart(table)], given)
+    parts = [part for table in whole for part in pieces(table)]
+    numbered = [replace(table, number=i) for i, table in enumerate(parts, start=1)]
+    tables, others = _selected(file, numbered, given)
     return replace(file, notes=(*said, *file.notes, *cut, *others)), found, tables
 
 
@@ -423,15 +425,11 @@ def _selected(
     file: LabFile, tables: list[Table], given: Options
 ) -> tuple[list[Table], tuple[str, ...]]:
     """Return the table chosen by the caller, or those of the sheet that has a test, and notes."""
-    known = {*(str(i) for i in range(1, len(tables) + 1)), *(table.sheet for table in tables)} - {
-        ""
-    }
-    if given.table is not None and given.table not in known:
-        places = "; ".join(f"{i}: {table.place}" for i, table in enumerate(tables, start=1))
-        raise file.error(f"no table {given.table!r} (--table); the file has {places}")
     if given.table is not None:
-        here = [table for table in tables if table.sheet == given.table]
-        tables = here or [tables[int(given.table) - 1]]
+        places = "; ".join(f"{table.number}: {table.place}" for table in tables)
+        tables = [each for each in tables if given.table in (each.sheet, str(each.number))]
+        if not tables:
+            raise file.error(f"no table {given.table!r} (--table); the file has {places}")
     for name in given.names:
         if not any(name in Columns(file, table, given).names for table in tables):
             headings = assembly.headings_of(tables)

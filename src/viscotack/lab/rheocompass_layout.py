@@ -74,23 +74,20 @@ def _interval(file: LabFile, rows: Sequence[Row], words: str, stated: float | No
         if not any(cell.strip() for cell in row) or _LABEL.fullmatch(row[0]):
             break
         data.append((number, row))
-    names = tuple(rows[at][1])
-    gaps = [""] * len(names)
-    cells_of = tuple((line, tuple(map(str.strip, [*row, *gaps]))) for line, row in data)
-    points = without_waves(names, cells_of)[1]
-    if len(points) != count:
-        raise file.error(
-            f"the interval states {count} points but has {len(points)}; the file is truncated or "
-            "edited",
-            line,
-        )
     # skip the label in front of the headings
     headings, unit_cells = ["", *rows[at][1][1:]], rows[units][1]
     if all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
         headings, unit_cells = headings[1:], list(unit_cells)[1:]
     own = stated_temperature([row for _, row in rows[:at]])
     kelvins = stated if own is None else own
-    return tabulated(file, headings, unit_cells, data, words=words, temperature=kelvins)
+    table = tabulated(file, headings, unit_cells, data, words=words, temperature=kelvins)
+    found = len(without_waves(table).rows)
+    if found != count:
+        raise file.error(
+            f"the interval states {count} points but has {found}; the file is truncated or edited",
+            line,
+        )
+    return table
 
 
 def _separator(file: LabFile) -> str | None:

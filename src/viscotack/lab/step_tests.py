@@ -164,7 +164,11 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     # of several steps, select the one with constant stress or strain
     found = [columns for columns in found if test_of(columns) == test] or found
     if len(found) > 1:
-        raise file.error(f"{len(found)} tables have a {test} test; export one step")
+        numbers = [str(columns.table.number) for columns in found]
+        raise file.error(
+            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one with "
+            f"--table, {file.command(f'--table {numbers[0]}')}"
+        )
     (columns,) = found
     # prefer the time since the step to the time of the whole test
     timed = "step_time" if "step_time" in columns else "time"
@@ -172,7 +176,9 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     refuse_what_is_lacking(
         columns, given, [name for name in needed if name in columns], timed, "temperature", *needed
     )
-    time = columns.si(timed)
+    time = columns.si(timed) - given.step_start
+    if not given.step_start and timed == "time":
+        _refuse_late_start(columns, tables, time)
     kind = kind_of(columns, given, *needed)
     if wanted in columns:
         values = columns.si(wanted)
@@ -188,6 +194,24 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
     keep = kept(columns, time, values)
     return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
+
+
+def _refuse_late_start(columns: Columns, tables: Sequence[Table], time: Array) -> None:
+    """Raise an error if time goes on from the table before: it is no time since the step."""
+    at = next(i for i, table in enumerate(tables) if table is columns.table)
+    if not at or not np.isfinite(time).any():
+        return
+    before = Columns(columns.file, tables[at - 1], columns.options)
+    if "time" not in before or before.table.sheet != columns.table.sheet:
+        return
+    end, start = before.si("time"), float(np.nanmin(time))
+    if np.isfinite(end).any() and 0 < np.nanmax(end) <= start:
+        example = columns.file.command(f'--step-start "{np.nanmax(end):g} s"')
+        raise columns.error(
+            f'"{columns.name("time")}" begins at {start:g} s, where the table before it ends, so '
+            "that it is not the time since the step; state when the step was applied with "
+            f"--step-start, {example}"
+        )
 
 
 def _ratio(columns: Columns, over: str, under: str) -> Array:

@@ -14,6 +14,8 @@ from .quantities import POSSIBLE, bare, in_kelvin, is_unit, no_unit, recognise
 
 _STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
 _ABOVE = 4  # rows of words above the numbers
+_ONE = ("1", "1.0")
+_SEGMENT = re.compile(r"[0-9]+\|[0-9]+")  # segment and point of HAAKE RheoWin
 _COUNTERS = 3  # columns, from the left, that may number the points
 
 Row = tuple[int, Sequence[str]]
@@ -40,6 +42,8 @@ class Table:
         Text above the columns of one of several tables side by side, such as a temperature.
     sheet : str
         Name of the sheet in a workbook.
+    number : int
+        Number of the table in the file, from 1.
     notes : tuple of str
         Decisions of the layout's reader.
     """
@@ -53,6 +57,7 @@ class Table:
     levels: Mapping[str, float] = field(default_factory=dict)
     label: str = ""
     sheet: str = ""
+    number: int = 0
 
     @property
     def place(self) -> str:
@@ -74,11 +79,9 @@ def tabulated(
     `stated` are the other fields of :class:`Table`.
     """
     names, beside, chosen = ruled(file, headings, units, rows)
-    names, chosen, waves = without_waves(names, chosen)
     given = [recognise(heading) for heading in names]
     # a row of units counts only where the heading itself has no unit
     own = [(heading and heading.unit) or unit for heading, unit in zip(given, beside, strict=True)]
-    stated["notes"] = (*stated.get("notes", ()), *waves)
     return Table(names, tuple(own), chosen, **stated)
 
 
@@ -170,45 +173,18 @@ def _units_in(row: Sequence[str]) -> int:
     return sum(not no_unit(cell) and is_unit(cell) for cell in row)
 
 
-def without_waves(
-    headings: tuple[str, ...], rows: Rows
-) -> tuple[tuple[str, ...], Rows, tuple[str, ...]]:
-    """Remove samples of raw waves between the numbered points of a rheometer, and their columns.
-
-    Only the points are numbered (1, 2, 3, ...); a sample fills the columns of waves, and leaves
-    others empty that every point fills.
-    """
-    for counter in range(min(_COUNTERS, len(headings))):
-        cells = [row[counter] for _, row in rows]
-        numbers = [cell for cell in cells if cell]
-        if not 0 < len(numbers) < len(cells) or not _counts(numbers):
-            continue
-        points = [row for _, row in rows if row[counter]]
-        full = [i for i in range(len(headings)) if i != counter and all(row[i] for row in points)]
-        samples = {line for line, row in rows if not row[counter] and not all(row[i] for i in full)}
-        if len(samples) < len(rows) - len(points):
-            continue
-        waves = {i for line, row in rows if line in samples for i, cell in enumerate(row) if cell}
-        note = f"{len(samples)} samples of raw waves between the points are not used"
-        names = tuple("" if i in waves else name for i, name in enumerate(headings))
-        return names, tuple(row for row in rows if row[0] not in samples), (note,)
-    return headings, rows, ()
+def pieces(table: Table) -> list[Table]:
+    """Return the tables within a table: side by side, or one below the other; without raw waves."""
+    return [without_waves(part) for block in _side_by_side(table) for part in _stacked(block)]
 
 
-def _counts(cells: Sequence[str]) -> bool:
-    try:
-        return [float(cell) for cell in cells] == list(range(1, len(cells) + 1))
-    except ValueError:
-        return False
-
-
-def apart(table: Table) -> list[Table]:
+def _side_by_side(table: Table) -> list[Table]:
     """Return the tables that stand side by side, each with the same headings."""
     names = [heading.casefold() for heading in table.headings]
     first = next((i for i, name in enumerate(names) if name), 0)
     starts = [i for i, name in enumerate(names) if name and name == names[first]]
     # a column without a heading, left of each table, may number its points
-    starts = [i - 1 if i and not names[i - 1] and first else i for i in starts]
+    starts = [i - 1 if first and not names[i - 1] else i for i in starts]
     blocks = list(zip(starts, [*starts[1:], len(names)], strict=True))
     shown = [[name for name in names[a:b] if name] for a, b in blocks]
     if len(blocks) < 2 or any(block != shown[0] for block in shown) or not heads(shown[0]):
@@ -220,6 +196,65 @@ def apart(table: Table) -> list[Table]:
         cut = {"headings": table.headings[a:b], "units": table.units[a:b], "rows": rows}
         parts.append(replace(table, notes=(*table.notes, note), **cut))
     return parts
+
+
+def _stacked(table: Table) -> list[Table]:
+    """Return the parts of a table whose points are numbered from 1 again, or as ``2|1``."""
+    for counter in range(min(_COUNTERS, len(table.headings))):
+        cells = [row[counter] for _, row in table.rows]
+        if recognise(table.headings[counter]) is not None:
+            continue
+        if cells and all(map(_SEGMENT.fullmatch, cells)):
+            keys = [cell.partition("|")[0] for cell in cells]
+            starts = [i for i, key in enumerate(keys) if not i or key != keys[i - 1]]
+        else:
+            starts = [i for i, cell in enumerate(cells) if cell in _ONE]
+        ends = [*starts[1:], len(cells)]
+        if len(starts) < 2 or starts[0]:
+            continue
+        parts = [table.rows[a:b] for a, b in zip(starts, ends, strict=True)]
+        if all(_counts([row[counter] for _, row in part if row[counter]]) for part in parts):
+            return [
+                replace(table, rows=part, notes=(*table.notes, f"part {i} of {len(parts)}"))
+                for i, part in enumerate(parts, start=1)
+            ]
+    return [table]
+
+
+def without_waves(table: Table) -> Table:
+    """Remove samples of raw waves between the numbered points of a rheometer, and their columns.
+
+    Only the points are numbered (1, 2, 3, ...); a sample fills the columns of waves, and leaves
+    others empty that every point fills.
+    """
+    rows = table.rows
+    for counter in range(min(_COUNTERS, len(table.headings))):
+        points = [row for _, row in rows if row[counter]]
+        if not 0 < len(points) < len(rows) or not _counts([row[counter] for row in points]):
+            continue
+        others = (i for i in range(len(table.headings)) if i != counter)
+        full = [i for i in others if all(row[i] for row in points)]
+        samples = {line for line, row in rows if not row[counter] and not all(row[i] for i in full)}
+        if len(samples) < len(rows) - len(points):
+            continue
+        waves = {i for line, row in rows if line in samples for i, cell in enumerate(row) if cell}
+        note = f"{len(samples)} samples of raw waves between the points are not used"
+        return replace(
+            table,
+            headings=tuple("" if i in waves else h for i, h in enumerate(table.headings)),
+            rows=tuple(row for row in rows if row[0] not in samples),
+            notes=(*table.notes, note),
+        )
+    return table
+
+
+def _counts(cells: Sequence[str]) -> bool:
+    """Return whether cells are 1, 2, 3, ... or ``4|1``, ``4|2``, ``4|3``, ..."""
+    try:
+        found = [float(cell.rpartition("|")[2]) for cell in cells]
+    except ValueError:
+        return False
+    return found == list(range(1, len(cells) + 1))
 
 
 def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:

@@ -12,11 +12,13 @@ from importlib import import_module
 from typing import Any
 
 from .lab_file import LabFile, refuse_huge
+from .numbers import is_number
 from .rheocompass_layout import begins_interval, intervals
 from .tables import (
     Table,
     by_columns,
     first_headings,
+    heads,
     holds,
     numbered,
     numeric,
@@ -73,10 +75,22 @@ def _of_sheet(file: LabFile, rows: Cells, names: Sequence[str]) -> list[Table]:
         if first is None:
             return []
         return [tabulated(file, numbered(rows[first]), None, numbered_rows[first:])]
-    units, data = under(numbered_rows[at + 1 :])
     words = " ".join(" ".join(row) for row in rows[:at] if "geometry" in row[0].casefold())
     stated = stated_temperature(rows[:at])
-    return [tabulated(file, rows[at], units, data, words=words, temperature=stated)]
+    # further rows of headings begin further tables
+    starts = [at, *(i for i in range(at + 1, len(rows)) if _heads_again(rows[i]))]
+    found = []
+    for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
+        block = numbered_rows[start + 1 : end]
+        while end < len(rows) and block and not any(map(is_number, block[-1][1])):
+            block.pop()
+        units, data = under(block)
+        found.append(tabulated(file, rows[start], units, data, words=words, temperature=stated))
+    return found
+
+
+def _heads_again(row: Sequence[str]) -> bool:
+    return sum(map(bool, row)) > 1 and not any(map(is_number, row)) and heads(row)
 
 
 def _by_number(file: LabFile, found: dict[str, Cells]) -> str:

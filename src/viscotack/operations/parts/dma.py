@@ -69,6 +69,15 @@ class Dma(Part):
     decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
         None
     )
+    step_start: Annotated[
+        float,
+        Number(
+            "Time of the step, if the file counts time from the start of the whole test.",
+            unit="s",
+            metavar="TIME",
+            example="300 s",
+        ),
+    ] = 0.0
     columns: Annotated[
         str | None,
         Text(
