@@ -1,5 +1,6 @@
 """Assemble frequency sweeps in SI from the tables of a file; functions shared by all readers."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -22,6 +23,7 @@ from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
 _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is wrong
+_FLAG = re.compile(r"(--[a-z-]+) ([\w/]+)")  # an option and its first value
 _TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
 
 
@@ -146,7 +148,10 @@ def refuse_what_is_lacking(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
         )
     if lacking:
-        raise columns.error(f"the file does not state {'; nor '.join(lacking)}")
+        flags = [" ".join(pair) for text in lacking for pair in _FLAG.findall(text)[:1]]
+        example = columns.file.command(" ".join(dict.fromkeys(flags))) if flags else ""
+        what = "; nor ".join(lacking)
+        raise columns.error(f"the file does not state {what}{'; ' * bool(flags)}{example}")
 
 
 def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:

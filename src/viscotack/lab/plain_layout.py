@@ -49,7 +49,7 @@ def tables(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     ValueError
         If no line looks like headings, or a row has not one cell per heading.
     """
-    at = _headings(file, names) or _numbers(file, names)
+    at = _headings(file, names) or by_number(file, names) or _headings(file)
     if at is None:
         raise _no_headings(file)
     line, separator, headings = at
@@ -175,7 +175,7 @@ def _headings(file: LabFile, names: Sequence[str] = ()) -> tuple[int, str | None
     return first_line(file, _LOOKED, lambda row: heads(row, names), recognise, bool(names))
 
 
-def _numbers(file: LabFile, names: Sequence[str]) -> tuple[int, str | None, list[str]] | None:
+def by_number(file: LabFile, names: Sequence[str]) -> tuple[int, str | None, list[str]] | None:
     """Return the line above the first row of numbers, for columns chosen by number."""
     found = first_line(file, _LOOKED, lambda row: holds(row, names), recognise, sure=True)
     return None if found is None else (found[0] - 1, found[1], numbered(found[2]))

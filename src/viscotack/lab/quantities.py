@@ -93,7 +93,7 @@ _GEOMETRIES = {
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
 BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
-_IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(\S+)")
+IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(\S+)")
 _WORD = re.compile(r"[^\W\d_]+")
 # qualifiers in brackets that define another quantity, not a unit
 _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
@@ -139,7 +139,7 @@ def recognise(text: str) -> Heading | None:
     whole = _named(text)
     if whole is not None:
         return Heading(*whole, "")
-    for pattern in (BRACKET, _SLASH, _IN):
+    for pattern in (BRACKET, _SLASH, IN):
         if match := pattern.fullmatch(text):
             name, rest = _named(match[1]), _named(match[2])
             if name is None:
@@ -181,7 +181,7 @@ def unit_within(text: str) -> str:
     >>> unit_within("Sample 3 [kPa]"), unit_within("Sample 3 [left]")
     ('kPa', '')
     """
-    found = (pattern.fullmatch(text) for pattern in (BRACKET, _IN))
+    found = (pattern.fullmatch(text) for pattern in (BRACKET, IN))
     return next((m[2].strip() for m in found if m and is_unit(m[2])), "")
 
 

@@ -197,7 +197,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
 
 
 def _refuse_late_start(columns: Columns, tables: Sequence[Table], time: Array) -> None:
-    """Raise an error if time goes on from the table before: it is no time since the step."""
+    """Raise an error if time continues from the table before and is no time since the step."""
     at = next(i for i, table in enumerate(tables) if table is columns.table)
     if not at or not np.isfinite(time).any():
         return

@@ -73,7 +73,7 @@ def _of_sheet(file: LabFile, rows: Cells, names: Sequence[str]) -> list[Table]:
     if at is None:
         first = next((i for i, row in enumerate(rows[:_LOOKED]) if holds(row, names)), None)
         if first is None:
-            return []
+            return _of_sheet(file, rows, ()) if names else []
         return [tabulated(file, numbered(rows[first]), None, numbered_rows[first:])]
     words = " ".join(" ".join(row) for row in rows[:at] if "geometry" in row[0].casefold())
     stated = stated_temperature(rows[:at])

@@ -27,7 +27,7 @@ _TYPES = {
 }
 _PLAIN = {"float": ">f4", "float-data": ">f4", "double": ">f8", "double-data": ">f8"}
 # height of the cantilever's carrier; measured is preferred to commanded
-_HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
+HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
 _SEGMENT = re.compile(r"segments/(\d{1,4})/segment-header\.properties")
 _MOST = 64  # segments
 
@@ -114,7 +114,7 @@ def _deflection(
 
 def _height(file: LabFile, own: Words) -> str:
     present = own.get("channels.list", "").split()
-    for channel in _HEIGHTS:
+    for channel in HEIGHTS:
         if channel in present:
             return channel
     raise file.error(f"no channel of height; the channels are {', '.join(present) or 'none'}")
