@@ -54,9 +54,13 @@ def tables(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
         If the library for workbooks is not installed.
     """
     found = sheets(file)
+    # a sheet of details states the geometry
+    top = (row for rows in found.values() for row in rows[:_LOOKED] if row)
+    words = " ".join(" ".join(row) for row in top if "geometry" in row[0].casefold())
     tables = []
     for title in sorted(found, key=lambda title: title != _SHEET):
-        tables += [replace(each, sheet=title) for each in _of_sheet(file, found[title], names)]
+        parts = _of_sheet(file, found[title], names)
+        tables += [replace(each, sheet=title, words=each.words or words) for each in parts]
     if not tables:
         raise file.error(
             f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; the "
@@ -75,7 +79,6 @@ def _of_sheet(file: LabFile, rows: Cells, names: Sequence[str]) -> list[Table]:
         if first is None:
             return _of_sheet(file, rows, ()) if names else []
         return [tabulated(file, numbered(rows[first]), None, numbered_rows[first:])]
-    words = " ".join(" ".join(row) for row in rows[:at] if "geometry" in row[0].casefold())
     stated = stated_temperature(rows[:at])
     # further rows of headings begin further tables
     starts = [at, *(i for i in range(at + 1, len(rows)) if _heads_again(rows[i]))]
@@ -85,7 +88,7 @@ def _of_sheet(file: LabFile, rows: Cells, names: Sequence[str]) -> list[Table]:
         while end < len(rows) and block and not any(map(is_number, block[-1][1])):
             block.pop()
         units, data = under(block)
-        found.append(tabulated(file, rows[start], units, data, words=words, temperature=stated))
+        found.append(tabulated(file, rows[start], units, data, temperature=stated))
     return found
 
 
