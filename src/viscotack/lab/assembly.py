@@ -22,6 +22,7 @@ from .tables import Table
 from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
+_ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
 _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is wrong
 _FLAG = re.compile(r"(--[a-z-]+) ([\w/]+)")  # an option and its first value
 _TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
@@ -29,21 +30,21 @@ _TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
 
 def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
-    parts, notes = [], list(file.notes)
+    parts, states, notes = [], [], list(file.notes)
     for table in tables:
         columns = Columns(file, table, given)
         if not table.rows or not has_sweep(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
         part = _part(columns, given)
-        if _repeats_one_state(part):
-            what = "all points have one temperature and one frequency (an amplitude or time sweep?)"
-            if len(tables) == 1:
-                raise columns.error(f"{what}; expected several frequencies or temperatures")
-            notes.append(f"ignored the table from line {table.rows[0][0]}: {what}")
+        if _repeats_one_state(part, len(tables)):
+            states.append(columns)
+            notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
             continue
         parts.append(part)
         notes += columns.notes
+    if states and not parts:
+        raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
         raise no_such_test(file, tables, given, "dma")
     if len({part.kind for part in parts}) > 1:
@@ -65,12 +66,14 @@ def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted:
     return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
 
-def _repeats_one_state(part: FrequencySweeps) -> bool:
-    """Return whether most points repeat one frequency at one temperature."""
+def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
+    """Return whether all points of one of several tables have one frequency and one temperature."""
     omega, temperature = part.angular_frequency, part.temperature
     one_frequency = np.ptp(omega) <= 1e-3 * omega[0]
     # an unknown temperature cannot distinguish points
-    return omega.size > 1 and bool(one_frequency and not np.ptp(temperature) > GAP)
+    if omega.size == 1:
+        return tables > 1 and bool(np.all(np.isnan(temperature)))
+    return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
 def _part(columns: Columns, given: Options) -> FrequencySweeps:

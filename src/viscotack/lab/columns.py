@@ -76,6 +76,9 @@ class Columns:
             heading = recognise(text)
             if heading is None or heading.quantity in options.chosen:
                 continue
+            # instruments head columns of waves and temperatures that they did not measure
+            if table.rows and not any(row[index] for _, row in table.rows):
+                continue
             if options.kind and heading.kind and heading.kind != options.kind:
                 continue
             self._found.setdefault(heading.quantity, []).append((index, heading))
@@ -316,9 +319,7 @@ class Columns:
         if quantity not in self._chosen:
             first, *others = self._found[quantity]
             for other in others:
-                # columns of waves are empty where the waves were not exported
-                if any(row[other[0]] for _, row in self.table.rows):
-                    self._refuse_other(quantity, first, other)
+                self._refuse_other(quantity, first, other)
             self._chosen[quantity] = first
         return self._chosen[quantity]
 

@@ -225,7 +225,7 @@ def without_waves(table: Table) -> Table:
     """Remove samples of raw waves between the numbered points of a rheometer, and their columns.
 
     Only the points are numbered (1, 2, 3, ...); a sample fills the columns of waves, and leaves
-    others empty that every point fills.
+    others empty that every point fills. There are at least as many samples as points.
     """
     rows = table.rows
     for counter in range(min(_COUNTERS, len(table.headings))):
@@ -235,7 +235,8 @@ def without_waves(table: Table) -> Table:
         others = (i for i in range(len(table.headings)) if i != counter)
         full = [i for i in others if all(row[i] for row in points)]
         samples = {line for line, row in rows if not row[counter] and not all(row[i] for i in full)}
-        if len(samples) < len(rows) - len(points):
+        # a row of sums below the points is no sample
+        if len(samples) < max(len(rows) - len(points), len(points)):
             continue
         waves = {i for line, row in rows if line in samples for i, cell in enumerate(row) if cell}
         note = f"{len(samples)} samples of raw waves between the points are not used"
