@@ -1,8 +1,8 @@
 """Read every rheology file of public repositories, and hold what was read against another parse.
 
 ``python benchmarks/public_files.py FOLDER...`` takes checkouts of RepTate, RheoJAX, pyRheo,
-mastercurves, pyvisco and RHEOS (any folders do), reads each data file in them without a hand on it,
-and prints how many
+mastercurves, pyvisco, RHEOS and of the repositories in :data:`PAGE` (any folders do), reads each
+data file in them as it is, and prints how many
 
 - are read, and say numbers, temperature and kind of an independent parse (pandas, or a few lines,
   from a recipe for each kind of file below that knows nothing of the readers),
@@ -12,7 +12,7 @@ and prints how many
 - are misread, or refused for any other reason. These are listed, and the exit status is then 1.
 
 ``--page FILE`` writes the list of all names with their outcome, ``--fuzz N`` reads N mutated copies
-of the files, each as what it is and as something else, and counts tracebacks. Half a minute, and
+of the files, each as what it is and as something else, and counts tracebacks. A minute, and
 three minutes for 5,000 copies.
 """
 
@@ -626,24 +626,36 @@ def page(results, counts):
 
 PAGE = """# Public files, and how they are read
 
-Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco and RHEOS, read by
-`viscotack.lab` without a hand on it and held against an independent parse. The files themselves
-stay where they are; this list is written by
+Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco, RHEOS and of thirteen smaller
+repositories, read by `viscotack.lab` as it is and compared with an independent parse. The files
+themselves stay where they are; this list is written by
 
 ```console
 python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
-    --page docs/public-files.md
+    Thin-Rheology rheology-data-toolkit RheometerPlots dma-prony-validation perssonmodelling \\
+    rheologyEvaluation MATLAB-DMA2Prony Clinckspoor-Rheology RheometerData rheology-fit \\
+    rheology-health-monitoring Viscoelastic-fitting Viscoelastic_Fit --page docs/public-files.md
 ```
 
 ```text
 {counts}
 ```
 
-"asked" files do not say a unit, or whether a modulus is tensile or shear: the refusal names the
-flags, and with them the numbers are those of the independent parse. Of files without headings no
-reader can know what their columns are. Measured on RepTate 4aeb671, RheoJAX b79e79e
-(without the two owchirp files of `examples/data/laos`, which were not at hand), pyRheo 9435084,
-mastercurves cb2cc35, pyvisco 252a4b8 and RHEOS a4e6de8.
+"asked" files do not state a unit, or whether a modulus is tensile or shear: the refusal names the
+options, and with them the numbers are those of the independent parse. Of files without headings no
+reader can know what their columns are; the refusal has an example of `--columns`. Measured on
+RepTate 4aeb671, RheoJAX b79e79e (without two owchirp files of `examples/data/laos` and the workbook
+of `examples/data/ikh`, which were not at hand), pyRheo 9435084, mastercurves cb2cc35,
+pyvisco 252a4b8, RHEOS a4e6de8,
+lemellenthin/Rheology 95e052e (folder Thin-Rheology: text, and workbooks below 150 kB),
+desdelgado/rheology-data-toolkit 054b165, PetrusKirsten/RheometerPlots 91690c4,
+MarcusNi96/dma-prony-validation 068d213, k100kan35-dotcom/perssonmodelling d98978b,
+tbgitoo/rheologyEvaluation ee0a07a, bibekanandadatta/MATLAB-DMA2Prony 012fd36,
+KarlClinckspoor/Rheology 9dbdbea (folder Clinckspoor-Rheology), JoelJank/RheometerData 8d8ec95,
+karenkhachatryan-lab/rheology-fit 76d230c, krlennon/rheology-health-monitoring 685b4b6,
+Chongran-Zhao/Viscoelastic-fitting 77f7312 and KamalenduGhosh/Viscoelastic_Fit 3095eac.
+
+Of a workbook with several sheets that have tests the first one is read, with a note.
 
 | folder | outcome | files | names |
 |---|---|---|---|

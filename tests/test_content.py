@@ -163,6 +163,8 @@ def test_the_time_of_the_whole_test_is_not_taken_for_the_time_since_the_step(fil
     path = file({"Data": [*first, [], *second]}, "creep.xlsx")
     with pytest.raises(InputError, match=r'begins at 9.5 s.*--step-start "8 s"'):
         lab.read(path)
+    with pytest.raises(InputError, match="--step-start"):
+        lab.read(path, table="2")
     found = lab.read(path, step_start=8.5)
     np.testing.assert_allclose(found.time, np.arange(1.0, 9.0))
 

@@ -416,7 +416,8 @@ def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
     said = () if given.format is not None else (f"detected format: {found}",)
     cut = () if found == "trios-json" else file.left_out
     parts = [part for table in whole for part in pieces(table)]
-    numbered = [replace(table, number=i) for i, table in enumerate(parts, start=1)]
+    pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
+    numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
     tables, others = _selected(file, numbered, given)
     return replace(file, notes=(*said, *file.notes, *cut, *others)), found, tables
 

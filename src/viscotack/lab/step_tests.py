@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.errors import InputError
 
 from .assembly import (
     headings_of,
@@ -178,7 +179,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     )
     time = columns.si(timed) - given.step_start
     if not given.step_start and timed == "time":
-        _refuse_late_start(columns, tables, time)
+        _refuse_late_start(columns, time)
     kind = kind_of(columns, given, *needed)
     if wanted in columns:
         values = columns.si(wanted)
@@ -196,15 +197,18 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
 
 
-def _refuse_late_start(columns: Columns, tables: Sequence[Table], time: Array) -> None:
+def _refuse_late_start(columns: Columns, time: Array) -> None:
     """Raise an error if time continues from the table before and is no time since the step."""
-    at = next(i for i, table in enumerate(tables) if table is columns.table)
-    if not at or not np.isfinite(time).any():
+    previous = columns.table.before
+    if previous is None or previous.sheet != columns.table.sheet or not np.isfinite(time).any():
         return
-    before = Columns(columns.file, tables[at - 1], columns.options)
-    if "time" not in before or before.table.sheet != columns.table.sheet:
+    before = Columns(columns.file, previous, columns.options)
+    if "time" not in before:
         return
-    end, start = before.si("time"), float(np.nanmin(time))
+    try:
+        end, start = before.si("time"), float(np.nanmin(time))
+    except InputError:
+        return
     if np.isfinite(end).any() and 0 < np.nanmax(end) <= start:
         example = columns.file.command(f'--step-start "{np.nanmax(end):g} s"')
         raise columns.error(

@@ -44,6 +44,8 @@ class Table:
         Name of the sheet in a workbook.
     number : int
         Number of the table in the file, from 1.
+    before : Table or None
+        Table before this one in the file or sheet.
     notes : tuple of str
         Decisions of the layout's reader.
     """
@@ -58,6 +60,7 @@ class Table:
     label: str = ""
     sheet: str = ""
     number: int = 0
+    before: "Table | None" = None
 
     @property
     def place(self) -> str:
