@@ -184,6 +184,13 @@ def test_the_sheet_with_a_test_is_read_and_another_by_its_name(file):
         lab.read(path, table="4")
 
 
+def test_a_sheet_of_gaps_is_no_test(file):
+    gaps = [["f [Hz]", "G' [Pa]", "G'' [Pa]"], ["---", 2.0, 1.0]]
+    step = [["t [s]", "stress [Pa]", "strain [-]"], [1.0, "---", "---"]]
+    with pytest.raises(InputError, match="no row has all required numbers"):
+        lab.read(file({"One": gaps, "Two": step}, "gaps.xlsx"))
+
+
 def test_segments_of_rheowin_are_tables(file):
     rows = [f"1|{i},{f},{s},{l}" for i, (f, s, l) in enumerate(zip(HERTZ, STORAGE, LOSS), 1)]  # noqa: B905, E741
     rows += [f"2|{i},1,{900 + i},90" for i in range(1, 5)]

@@ -57,7 +57,8 @@ def _sweeps(columns: Columns) -> bool:
         ]
     except InputError:
         return False
-    return any(np.nanmax(x) - np.nanmin(x) > _SWEPT * np.nanmax(np.abs(x)) for x in swept)
+    known = (values[np.isfinite(values)] for values in swept)
+    return any(x.size and np.ptp(x) > _SWEPT * np.max(np.abs(x)) for x in known)
 
 
 def has_sweep(columns: Columns) -> bool:
@@ -134,8 +135,9 @@ def _by_what_is_held(columns: Columns) -> str | None:
         except ValueError:
             return None
         spread[quantity] = inside.mean() if inside.size else 0.0
-    stress = np.abs(columns.numbers("stress", needed=False))
-    if not np.any(stress) or np.nanmedian(stress) == 0.0:
+    stress = columns.numbers("stress", needed=False)
+    stress = np.abs(stress[np.isfinite(stress)])
+    if not stress.size or np.median(stress) == 0.0:
         return None  # the recovery after creep holds no stress
     if max(spread.values()) < 0.5 or spread["stress"] == spread["strain"]:
         return None
