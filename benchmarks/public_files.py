@@ -1,8 +1,8 @@
 """Read every rheology file of public repositories, and hold what was read against another parse.
 
 ``python benchmarks/public_files.py FOLDER...`` takes checkouts of RepTate, RheoJAX, pyRheo,
-mastercurves, pyvisco and RHEOS (any folders do), reads each data file in them without a hand on it,
-and prints how many
+mastercurves, pyvisco, RHEOS and of the repositories in :data:`PAGE` (any folders do), reads each
+data file in them as it is, and prints how many
 
 - are read, and say numbers, temperature and kind of an independent parse (pandas, or a few lines,
   from a recipe for each kind of file below that knows nothing of the readers),
@@ -12,11 +12,12 @@ and prints how many
 - are misread, or refused for any other reason. These are listed, and the exit status is then 1.
 
 ``--page FILE`` writes the list of all names with their outcome, ``--fuzz N`` reads N mutated copies
-of the files, each as what it is and as something else, and counts tracebacks. Half a minute, and
+of the files, each as what it is and as something else, and counts tracebacks. A minute, and
 three minutes for 5,000 copies.
 """
 
 import argparse
+import csv
 import io
 import json
 import re
@@ -44,7 +45,8 @@ DATA = {
 NO_DATA = (
     "*/.*", "*/requirements.txt", "*readme*", "*license*", "*tutorial*", "*egg-info*",
     "*/graphify*", "*/scripts/*", "*source_code*", "*modified_bob*", "*/runtime.txt",
-    "*/binder/*", "*/schema/*", "*computation_times*",
+    "*/binder/*", "*/config/*.json", "*/command_upload.txt", "*/*.egg-info/*", "*/schema/*",
+    "*computation_times*",
 )  # fmt: skip
 MEGA = 1e6
 
@@ -57,6 +59,8 @@ class Recipe:
     test: str
     parse: Callable[[Path], list[pd.DataFrame]]
     factors: tuple[float, ...] = (1.0, 1.0, 1.0)
+    kind: str = "G"
+    celsius: Callable[[Path], list[pd.DataFrame]] | None = None
 
 
 # ---- independent parses ------------------------------------------------------------------------
@@ -174,9 +178,98 @@ def json_lists(path):
     return [table[["Time", "Relaxation Modulus"]]]
 
 
+TO_SI = {"Hz": 2 * np.pi, "rad/s": 1.0, "Pa": 1.0, "MPa": 1e6, "1/Pa": 1.0, "s": 1.0, "°C": 1.0}
+
+
+def sheet_of(path):
+    """Return the rows of a text or of the first sheet with more than ten rows, as text."""
+    if path.suffix in (".xls", ".xlsx"):
+        sheets = pd.read_excel(path, sheet_name=None, header=None, dtype=object)
+        # the first sheet of frequencies, or the first one with a table
+        tables = [t for t in sheets.values() if len(t) > 10]
+        tables = [t for t in tables if "requency" in t.head(3).to_string()] + tables
+        table = next((t for k, t in sheets.items() if "requency" in k), tables[0])
+        return [["" if pd.isna(c) else str(c).strip() for c in row] for row in table.to_numpy()]
+    text = text_of(path).replace("\r", "")
+    return list(csv.reader(io.StringIO(text), delimiter="\t" if "\t" in text else ","))
+
+
+def columns(*names):
+    """Return a parse of columns by their whole headings, with units beside or below them.
+
+    Rows without all numbers are samples of waves, or other text.
+    """
+
+    def parse(path):
+        rows = sheet_of(path)
+        known = [[cell.partition(" (")[0].strip("# ") for cell in row] for row in rows]
+        words = [name.split("|") for name in names]
+        at = next(i for i, row in enumerate(known) if all(set(w) & set(row) for w in words))
+        places = [min(known[at].index(name) for name in w if name in known[at]) for w in words]
+        beside = [re.search(r"[([](.*)[)\]]$", rows[at][i]) for i in places]
+        below = next((r for r in rows[at + 1 : at + 4] if {"Pa", "[Pa]"} & set(r)), [""] * 99)
+        units = [m[1] if m else below[i].strip("[]") for i, m in zip(places, beside, strict=True)]
+        scale = [TO_SI.get(unit, 1.0) for unit in units]
+        found = []
+        for row in rows[at + 1 :]:
+            try:
+                values = [float(row[i].replace(",", ".")) for i in places]
+            except (ValueError, IndexError):
+                if found and path.suffix == ".xlsx" and names[0] == "Time":
+                    break
+                continue
+            found.append([value * s for value, s in zip(values, scale, strict=True)])
+        return [pd.DataFrame(found)]
+
+    return parse
+
+
+def rheowin(path):
+    """Return the sweeps of a table, or of tables side by side, of RheoWin: segments that sweep."""
+    rows, found = sheet_of(path), []
+    for first in (i for i, name in enumerate(rows[0]) if name == "t in s"):
+        names = ("f in Hz", "G' in Pa", 'G" in Pa', "T in °C")
+        places = [rows[0].index(name, first) for name in names]
+        filled = [row for row in rows[1:] if all(row[i].strip() for i in places)]
+        numbers = [[float(row[i].replace(",", ".")) for i in places] for row in filled]
+        table = pd.DataFrame(numbers)
+        segment = [row[max(first - 1, 0)].partition("|")[0] for row in filled]
+        sweeps = table.groupby(segment).filter(lambda part: part[0].nunique() > 1)
+        found.append(sweeps * [HERTZ, 1, 1, 1])
+    return found
+
+
 HERTZ = 2 * np.pi
 SWEEP = ("dma", (1.0, 1.0, 1.0))
+OMEGA = "Frequency|Angular Frequency"
+MODULI = ("Storage Modulus", "Loss Modulus")
+ARES = ("Angular frequency", "Storage modulus", "Loss modulus")
+NEWER = (
+    Recipe("Thin-Rheology/*attempt FREQ4*.csv", "dma", columns(OMEGA, *MODULI)),
+    Recipe("Thin-Rheology/*freq*.csv", "dma", columns(OMEGA, *MODULI)),
+    Recipe("Thin-Rheology/*attempt 2.csv", "dma", columns(OMEGA, *MODULI)),
+    Recipe("Thin-Rheology/*attempt2.csv", "dma", columns(OMEGA, *MODULI)),
+    Recipe("Thin-Rheology/*01-08-2021_air_creep*", "creep",
+           columns("Time", "Creep Compliance")),
+    Recipe("Thin-Rheology/*CC_DG_expts*", "dma", columns(OMEGA, *MODULI)),
+    Recipe("Thin-Rheology/*creep tests*", "creep", columns("Time", "Creep Compliance")),
+    Recipe("rheology-data-toolkit/*Stress Relaxation 1.csv", "relaxation",
+           columns("Time", "Relaxation Modulus")),
+    Recipe("rheology-data-toolkit/*ARES_G2*", "dma", columns(*ARES),
+           celsius=columns(*ARES, "Temperature")),
+    Recipe("RheometerPlots/*viscoelastic-recovery*", "dma", rheowin, celsius=rheowin),
+    Recipe("RheometerPlots/*frequency*sweep*", "dma", rheowin, celsius=rheowin),
+    Recipe("dma-prony-validation/*tf_015p.csv", "dma",
+           columns("freq_hz", "G_storage_pa", "G_loss_pa"), (HERTZ, 1, 1),
+           celsius=columns("freq_hz", "G_storage_pa", "G_loss_pa", "temperature_C")),
+    Recipe("perssonmodelling/*measured_dma.txt", "dma",
+           columns("Frequency", "E' Storage Modulus", "E'' Loss Modulus"), kind="E"),
+    Recipe("MATLAB-DMA2Prony/*.xlsx", "dma",
+           columns("Frequency", "Storage Modulus", "Loss Modulus"),
+           celsius=columns("Frequency", "Storage Modulus", "Loss Modulus", "Temperature")),
+)  # fmt: skip
 RECIPES = (
+    *NEWER,
     Recipe("*freq_user_master.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
     Recipe("*freq_user_raw.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
     Recipe("*/freq_user_master.csv", "dma", below("f, ", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
@@ -232,7 +325,38 @@ RECIPES = (
 )  # fmt: skip
 
 # what is refused, whatever is given: path -> words of the refusal, and why that is right
+AMPLITUDES = "one temperature and one frequency|amplitude sweep"
 REFUSED = (
+    ("Thin-Rheology/*.csv", AMPLITUDES, "amplitude sweep"),
+    ("Thin-Rheology/*air_creeptests.xlsx", "--step-start", "time of the whole test: start asked"),
+    ("Thin-Rheology/*flow*", "flow curve", "flow curve"),
+    ("Thin-Rheology/*viscosity*", "flow curve", "flow curve"),
+    ("Thin-Rheology/*temp ramp*", "flow curve", "flow curve"),
+    ("Thin-Rheology/*steady shear*", AMPLITUDES, "one frequency over time"),
+    ("Thin-Rheology/*3Hz.xlsx", "no sheet has", "a title alone"),
+    ("rheology-data-toolkit/*Steady State*", "flow curve", "flow curve"),
+    ("rheology-data-toolkit/*gwens_data*", "flow curve", "flow curve"),
+    ("rheology-data-toolkit/*shear_test*", "flow curve", "flow curve"),
+    ("rheology-data-toolkit/*freqsweep*", "loss tangent is 2e.04", "a liquid without elasticity"),
+    ("rheology-data-toolkit/*amplitudesweep*", "amplitude sweep", "amplitude sweep"),
+    ("rheology-data-toolkit/*multiple relaxation*", "2 tables.*--table", "two tests: one asked"),
+    ("rheology-data-toolkit/*amp_frq_swp*", AMPLITUDES, "amplitude sweep"),
+    ("RheometerPlots/*stress-sweep*", AMPLITUDES, "amplitude sweep"),
+    ("RheometerPlots/*dyn*com*", "flow curve|no table", "compression, no modulus"),
+    ("RheometerPlots/*haribo*", "no table", "compression, no modulus"),
+    ("RheometerPlots/*", "looks like headings", "no rheology: spectra"),
+    ("dma-prony-validation/*/sd_*.csv", AMPLITUDES, "amplitude sweep"),
+    ("dma-prony-validation/*/shaker/*", "looks like headings", "no modulus: accelerations"),
+    ("dma-prony-validation/*", "looks like headings", "no measurement"),
+    ("perssonmodelling/*", "looks like headings", "no modulus: roughness and friction"),
+    ("rheologyEvaluation/*", AMPLITUDES, "amplitude sweep"),
+    ("Clinckspoor-Rheology/*", "two columns of one quantity", "data, model and residuals"),
+    ("RheometerData/*mohr_coulomb.csv", "looks like headings", "no modulus: powders"),
+    ("RheometerData/*", "without the strain|no sheet has|begins with", "no modulus: powders"),
+    ("rheology-fit/*", "flow curve", "flow curve"),
+    ("rheology-health-monitoring/*", "begins with numbers", "columns without names"),
+    ("Viscoelastic-fitting/*", "one column alone|no sheet has", "columns without names"),
+    ("Viscoelastic_Fit/*", "begins with numbers", "columns without names"),
     ("*.shearxs", "flow-induced crystallisation", "crystallisation in flow"),
     ("*.shear", "start-up of shear flow", "start-up of shear"),
     ("*.uext", "start-up of extensional", "start-up of extension"),
@@ -262,7 +386,7 @@ REFUSED = (
     ("*tts_plazek.csv", "looks like headings", "columns named X and Y"),
     ("*MSD_MAX1.csv", "looks like headings", "no rheology: displacements of beads"),
     ("*creep_mucus_data_julia.csv", "begins with numbers", "columns without names"),
-    ("*export_*data_mucus*", "is the only column|begins with numbers", "one column alone"),
+    ("*export_*data_mucus*", "is the only column|one column alone", "one column alone"),
     ("*RHEOS*.csv", "begins with numbers|found .d., +.f., +.t.|found .d., .f., .t.",
      "columns without names, or d, f, t"),
     ("*raw_signal_*.txt", "begins with numbers", "raw waves without names"),
@@ -290,6 +414,10 @@ def creep_sheet(path):
 
 def celsius(path, name):
     """Return the temperatures that a file states [C], or None where it states none."""
+    recipe = next((r for r in RECIPES if fnmatch(name, r.fits)), None)
+    if recipe is not None and recipe in NEWER:
+        tables = recipe.celsius(path) if recipe.celsius else []
+        return pd.concat(tables).iloc[:, -1].to_numpy(dtype=float) if tables else None
     if fnmatch(name, "*freq_user_raw.csv"):
         return below("f,", ",", (3,))(path)[0].to_numpy().ravel()
     if fnmatch(name, "*time_user_raw.csv"):
@@ -394,6 +522,7 @@ def outcome(path, name):
     """Return the outcome and the words for one file."""
     recipe = next((r for r in RECIPES if fnmatch(name, r.fits)), None)
     refusal = next((r for r in REFUSED if fnmatch(name, r[0])), None)
+    refusal = None if recipe in NEWER else refusal
     # a shift table is no test, and has a reader of its own
     shifts = (recipe and recipe.test == "shifts") or "TTS_Acierno" in name
     reader = lab.read_shifts if shifts else lab.read
@@ -430,7 +559,7 @@ def outcome(path, name):
     if recipe.test != "shifts":
         tensile = ("_user_" in name or "Eplexor" in name) and "shear" not in name
         one = test[0] if isinstance(test, tuple) else test
-        if one.kind != ("E" if tensile else "G"):
+        if one.kind != ("E" if tensile else recipe.kind):
             return "MISREAD", f"taken for kind {one.kind}"
         if wrong := other_temperature(test, celsius(path, name)):
             return "MISREAD", wrong
@@ -497,24 +626,36 @@ def page(results, counts):
 
 PAGE = """# Public files, and how they are read
 
-Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco and RHEOS, read by
-`viscotack.lab` without a hand on it and held against an independent parse. The files themselves
-stay where they are; this list is written by
+Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco, RHEOS and of thirteen smaller
+repositories, read by `viscotack.lab` as it is and compared with an independent parse. The files
+themselves stay where they are; this list is written by
 
 ```console
 python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
-    --page docs/public-files.md
+    Thin-Rheology rheology-data-toolkit RheometerPlots dma-prony-validation perssonmodelling \\
+    rheologyEvaluation MATLAB-DMA2Prony Clinckspoor-Rheology RheometerData rheology-fit \\
+    rheology-health-monitoring Viscoelastic-fitting Viscoelastic_Fit --page docs/public-files.md
 ```
 
 ```text
 {counts}
 ```
 
-"asked" files do not say a unit, or whether a modulus is tensile or shear: the refusal names the
-flags, and with them the numbers are those of the independent parse. Of files without headings no
-reader can know what their columns are. Measured on RepTate 4aeb671, RheoJAX b79e79e
-(without the two owchirp files of `examples/data/laos`, which were not at hand), pyRheo 9435084,
-mastercurves cb2cc35, pyvisco 252a4b8 and RHEOS a4e6de8.
+"asked" files do not state a unit, or whether a modulus is tensile or shear: the refusal names the
+options, and with them the numbers are those of the independent parse. Of files without headings no
+reader can know what their columns are; the refusal has an example of `--columns`. Measured on
+RepTate 4aeb671, RheoJAX b79e79e (without two owchirp files of `examples/data/laos` and the workbook
+of `examples/data/ikh`, which were not at hand), pyRheo 9435084, mastercurves cb2cc35,
+pyvisco 252a4b8, RHEOS a4e6de8,
+lemellenthin/Rheology 95e052e (folder Thin-Rheology: text, and workbooks below 150 kB),
+desdelgado/rheology-data-toolkit 054b165, PetrusKirsten/RheometerPlots 91690c4,
+MarcusNi96/dma-prony-validation 068d213, k100kan35-dotcom/perssonmodelling d98978b,
+tbgitoo/rheologyEvaluation ee0a07a, bibekanandadatta/MATLAB-DMA2Prony 012fd36,
+KarlClinckspoor/Rheology 9dbdbea (folder Clinckspoor-Rheology), JoelJank/RheometerData 8d8ec95,
+karenkhachatryan-lab/rheology-fit 76d230c, krlennon/rheology-health-monitoring 685b4b6,
+Chongran-Zhao/Viscoelastic-fitting 77f7312 and KamalenduGhosh/Viscoelastic_Fit 3095eac.
+
+Of a workbook with several sheets that have tests the first one is read, with a note.
 
 | folder | outcome | files | names |
 |---|---|---|---|

@@ -2,9 +2,10 @@
 
     python benchmarks/public_tack_files.py FOLDER... [--names]
 
-For every cycle that is read: the pull-off against the raw extremum of that retraction, and the
-speed against a line through position over time that is fitted here, between the last zero crossing
-of the force and the pull-off. Every file that is not read stands there with the reason.
+Records of JPK texts are held against the columns that NumPy reads. For every cycle that is read:
+the pull-off against the raw extremum of that retraction, and the speed against a line through
+position over time that is fitted here, between the last zero crossing of the force and the pull-
+off. Every file that is not read stands there with the reason.
 """
 
 import argparse
@@ -54,6 +55,20 @@ def raw_numbers(record, cycle):
     return float(tension[at]), float(tension[at]) - level, float(slope), whole
 
 
+def misread(path):
+    """Return whether a record of a JPK text differs from the columns that NumPy reads."""
+    text = path.read_text(encoding="latin-1")
+    names = re.search(r"(?m)^# columns: (.*)$", text)
+    if names is None:
+        return False
+    columns = dict(zip(names[1].split(), np.loadtxt(path, encoding="latin-1").T, strict=True))
+    (record,) = tack.read(path)
+    height = next(columns[n] for n in ("measuredHeight", "tipSampleSeparation") if n in columns)
+    mine = record.time, record.force, record.position
+    theirs = columns["seriesTime"], columns["vDeflection"], height
+    return not all(map(np.array_equal, mine, theirs))
+
+
 def outcome(paths):
     """Return the rows of the cycles that were read, and the reasons of the others."""
     rows, reasons = [], []
@@ -88,6 +103,8 @@ def main():
             files += 1
             try:
                 read, reasons = outcome(paths)
+                if any(path.suffix == ".txt" and misread(path) for path in paths):
+                    raise InputError("other numbers than NumPy reads")
             except (InputError, RuntimeWarning) as error:
                 broken += 1
                 print(f"BROKEN {name}: {error}")

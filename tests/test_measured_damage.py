@@ -5,6 +5,7 @@ once; so the bytes that are put in here are not digits where the numbers themsel
 """
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -155,6 +156,12 @@ def test_two_rows_run_together_give_right_points_or_an_error(name, tmp_path):
 
 COLUMNS = [{"name": "Time", "unit": "s"}, {"name": "G(t)", "unit": "Pa"}]
 LISTS = {"Results": [{"DataSet": [{"Data": {"columns": COLUMNS, "values": [[1, 2.5], [2, 1]]}}]}]}
+CHINESE = "角频率 (rad/s),储能模量 (kPa),损耗模量 (Pa)\n1,9,300\n10,11,350\n"
+WAVES = (
+    "Interval and data points:\t1\t2\nInterval data:\tPoint No.\tPeriod Time\tFrequency\t"
+    "Storage Modulus\tLoss Modulus\n\t\tWaveform\t\t\t\n\t\t[s]\t[Hz]\t[Pa]\t[Pa]\n"
+    "\t1\t0\t1\t9\t3\n\t\t0.1\t\t\t\n\t\t0.2\t\t\t\n\t2\t0\t2\t10\t3\n\t\t0.1\t\t\t\n"
+)
 OTHERS = {
     "relaxation.csv": b"t,E_relax,T\ns,MPa,C\n1,900,20\n10,500,20\n",
     "step.gt": b"T=20;gamma=0.1;\nt sxy\n0.1 5e5\n1 3e5\n",
@@ -166,18 +173,23 @@ OTHERS = {
     "polar.csv": lab_files.polar(),
     "sweep.osc": lab_files.reptate_osc(),
     "lists.json": json.dumps(LISTS).encode(),
+    "waves.csv": WAVES.encode("utf-16"),
+    "china.csv": CHINESE.encode("gb18030"),
+    "rheowin.csv": b"SegIndex,f in Hz,G' in Pa,G'' in Pa\n1|1,1,9,3\n1|2,2,10,3\n2|1,1,9,3\n",
+    "beside.csv": b"t,J,,t,J\ns,1/Pa,,s,1/Pa\n1,2,,1,3\n2,3,,2,4\n3,4,,,\n",
+    "names.csv": b"omega_rad_s,G_storage_mpa,G_loss_kpa\n1,9,300\n10,11,350\n",
 } | {f"{name.replace(' ', '_')}.txt": text for name, text in TEXTS.items()}  # fmt: skip
 
 
 def mutated(content, rng):
-    """Return a file with bytes changed, a piece lost, doubled or moved, or an end cut off."""
+    """Return a file with bytes, cells, rows, units or the encoding changed."""
     content = bytearray(content)
     for _ in range(rng.integers(1, 4)):
         if len(content) < 4:
             break
         start = int(rng.integers(0, len(content)))
         end = min(start + int(rng.integers(1, 30)), len(content))
-        how = rng.integers(6)
+        how = rng.integers(10)
         if how == 0:
             content[start:end] = rng.integers(0, 256, end - start, dtype=np.uint8).tobytes()
         elif how == 1:
@@ -191,6 +203,20 @@ def mutated(content, rng):
             one, other = rng.integers(len(lines), size=2)
             lines[one], lines[other] = lines[other], lines[one]
             content = bytearray(b"\n".join(lines))
+        elif how == 5:
+            lines = bytes(content).split(b"\n")
+            content = bytearray(b"\n".join(rng.permutation(np.array(lines, dtype=object))))
+        elif how == 6:
+            cells = re.split(rb"([,;\t])", bytes(content))
+            cells[rng.integers(len(cells))] = rng.choice([b"", b"1", b"abc", b"[Pa]", b"\xb0C"])
+            content = bytearray(b"".join(cells))
+        elif how == 7:
+            unit, other = rng.permutation([b"Pa", b"MPa", b"Hz", b"rad/s", b"s", b"", b"C"])[:2]
+            content = bytearray(bytes(content).replace(unit, other, 1) if unit else content)
+        elif how == 8:
+            text = bytes(content).decode("latin-1")
+            code = rng.choice(["utf-8", "utf-16", "utf-16-le", "gb18030", "cp1251", "cp932"])
+            content = bytearray(text.encode(code, "replace"))
         else:
             mark = rng.choice(list(b",;\t .-+eE0\"'{}[]:=/"))
             content[start] = mark
@@ -216,6 +242,23 @@ def test_every_reader_reads_or_refuses_a_mutated_file(tries, tmp_path):
             columns = (column for column in vars(test).values() if isinstance(column, np.ndarray))
             assert not any(np.any(np.isinf(column)) for column in columns)
     assert 0.1 * tries < answered < 2 * tries
+
+
+@pytest.mark.parametrize("name", lab_files.TEXTS)
+def test_a_removed_unit_gives_right_points_or_an_error(name, tmp_path):
+    path = tmp_path / "film.txt"
+    whole = read(path, TEXTS[name])
+    lines, encoding = decoded(TEXTS[name])
+    text = "\n".join(lines)
+    places = [m.span() for m in re.finditer(r"(MPa|Pa|Hz|rad/s|°C)(?![A-Za-z])", text)][:60]
+    read_as_before = 0
+    for start, end in places:
+        sweeps = read(path, (text[:start] + text[end:]).encode(encoding))
+        if sweeps is not None:
+            # a unit of another step, or of a column that is not needed
+            assert_right(sweeps, whole)
+            read_as_before += 1
+    assert places and read_as_before < len(places)
 
 
 @pytest.mark.parametrize("name", TEXTS)

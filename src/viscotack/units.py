@@ -39,7 +39,6 @@ _PREFIXED = (
     "J",
     "J/m^2",
     "J/m2",
-    "J/m$^2$",
     "J/m",
     "J/mol",
     "m/N",

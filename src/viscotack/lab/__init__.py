@@ -9,6 +9,7 @@ from .in_time import superposed
 from .judging import Superposition, contradiction, superposition
 from .kramers_kronig import Consistency, consistency, loss_from_storage
 from .master_curves import master_curve
+from .options import Options
 from .reading import (
     FORMATS,
     read,
@@ -31,6 +32,7 @@ __all__ = [
     "FitReport",
     "FrequencySweeps",
     "MasterCurve",
+    "Options",
     "RelaxationTest",
     "ShiftFit",
     "ShiftTable",

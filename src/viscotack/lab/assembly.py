@@ -1,7 +1,8 @@
 """Assemble frequency sweeps in SI from the tables of a file; functions shared by all readers."""
 
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,45 +11,40 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .columns import Columns, Table, Units
+from .columns import Columns
 from .diagnosis import cause, has_sweep
 from .grouping import GAP, grouped
 from .joining import numbered_on
 from .lab_file import LabFile
+from .options import Options
 from .sweeps import FrequencySweeps, Source
+from .tables import Table
 from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
+_ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
 _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is wrong
+_FLAG = re.compile(r"(--[a-z-]+) ([\w/]+)")  # an option and its first value
 _TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
 
 
-@dataclass(frozen=True)
-class Given:
-    """Kind of modulus, temperature [K] and units given by the caller, for files that lack them."""
-
-    kind: str | None
-    temperature: float | None
-    units: Units
-
-
-def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> FrequencySweeps:
+def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
-    parts, notes = [], list(file.notes)
+    parts, states, notes = [], [], list(file.notes)
     for table in tables:
-        columns = Columns(file, table, given.units, given.kind)
+        columns = Columns(file, table, given)
         if not table.rows or not has_sweep(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
         part = _part(columns, given)
-        if _repeats_one_state(part):
-            what = "all points have one temperature and one frequency (an amplitude or time sweep?)"
-            if len(tables) == 1:
-                raise columns.error(f"{what}; expected several frequencies or temperatures")
-            notes.append(f"ignored the table from line {table.rows[0][0]}: {what}")
+        if _repeats_one_state(part, len(tables)):
+            states.append(columns)
+            notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
             continue
         parts.append(part)
         notes += columns.notes
+    if states and not parts:
+        raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
         raise no_such_test(file, tables, given, "dma")
     if len({part.kind for part in parts}) > 1:
@@ -58,27 +54,29 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) ->
     return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
 
 
-def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> InputError:
+def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted: str) -> InputError:
     """Return the error for a file without the requested test; it names what the file contains."""
     expected = {
         "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
         "relaxation": "a time and a modulus (or stress and strain)",
         "creep": "a time and a compliance (or stress and strain)",
     }
-    every = [Columns(file, table, given.units) for table in tables]
+    every = [Columns(file, table, replace(given, kind=None)) for table in tables]
     why = cause(every, wanted, given.kind)
     return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
 
-def _repeats_one_state(part: FrequencySweeps) -> bool:
-    """Return whether most points repeat one frequency at one temperature."""
+def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
+    """Return whether all points of one of several tables have one frequency and one temperature."""
     omega, temperature = part.angular_frequency, part.temperature
     one_frequency = np.ptp(omega) <= 1e-3 * omega[0]
     # an unknown temperature cannot distinguish points
-    return omega.size > 1 and bool(one_frequency and not np.ptp(temperature) > GAP)
+    if omega.size == 1:
+        return tables > 1 and bool(np.all(np.isnan(temperature)))
+    return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: Columns, given: Given) -> FrequencySweeps:
+def _part(columns: Columns, given: Options) -> FrequencySweeps:
     """Return the sweeps of one table."""
     parts = ("storage", "loss") if "storage" in columns else ("magnitude",)
     by_angle = "loss" not in columns or "storage" not in columns
@@ -99,7 +97,8 @@ def _part(columns: Columns, given: Given) -> FrequencySweeps:
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
         raise columns.error(
-            f"the median loss tangent is {tangent:.2g}; check the units of both moduli"
+            f"the median loss tangent is {tangent:.2g}, which no solid has; check the units of "
+            "both moduli, or whether the sample was a liquid without elasticity"
         )
     columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
     values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
@@ -143,7 +142,7 @@ def _tangent(columns: Columns) -> Array:
 
 
 def refuse_what_is_lacking(
-    columns: Columns, given: Given, moduli: Sequence[str], *quantities: str
+    columns: Columns, given: Options, moduli: Sequence[str], *quantities: str
 ) -> None:
     """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
@@ -152,7 +151,10 @@ def refuse_what_is_lacking(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
         )
     if lacking:
-        raise columns.error(f"the file does not state {'; nor '.join(lacking)}")
+        flags = [" ".join(pair) for text in lacking for pair in _FLAG.findall(text)[:1]]
+        example = columns.file.command(" ".join(dict.fromkeys(flags))) if flags else ""
+        what = "; nor ".join(lacking)
+        raise columns.error(f"the file does not state {what}{'; ' * bool(flags)}{example}")
 
 
 def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:
@@ -164,7 +166,7 @@ def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Ar
     return {name: column[np.sort(first)] for name, column in values.items()}
 
 
-def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
+def kind_of(columns: Columns, given: Options, *quantities: str) -> str:
     """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
     said = columns.kind(*quantities)
     if said is not None and given.kind is not None and said != given.kind:
@@ -172,7 +174,7 @@ def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
     return said or given.kind or ""
 
 
-def temperatures(columns: Columns, given: Given) -> Array:
+def temperatures(columns: Columns, given: Options) -> Array:
     """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
     temperature = columns.temperature()
     if given.temperature is None:

@@ -1,15 +1,9 @@
-"""A table of a laboratory file as text, and its recognised columns as numbers in SI.
-
-Readers of all formats produce a :class:`Table`; :class:`Columns` alone interprets headings and
-units.
-"""
+"""The recognised columns of a table as numbers in SI; only this module interprets units."""
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +14,7 @@ from viscotack.errors import InputError
 from .arrays import KINDS
 from .lab_file import LabFile
 from .numbers import decimal_mark, half_digit, number, plain_numbers
+from .options import Options
 from .quantities import (
     POSSIBLE,
     Heading,
@@ -31,7 +26,9 @@ from .quantities import (
     radians_per_second,
     recognise,
     scale,
+    unit_within,
 )
+from .tables import Table
 from .unit_checks import doubtful_temperature
 
 _UNITS = {
@@ -55,132 +52,7 @@ _FLAGS = {
 }
 _IN_FILE = "written in the heading or below it"
 _HELD = 0.05  # relative to the level of a step; instruments hold it better than this
-_STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
-
-Rows = tuple[tuple[int, tuple[str, ...]], ...]
-
-
-@dataclass(frozen=True)
-class Table:
-    """Headings, units and rows of cells, as text.
-
-    Parameters
-    ----------
-    headings, units : tuple of str
-        One per column; an empty unit where the file states none.
-    rows : tuple of (int, tuple of str)
-        Line number in the file, and cells, one per heading.
-    words : str
-        Text around the table: geometry, step name.
-    temperature : float or None
-        Temperature stated once for all rows [K].
-    levels : dict of str to float
-        Other values stated once for all rows: the step of ``strain`` [-] or ``stress`` [Pa].
-    label : str
-        Text above the columns of one of several tables side by side, such as a temperature.
-    notes : tuple of str
-        Decisions of the layout's reader.
-    """
-
-    headings: tuple[str, ...]
-    units: tuple[str, ...]
-    rows: Rows
-    words: str = ""
-    temperature: float | None = None
-    notes: tuple[str, ...] = ()
-    levels: Mapping[str, float] = field(default_factory=dict)
-    label: str = ""
-
-
-@dataclass(frozen=True)
-class Units:
-    """Units and decimal mark given by the caller, for files that state none."""
-
-    frequency: str | None = None
-    modulus: str | None = None
-    time: str | None = None
-    temperature: str | None = None
-    decimal: str | None = None
-
-
-def tabulated(
-    file: LabFile,
-    headings: Sequence[str],
-    units: Sequence[str] | None,
-    rows: Iterable[tuple[int, Sequence[str]]],
-    **stated: Any,
-) -> Table:
-    """Return a table; raise an error that names the first row of another length.
-
-    `stated` are the other fields of :class:`Table`.
-    """
-    names, beside, chosen = ruled(file, headings, units, rows)
-    given = [recognise(heading) for heading in names]
-    # a row of units counts only where the heading itself has no unit
-    own = [(heading and heading.unit) or unit for heading, unit in zip(given, beside, strict=True)]
-    return Table(names, tuple(own), chosen, **stated)
-
-
-def ruled(
-    file: LabFile,
-    headings: Sequence[str],
-    units: Sequence[str] | None,
-    rows: Iterable[tuple[int, Sequence[str]]],
-) -> tuple[tuple[str, ...], tuple[str, ...], Rows]:
-    """Return headings, units and rows of one length; raise an error for a row of another length."""
-    width = max((i + 1 for i, cell in enumerate(headings) if cell.strip()), default=0)
-    chosen = []
-    for line, cells in rows:
-        cells = tuple(map(str.strip, cells))
-        if len(cells) < width or any(cells[width:]):
-            raise file.error(
-                f"{len(cells)} cells under {width} headings; a cell is missing or extra, "
-                "or the file is truncated",
-                line,
-            )
-        chosen.append((line, cells[:width]))
-    names = tuple(heading.strip() for heading in headings[:width])
-    beside = [*(units or ()), *[""] * width][:width]
-    return names, tuple(map(bare, beside)), tuple(chosen)
-
-
-def first_headings(rows: Sequence[Sequence[str]]) -> int | None:
-    """Return the index of the first row that names two or more quantities, or None.
-
-    A row that begins with a label and a colon describes the test and is no row of headings, unless
-    two quantities follow.
-    """
-    for index, row in enumerate(rows):
-        if row and row[0].rstrip().endswith(":"):
-            row = row[1:]
-        if len({heading.quantity for heading in map(recognise, row) if heading is not None}) >= 2:
-            return index
-    return None
-
-
-def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
-    """Return the temperature stated above a table [K]; None if there is none or more than one.
-
-    Examples
-    --------
-    >>> stated_temperature([["Temperature", "25 °C"]]), stated_temperature([["Temp: 300 K"]])
-    (298.15, 300.0)
-    """
-    found = set()
-    for row in rows:
-        words = [cell.strip() for cell in row if cell.strip()]
-        label, _, value = words[0].partition(":") if words else ("", "", "")
-        if len(words) > 1:
-            value = words[1]
-        heading = recognise(label) if label else None
-        match = _STATED.fullmatch(value.strip())
-        if heading is None or heading.quantity != "temperature" or match is None:
-            continue
-        value = in_kelvin(float(match[1].replace(",", ".")), match[2])
-        if POSSIBLE[0] < value < POSSIBLE[1]:
-            found.add(value)
-    return found.pop() if len(found) == 1 else None
 
 
 class Columns:
@@ -192,25 +64,59 @@ class Columns:
         Used in error messages.
     table : Table
         The table that was read.
-    units : Units
-        Units given by the caller where the file states none.
-    kind : {"E", "G"} or None
-        Modulus to use where the table has both.
+    options : Options
+        Statements of the caller: columns, units, and the modulus to use where the table has both.
     """
 
-    def __init__(self, file: LabFile, table: Table, units: Units, kind: str | None = None):
-        self.file, self.table, self.units = file, table, units
+    def __init__(self, file: LabFile, table: Table, options: Options):
+        self.file, self.table, self.options = file, table, options
         self.notes: list[str] = list(table.notes)
-        self._found: dict[str, list[tuple[int, Heading]]] = {}
+        self._found = {name: [at] for name, at in self._chosen_by_caller().items()}
         for index, text in enumerate(table.headings):
             heading = recognise(text)
-            if heading is None or (kind and heading.kind and heading.kind != kind):
+            if heading is None or heading.quantity in options.chosen:
+                continue
+            # instruments head columns of waves and temperatures that they did not measure
+            if table.rows and not any(row[index] for _, row in table.rows):
+                continue
+            if options.kind and heading.kind and heading.kind != options.kind:
                 continue
             self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
         self._chosen: dict[str, tuple[int, Heading]] = {}
         used = [index for columns in self._found.values() for index, _ in columns]
-        self._cells = Cells(file, table, units.decimal, used, self.notes)
+        self._cells = Cells(file, table, options.decimal, used, self.notes)
+
+    def _chosen_by_caller(self) -> dict[str, tuple[int, Heading]]:
+        """Return the columns that the caller names by heading or number, if the table has them."""
+        found = {}
+        names = [text.casefold() for text in self.table.headings]
+        for quantity, (name, unit) in self.options.chosen.items():
+            if name.casefold() in names:
+                index = names.index(name.casefold())
+            elif name.isdecimal() and 0 < int(name) <= len(names):
+                index = int(name) - 1
+            else:
+                continue
+            text = self.table.headings[index]
+            heading = recognise(text)
+            own = (heading and heading.unit) or self.table.units[index] or unit_within(text)
+            if unit and own and bare(own) != unit:
+                raise self.error(f'the file states {own} for "{text}", but --columns {unit}')
+            kind = heading.kind if heading else None
+            found[quantity] = index, Heading(quantity, kind, own or unit)
+        return found
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Quantities of the recognised columns."""
+        return tuple(self._found)
+
+    @property
+    def names(self) -> set[str]:
+        """Columns chosen by the caller that the table has."""
+        found = self._chosen_by_caller()
+        return {column.name for what, column in self.options.chosen.items() if what in found}
 
     def __contains__(self, quantity: str) -> bool:
         return quantity in self._found
@@ -282,16 +188,20 @@ class Columns:
                 continue
             target = _UNITS.get(quantity, "1")
             if quantity == "frequency":
-                flag = "" if self.units.frequency else "--frequency-unit Hz or rad/s"
+                flag = "" if self.options.frequency_unit else "--frequency-unit Hz or rad/s"
             elif quantity == "temperature":
-                flag = "" if self.units.temperature else "--temperature-unit degC or K"
+                flag = "" if self.options.temperature_unit else "--temperature-unit degC or K"
             else:
                 flag = "" if target == "1" or self._said(target) else _FLAGS.get(target, _IN_FILE)
             if flag:
                 found.setdefault(flag, []).append(f'"{self.name(quantity)}"')
         lacking = [f"the unit of {' and '.join(names)} ({flag})" for flag, names in found.items()]
         label = _TEMPERATURE.fullmatch(self.table.label.replace(",", "."))
-        if "temperature" in quantities and label and not (label[2] or self.units.temperature):
+        if (
+            "temperature" in quantities
+            and label
+            and not (label[2] or self.options.temperature_unit)
+        ):
             lacking.append(
                 f"whether {self.table.label!r} above the columns is a temperature in C or K "
                 "(--temperature-unit degC or K)"
@@ -355,7 +265,7 @@ class Columns:
         return omega
 
     def _angular(self, name: str) -> Array:
-        unit, said = self._unit(name), self.units.frequency
+        unit, said = self._unit(name), self.options.frequency_unit
         angular = name == "angular_frequency"
         if no_unit(unit) and said is None and angular:
             self.notes.append(f'"{self.name(name)}" has no unit; rad/s assumed')
@@ -378,9 +288,9 @@ class Columns:
 
     def _temperature_unit(self) -> str:
         unit = self._unit("temperature")
-        if no_unit(unit) and self.units.temperature is None:
+        if no_unit(unit) and self.options.temperature_unit is None:
             raise InputError("no unit; set --temperature-unit degC or K, or write it into the file")
-        return (self.units.temperature or "") if no_unit(unit) else unit
+        return (self.options.temperature_unit or "") if no_unit(unit) else unit
 
     def _labelled(self) -> float:
         """Return the temperature in the label above the columns of this table [K]."""
@@ -391,7 +301,7 @@ class Columns:
                 f"{text!r} above the columns is not a temperature; expected, for example, '20 °C'"
             )
         # `lacking` has already rejected a label without a unit
-        value = in_kelvin(float(match[1]), match[2] or self.units.temperature or "")
+        value = in_kelvin(float(match[1]), match[2] or self.options.temperature_unit or "")
         if not POSSIBLE[0] < value < POSSIBLE[1]:
             raise self.error(f"a temperature of {value:g} K is impossible; check its unit")
         return value
@@ -399,10 +309,10 @@ class Columns:
     def _said(self, target: str) -> str:
         """Return the unit given by the caller for columns without one."""
         if target == "Pa":
-            return self.units.modulus or ""
-        if target == "1/Pa" and self.units.modulus:
-            return f"1/({bare(self.units.modulus)})"
-        return self.units.time or "" if target == "s" else ""
+            return self.options.modulus_unit or ""
+        if target == "1/Pa" and self.options.modulus_unit:
+            return f"1/({bare(self.options.modulus_unit)})"
+        return self.options.time_unit or "" if target == "s" else ""
 
     def _column(self, quantity: str) -> tuple[int, Heading]:
         """Return the column of a quantity; if several columns agree, the first one."""
@@ -426,7 +336,8 @@ class Columns:
             if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
                 return
-        cure = "set --kind E or --kind G" if len(kinds) > 1 else "keep one of them"
+        chosen = f'--columns "{quantity}={first[0] + 1}"'
+        cure = "set --kind E or --kind G" if len(kinds) > 1 else self.file.command(chosen)
         raise self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {cure}')
 
     def _unit(self, quantity: str) -> str:

@@ -2,9 +2,14 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from viscotack.errors import InputError
+
 from .arrays import KINDS
 from .columns import Columns
 
+_SWEPT = 0.05  # relative range of a frequency or a temperature that is swept
 TESTS = ("dma", "relaxation", "creep", "shifts")
 
 
@@ -29,6 +34,31 @@ def test_of(columns: Columns) -> str | None:
     if modulus and compliance:
         return _by_what_is_held(columns) if both else None
     return "relaxation" if modulus else "creep" if compliance else None
+
+
+def best_sheet(tables: Sequence[Columns]) -> str:
+    """Return the first sheet with a test, preferably with one that sweeps and lacks no unit."""
+
+    def score(columns: Columns) -> tuple[bool, bool, bool]:
+        test = test_of(columns) if columns.table.rows else None
+        sweeps = test is not None and (test != "dma" or _sweeps(columns))
+        return test is not None, sweeps, sweeps and not columns.lacking(*columns.quantities)
+
+    return max(tables, key=score).table.sheet
+
+
+def _sweeps(columns: Columns) -> bool:
+    """Return whether a frequency or a temperature varies by more than it scatters."""
+    try:
+        swept = [
+            columns.numbers(quantity, needed=False)
+            for quantity in ("frequency", "angular_frequency", "temperature")
+            if quantity in columns
+        ]
+    except InputError:
+        return False
+    known = (values[np.isfinite(values)] for values in swept)
+    return any(x.size and np.ptp(x) > _SWEPT * np.max(np.abs(x)) for x in known)
 
 
 def has_sweep(columns: Columns) -> bool:
@@ -78,15 +108,20 @@ def _nonlinear(columns: Columns) -> str:
     """Describe a table without a linear viscoelastic test; empty if unknown."""
     timed = "time" in columns or "step_time" in columns
     flows = "shear_rate" in columns or "viscosity" in columns
-    if flows and timed:
-        return "it is the start-up of a steady flow, not a test of linear response"
     if flows:
-        return "it is a flow curve, viscosity or stress over shear rate, without a modulus"
+        return "it is a flow curve or the start-up of a steady flow: a shear rate or a viscosity"
+    swept = "frequency" in columns or "angular_frequency" in columns
+    if not swept and "storage" in columns and "strain" in columns:
+        return "it is an amplitude sweep, a modulus over strain, without a column of frequency"
+    if timed and "stress" in columns and "strain" in columns:
+        return (
+            "neither the stress nor the strain is held constant; a step and its recovery in one "
+            "table must be separated"
+        )
     if timed and "stress" in columns:
         return "it has a stress over time without the strain; add the strain or the modulus"
     if timed and "strain" in columns:
         return "it has a strain over time without the stress; add the stress or the compliance"
-    swept = "frequency" in columns or "angular_frequency" in columns
     if swept and ("storage" in columns or "magnitude" in columns):
         return "the complex modulus is incomplete; add a loss modulus or a loss angle"
     return ""
@@ -100,6 +135,10 @@ def _by_what_is_held(columns: Columns) -> str | None:
         except ValueError:
             return None
         spread[quantity] = inside.mean() if inside.size else 0.0
+    stress = columns.numbers("stress", needed=False)
+    stress = np.abs(stress[np.isfinite(stress)])
+    if not stress.size or np.median(stress) == 0.0:
+        return None  # the recovery after creep holds no stress
     if max(spread.values()) < 0.5 or spread["stress"] == spread["strain"]:
         return None
     return "creep" if spread["stress"] > spread["strain"] else "relaxation"

@@ -2,7 +2,9 @@
 
 import hashlib
 import re
+import shlex
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from os import PathLike, fspath
@@ -12,9 +14,14 @@ from zipfile import ZipFile
 from viscotack.errors import InputError
 from viscotack.files.bounded import read_bytes
 
+from .quantities import recognise
+
 LARGEST = 50_000_000  # bytes; sweeps are thousands of times smaller
 
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+# of Chinese, Japanese, Korean and Russian computers; headings are in the first characters
+_CODE_PAGES, _HEADED = ("gb18030", "cp932", "cp949", "big5", "cp1251"), 20_000
+_POINTER = b"version https://git-lfs.github.com/spec/"
 # `str.splitlines` would also split at a dozen characters that exports do not use as line ends.
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
@@ -64,6 +71,11 @@ class LabFile:
         place = "" if line is None else f", {'row' if rows else 'line'} {line}"
         return InputError(f"{self.path}{place}: {what}")
 
+    def command(self, flags: str) -> str:
+        """Return an example of a command that reads the file with further options."""
+        name = shlex.quote(self.path)
+        return f"for example: viscotack material fit {name} --poisson-ratio 0.5 {flags}"
+
 
 def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     """Read the bytes and lines of a file.
@@ -92,6 +104,8 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     empty = LabFile(name, content, (), ())
     if not content.strip():
         raise empty.error("the file is empty")
+    if content.startswith(_POINTER):
+        raise empty.error("a pointer of Git LFS, not the file itself; fetch it with git lfs pull")
     if empty.is_workbook or content.startswith(raw):
         return empty
     text, encoding = _decoded(empty)
@@ -116,17 +130,36 @@ def _decoded(file: LabFile) -> tuple[str, str]:
         return content.decode(encoding or "utf-8"), encoding or "utf-8"
     except UnicodeDecodeError as error:
         if encoding is None:
-            # old exports encode the degree sign in one byte
-            return content.decode("latin-1"), "latin-1"
+            return _by_code_page(content)
         raise file.error(
             f"the bytes after {error.start} are not {encoding} text; the file is truncated or "
             "damaged"
         ) from None
 
 
-def huge(archive: ZipFile) -> bool:
-    """Return whether an archive unpacks to more than 200 MB."""
-    return sum(part.file_size for part in archive.infolist()) > 4 * LARGEST
+def _by_code_page(content: bytes) -> tuple[str, str]:
+    """Decode text of an unknown code page: the one in which most headings have a meaning.
+
+    Two letters of Latin text beside each other are rarely both accented, and bytes of other
+    alphabets read as Latin letters have no meaning as a heading. Without such a heading the text is
+    Latin; old exports encode the degree sign in one byte.
+    """
+    found = [(content.decode("latin-1"), "latin-1")]
+    for name in _CODE_PAGES:
+        with suppress(UnicodeDecodeError):
+            found.append((content.decode(name), name))
+    return max(found, key=lambda pair: _known_words(pair[0]))
+
+
+def _known_words(text: str) -> int:
+    cells = re.split(r"[\t;,\r\n]", text[:_HEADED])
+    return sum(not cell.isascii() and recognise(cell) is not None for cell in cells)
+
+
+def refuse_huge(archive: ZipFile) -> None:
+    """Raise an error if an archive unpacks to more than 200 MB."""
+    if sum(part.file_size for part in archive.infolist()) > 4 * LARGEST:
+        raise InputError("it unpacks to more than 200 MB")
 
 
 def format_of(

@@ -52,6 +52,15 @@ def number(text: str, mark: str) -> float:
     return value
 
 
+def is_number(cell: str) -> bool:
+    """Return whether a cell looks like a number."""
+    try:
+        float(cell.strip().replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
 def decimal_mark(cells: Iterable[str]) -> str:
     """Determine the decimal mark of a table from its numbers.
 

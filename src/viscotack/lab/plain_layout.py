@@ -6,12 +6,25 @@ Cells are separated by commas, semicolons, tabs or spaces. The two-row tables of
 
 import csv
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from .columns import Table, first_headings, stated_temperature, tabulated
+from viscotack.errors import InputError
+
 from .lab_file import LabFile
-from .quantities import recognise
+from .quantities import is_unit, recognise
+from .tables import (
+    Row,
+    Table,
+    by_columns,
+    heads,
+    holds,
+    numbered,
+    numeric,
+    stated_temperature,
+    tabulated,
+    under,
+)
 
 _LOOKED = 200  # lines searched for the headings
 _SEPARATORS = ("\t", ";", ",", None)
@@ -26,40 +39,52 @@ def name(file: LabFile) -> str | None:
     return "pyvisco" if _PYVISCO & {heading.strip() for heading in found[2]} else "csv"
 
 
-def tables(file: LabFile) -> list[Table]:
+def tables(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     """Return the table of a file, or one table for each line that repeats the headings.
+
+    `names` are the headings or numbers of columns given by the caller.
 
     Raises
     ------
     ValueError
         If no line looks like headings, or a row has not one cell per heading.
     """
-    at = _headings(file)
+    at = _headings(file, names) or by_number(file, names) or _headings(file)
     if at is None:
-        first = next((line.strip() for line in file.lines if line.strip()), "")
-        only = recognise(first.lstrip("#% "))
-        if only is not None:
-            raise file.error(f"{first!r} is the only column; a test needs two or more in one file")
-        row = [cell for cell in cells(file, first, 1, separators(first)[0]) if cell.strip()]
-        if row and all(map(is_number, row)):
-            raise file.error(
-                "the file begins with numbers without headings; write headings with "
-                "units above them, such as 'time [s], J [1/Pa]' or \"f [Hz], G' [Pa], G'' [Pa]\""
-            )
-        raise file.error(
-            f"none of the first {_LOOKED} lines looks like headings; expected names such as "
-            "\"f, E', E'', T\" with units beside or below them; the file begins "
-            f"{first[:60]!r}"
-        )
+        raise _no_headings(file)
     line, separator, headings = at
-    words = " ".join(text for text in file.lines[: line - 1] if _speaks_of_geometry(text))
-    preamble = [re.split(r"[\t;,]", text) for text in file.lines[: line - 1]]
+    words = " ".join(text for text in file.lines[: max(line - 1, 0)] if _speaks_of_geometry(text))
+    preamble = [re.split(r"[\t;,]", text) for text in file.lines[: max(line - 1, 0)]]
     stated = stated_temperature(preamble)
     found = []
     for lines in repeats(file, line):
         units, rows = below(file, lines, separator)
         found.append(tabulated(file, headings, units, rows, words=words, temperature=stated))
     return found
+
+
+def _no_headings(file: LabFile) -> InputError:
+    """Describe a file in which no line looks like headings."""
+    first = next((line.strip() for line in file.lines if line.strip()), "")
+    only = recognise(first.lstrip("#% "))
+    if only is not None:
+        return file.error(f"{first!r} is the only column; a test needs two or more in one file")
+    found = first_line(file, _LOOKED, numeric, recognise, sure=True)
+    line, _, row = found or (0, None, [])
+    choose = file.command(by_columns(numbered(row)))
+    if line == 1 and len(row) > 1:
+        return file.error(
+            f"the file begins with numbers without headings; choose from {len(row)} columns by "
+            f"number, {choose}"
+        )
+    if line == 1:
+        return file.error("the file has one column alone; a test needs two or more in one file")
+    beside = f"; {len(row)} columns of numbers begin at line {line}: {choose}"
+    return file.error(
+        f"none of the first {_LOOKED} lines looks like headings; expected names such as "
+        "\"f, E', E'', T\" with units beside or below them; the file begins "
+        f"{first[:60]!r}{beside * (len(row) > 1)}"
+    )
 
 
 def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
@@ -114,6 +139,8 @@ def first_line(
 def repeats(file: LabFile, line: int) -> list[range]:
     """Return the ranges of lines (from 0) below each repetition of the headings."""
     # an instrument repeats the headings above each of its intervals
+    if not line:
+        return [range(len(file.lines))]
     same = file.lines[line - 1].strip()
     starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
     ends = [*(start - 1 for start in starts[1:]), len(file.lines)]
@@ -122,26 +149,36 @@ def repeats(file: LabFile, line: int) -> list[range]:
 
 def below(
     file: LabFile, lines: range, separator: str | None
-) -> tuple[list[str] | None, list[tuple[int, list[str]]]]:
-    """Return the units, if a row contains them, and the numbered rows (from 0)."""
-    rows = [
-        (i + 1, cells(file, file.lines[i], i + 1, separator))
-        for i in lines
-        if file.lines[i].strip() and not is_comment(file.lines[i])
-    ]
+) -> tuple[Sequence[str] | None, list[Row]]:
+    """Return the units, if a row contains them, and the numbered rows (from 0).
+
+    A comment of units below headings in a comment is a row of units.
+    """
+    commented = lines.start > 0 and is_comment(file.lines[lines.start - 1])
+    rows: list[Row] = []
+    for i in lines:
+        text = file.lines[i]
+        if text.strip() and not is_comment(text):
+            rows.append((i + 1, cells(file, text, i + 1, separator)))
+        elif commented and not rows:
+            row = cells(file, text.strip().lstrip("#% "), i + 1, separator)
+            if any(is_unit(cell) for cell in row if cell.strip()):
+                rows.append((i + 1, row))
     if lines.stop < len(file.lines):
         # text above the next headings: "Result: ...", "Interval: 2"
         while rows and rows[-1][1][0].rstrip().endswith(":"):
             rows.pop()
-    units = None
-    while rows and units is None and not any(map(is_number, rows[0][1])):
-        above = rows.pop(0)[1]
-        units = above if any(cell.strip() for cell in above) else None
-    return units, rows
+    return under(rows)
 
 
-def _headings(file: LabFile) -> tuple[int, str | None, list[str]] | None:
-    return first_line(file, _LOOKED, lambda row: first_headings([row]) is not None, recognise)
+def _headings(file: LabFile, names: Sequence[str] = ()) -> tuple[int, str | None, list[str]] | None:
+    return first_line(file, _LOOKED, lambda row: heads(row, names), recognise, bool(names))
+
+
+def by_number(file: LabFile, names: Sequence[str]) -> tuple[int, str | None, list[str]] | None:
+    """Return the line above the first row of numbers, for columns chosen by number."""
+    found = first_line(file, _LOOKED, lambda row: holds(row, names), recognise, sure=True)
+    return None if found is None else (found[0] - 1, found[1], numbered(found[2]))
 
 
 def _speaks_of_geometry(text: str) -> bool:
@@ -150,18 +187,11 @@ def _speaks_of_geometry(text: str) -> bool:
 
 def separators(text: str) -> list[str | None]:
     """Return the possible separators of a line; None for spaces."""
-    return [mark for mark in _SEPARATORS if mark is None or mark in text]
+    marks: list[str | None] = [m for m in _SEPARATORS if m is not None and m in text]
+    # a line with tabs has no other cells between blanks
+    return marks if "\t" in text.strip() else [*marks, None]
 
 
 def is_comment(text: str) -> bool:
     """Return whether a line is a comment."""
     return text.lstrip().startswith(("#", "%"))
-
-
-def is_number(cell: str) -> bool:
-    """Return whether a cell looks like a number."""
-    try:
-        float(cell.strip().replace(",", "."))
-    except ValueError:
-        return False
-    return True

@@ -15,34 +15,39 @@ from viscotack.units import parse
 
 # quantity -> words; case-insensitive, without spaces, marks and accents
 _WORDS = {
-    "frequency": "freq frequency frequenz frequence frecuencia frequenza",
+    "frequency": "freq frequency frequenz frequence frecuencia frequenza 频率 "
+    "周波数 주파수 частота",
     "angular_frequency": "ω omega angularfrequency angfrequency angfreq kreisfrequenz "
-    "winkelfrequenz frequenceangulaire pulsation frecuenciaangular",
-    "temperature": "temp temperature temperatur temperatura",
-    "storage": "storage storagemodulus speichermodul modulestockage moduledestockage "
-    "moduledeconservation moduloalmacenamiento modulodealmacenamiento",
-    "loss": "loss lossmodulus verlustmodul moduledeperte moduleperte moduloperdida modulodeperdida",
-    "tan_delta": "tandelta tanδ tan(delta) tan(δ) lossfactor verlustfaktor dampingfactor "
-    "facteurdeperte factordeperdida",
-    "magnitude": "complexmodulus komplexermodul |complexmodulus| dynamicmodulus",
+    "winkelfrequenz frequenceangulaire pulsation frecuenciaangular 角频率 角周波数 각주파수 "
+    "угловаячастота",
+    "temperature": "temp temperature temperatur temperatura 温度 온도 температура",
+    "storage": "storage storagemodulus storagemod stormod speichermodul modulestockage "
+    "moduledestockage moduledeconservation moduloalmacenamiento modulodealmacenamiento 储能模量 "
+    "贮能模量 貯蔵弾性率 저장탄성률 저장탄성율 модульнакопления",
+    "loss": "loss lossmodulus lossmod verlustmodul moduledeperte moduleperte moduloperdida "
+    "modulodeperdida 损耗模量 損失弾性率 손실탄성률 손실탄성율 модульпотерь",
+    "tan_delta": "tandelta tand tanδ tan(delta) tan(δ) lossfactor verlustfaktor dampingfactor "
+    "facteurdeperte factordeperdida 损耗因子 損失正接",
+    "magnitude": "complexmodulus komplexermodul |complexmodulus| dynamicmodulus 复数模量 "
+    "複素弾性率",
     "phase": "phase phaseangle phaseshift phaseshiftangle delta δ lossangle phasenwinkel "
-    "verlustwinkel phasenverschiebungswinkel angledephase",
-    "time": "time zeit temps tiempo testtime testzeit",
-    "step_time": "steptime intervaltime segmenttime abschnittszeit tempsdintervalle",
+    "verlustwinkel phasenverschiebungswinkel angledephase 相位角 位相角",
+    "time": "time zeit temps tiempo testtime testzeit 时间 時間 시간 время",
+    "step_time": "steptime intervaltime segmenttime tseg abschnittszeit tempsdintervalle",
     "modulus": "modulus modul relaxationmodulus stressrelaxationmodulus relaxationsmodul "
-    "modulederelaxation",
-    "compliance": "creepcompliance compliance kriechnachgiebigkeit complaisance",
-    "stress": "stress spannung schubspannung contrainte",
-    "strain": "strain dehnung deformation",
+    "modulederelaxation 松弛模量 緩和弾性率",
+    "compliance": "creepcompliance compliance kriechnachgiebigkeit complaisance 蠕变柔量",
+    "stress": "stress spannung schubspannung contrainte tau τ σ 应力 応力 응력 напряжение",
+    "strain": "strain dehnung deformation γ ɣ 应变 ひずみ 변형률 деформация",
     "sweep": "set sweep sweepnumber setnumber",
     "log10_shift": "logat log(at) logshift logshiftfactor",
     "shift": "at shiftfactor",
     "vertical_shift": "bt verticalshiftfactor",
     # not read, but they identify flow curves and start-up tests
-    "shear_rate": "shearrate strainrate scherrate scherrate rate gammadot γ̇",
+    "shear_rate": "shearrate strainrate scherrate scherrate rate gammadot",
     "viscosity": "viscosity shearviscosity viskosität eta η apparentviscosity",
 }
-_BY_WORD = {word: name for name, words in _WORDS.items() for word in words.split()}
+_UNREAD = ("shear_rate", "viscosity")
 # single letters are case-sensitive: T is a temperature, t a time
 _BY_LETTER = {
     "f": "frequency",
@@ -51,7 +56,7 @@ _BY_LETTER = {
     "t": "time",
     "J": "compliance",
 }
-_GREEK = "ωδη"
+_GREEK = "ωδητσγɣ"
 # symbols that also state tension or shear
 _BY_SYMBOL = {
     f"{letter}{mark}": (name, kind)
@@ -59,7 +64,7 @@ _BY_SYMBOL = {
     for name, marks in {
         "storage": ("'", "stor", "storage", "prime", "p"),
         "loss": ("''", "loss", "doubleprime", "dprime", "pp"),
-        "magnitude": ("*", "complex"),
+        "magnitude": ("*", "complex", "abs"),
         "modulus": ("(t)", "relax"),
     }.items()
     for mark in marks
@@ -75,7 +80,7 @@ _BY_SYMBOL = {
 _DIELECTRIC = {"e'", "e''", "ep", "epp"}
 _KIND_WORDS = {
     "E": ("tensile", "tension", "extensional", "youngs", "zug", "traction", "flexural", "axial"),
-    "G": ("shear", "schub", "scher", "cisaillement", "cizalla"),
+    "G": ("shear", "schub", "scher", "cisaillement", "cizalla", "剪切", "せん断", "전단"),
 }
 # kind of modulus implied by a line on the geometry or by a neighbouring column
 _GEOMETRIES = {
@@ -88,6 +93,7 @@ _GEOMETRIES = {
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
 BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
+IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(\S+)")
 _WORD = re.compile(r"[^\W\d_]+")
 # qualifiers in brackets that define another quantity, not a unit
 _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
@@ -98,6 +104,11 @@ _CELSIUS = {"°C", "ºC", "˚C", "oC", "C", "degC", "deg C", "Celsius", "℃"}
 _FAHRENHEIT = {"°F", "F", "degF", "Fahrenheit"}
 _NO_UNIT = {"", "-", "[-]", "1", "–"}
 _DEGREES = {"°", "º", "˚", "deg", "degree", "degrees", "grad"}
+# units as they are written in names of variables; pint reads "pa" as 1e-12 years
+_LOWER = {
+    "hz": "Hz", "khz": "kHz", "pa": "Pa", "kpa": "kPa", "mpa": "MPa", "gpa": "GPa",
+    "1/pa": "1/Pa", "rads": "rad/s", "c": "C", "degc": "degC", "k": "K", "pct": "%",
+}  # fmt: skip
 _PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
 
 
@@ -128,7 +139,7 @@ def recognise(text: str) -> Heading | None:
     whole = _named(text)
     if whole is not None:
         return Heading(*whole, "")
-    for pattern in (BRACKET, _SLASH):
+    for pattern in (BRACKET, _SLASH, IN):
         if match := pattern.fullmatch(text):
             name, rest = _named(match[1]), _named(match[2])
             if name is None:
@@ -144,7 +155,9 @@ def recognise(text: str) -> Heading | None:
 def _with_suffix(text: str) -> Heading | None:
     """Return the meaning of a heading with a unit suffix, such as ``time_s`` or ``omega_rad_s``."""
     for place in re.finditer("_", text):
-        name, unit = _named(text[: place.start()]), text[place.end() :].replace("_", "/")
+        name, unit = _named(text[: place.start()]), text[place.end() :]
+        unit = unit.replace("_per_", "/").replace("_", "/")
+        unit = _LOWER.get(unit, unit)
         if name is not None and unit and is_unit(unit):
             return Heading(*name, unit)
     return None
@@ -158,6 +171,18 @@ def _may_be_unit(text: str) -> bool:
     if text.casefold() in _SORTS or any(mark in text for mark in "(*"):
         return False
     return not (_WORD.fullmatch(text.split()[0]) and len(text.split()[0]) > _LONGEST_UNIT)
+
+
+def unit_within(text: str) -> str:
+    """Return the unit in a heading whose name has no meaning; empty without one.
+
+    Examples
+    --------
+    >>> unit_within("Sample 3 [kPa]"), unit_within("Sample 3 [left]")
+    ('kPa', '')
+    """
+    found = (pattern.fullmatch(text) for pattern in (BRACKET, IN))
+    return next((m[2].strip() for m in found if m and is_unit(m[2])), "")
 
 
 @lru_cache(maxsize=1000)
@@ -211,15 +236,22 @@ def _named(text: str) -> tuple[str, str | None] | None:
             if word.startswith(first) and word.removeprefix(first) in _BY_WORD:
                 return _BY_WORD[word.removeprefix(first)], kind
     for symbol, (name, kind) in _BY_SYMBOL.items():
-        if word.endswith(symbol) and _BY_WORD.get(word.removesuffix(symbol)) == name:
+        beside = word.removesuffix(symbol), word.removeprefix(symbol)
+        if name in map(_BY_WORD.get, beside):
             return name, kind
     return None
 
 
 def plain(text: str) -> str:
     """Normalise a heading: lower case without spaces, underscores, hyphens, dots and accents."""
-    text = unicodedata.normalize("NFKD", text.translate(_QUOTES)).casefold()
+    text = text.translate(_QUOTES).replace("γ\u0307", "gammadot")
+    text = unicodedata.normalize("NFKD", text).casefold()
     return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")
+
+
+_BY_WORD = {plain(word): name for name, words in _WORDS.items() for word in words.split()}
+# names of quantities by which a caller chooses columns
+COLUMNS = {plain(name): name for name in _WORDS if name not in _UNREAD}
 
 
 def no_unit(unit: str) -> bool:

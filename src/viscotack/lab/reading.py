@@ -1,14 +1,15 @@
 """Read laboratory files: detect the format, note it, and return numbers in SI.
 
 If a file lacks information, the error names the option of ``viscotack material fit`` that supplies
-it; the parameters here have the same names, for example ``--modulus-unit`` and `modulus_unit`.
+it; the fields of :class:`Options` have the same names, for example ``--modulus-unit`` and
+`modulus_unit`. Every reader takes :class:`Options`, and fields of it as keywords.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from types import ModuleType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from viscotack.errors import InputError
 
@@ -23,16 +24,17 @@ from . import (
     wide_layout,
     workbook_layout,
 )
-from .arrays import KINDS
-from .columns import Columns, Table, Units
-from .diagnosis import test_of
+from .columns import Columns
+from .diagnosis import best_sheet, test_of
 from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, format_of, load, refuse_unknown
-from .quantities import POSSIBLE, kelvin, radians_per_second, scale
+from .options import Options
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
+from .tables import Table, pieces
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
+_NOTHING = Options()
 
 # format -> module that reads its layout, in order of detection
 FORMATS: dict[str, ModuleType] = {
@@ -49,17 +51,7 @@ FORMATS: dict[str, ModuleType] = {
 
 
 def read(
-    path: Path | Sequence[Path],
-    *,
-    format: str | None = None,
-    kind: str | None = None,
-    temperature: float | None = None,
-    frequency_unit: str | None = None,
-    modulus_unit: str | None = None,
-    time_unit: str | None = None,
-    temperature_unit: str | None = None,
-    temperature_in_name: bool = False,
-    decimal: str | None = None,
+    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
 ) -> Test | tuple[RelaxationTest, ...] | tuple[CreepTest, ...]:
     r"""Read the test in a file: frequency sweeps, stress relaxation or creep.
 
@@ -71,18 +63,10 @@ def read(
     ----------
     path : path-like, or sequence of them
         Text files or workbooks of one material, see :func:`read_dma`.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    kind : {"E", "G"}, optional
-        Tensile or shear modulus, if the file does not state it or has both.
-    temperature : float, optional
-        Temperature of all points [K], if the file does not state it.
-    frequency_unit, modulus_unit, time_unit, temperature_unit : str, optional
-        Units that the file does not state.
-    temperature_in_name : bool
-        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -106,11 +90,10 @@ def read(
     >>> type(found).__name__, found.kind
     ('RelaxationTest', 'G')
     """
-    units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
-    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    opened = _opened(path, options, more)
     tests = {
-        test_of(Columns(file, table, units))
-        for file, _, tables, _ in opened
+        test_of(Columns(file, table, replace(given, kind=None)))
+        for file, _, tables, given in opened
         for table in tables
         if table.rows
     }
@@ -131,17 +114,7 @@ def read(
 
 
 def read_dma(
-    path: Path | Sequence[Path],
-    *,
-    format: str | None = None,
-    kind: str | None = None,
-    temperature: float | None = None,
-    frequency_unit: str | None = None,
-    modulus_unit: str | None = None,
-    time_unit: str | None = None,
-    temperature_unit: str | None = None,
-    temperature_in_name: bool = False,
-    decimal: str | None = None,
+    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
 ) -> FrequencySweeps:
     r"""Read the frequency sweeps of a dynamic mechanical analyser or a rheometer.
 
@@ -151,26 +124,10 @@ def read_dma(
         A text file (plain table, wide table, TA TRIOS, Anton Paar RheoCompass, RepTate, pyvisco)
         or a workbook (Netzsch Gabo Eplexor or similar; extra ``lab``). Several files are
         sweeps of one material.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content and noted.
-    kind : {"E", "G"}, optional
-        Tensile or shear modulus, if neither the headings nor the text around them state it, or
-        to select one if the file has both.
-    temperature : float, optional
-        Temperature of all points [K], if the file does not state it.
-    frequency_unit : str, optional
-        ``"Hz"`` or ``"rad/s"``, if the file states no unit or 1/s. An angular frequency
-        without a unit is assumed to be in rad/s, with a note.
-    modulus_unit : str, optional
-        Such as ``"MPa"``, if the file states no unit.
-    time_unit : str, optional
-        Such as ``"s"``, if the file states no unit.
-    temperature_unit : str, optional
-        ``"degC"``, ``"K"`` or ``"degF"``, if a column or a number above columns has no unit.
-    temperature_in_name : bool
-        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -206,22 +163,11 @@ def read_dma(
     >>> sweeps.storage.tolist(), sweeps.kind, sweeps.source.format
     ([3200000.0, 4500000.0], 'E', 'csv')
     """
-    units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
-    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    opened = _opened(path, options, more)
     return joined([assembly.sweeps(*each) for each in opened])
 
 
-def read_relaxation(
-    path: Path,
-    *,
-    format: str | None = None,
-    kind: str | None = None,
-    temperature: float | None = None,
-    modulus_unit: str | None = None,
-    time_unit: str | None = None,
-    temperature_unit: str | None = None,
-    decimal: str | None = None,
-) -> RelaxationTest:
+def read_relaxation(path: Path, options: Options = _NOTHING, **more: Any) -> RelaxationTest:
     r"""Read a stress relaxation test: time and modulus, or stress over strain.
 
     A time since the step takes precedence over a time
@@ -231,16 +177,10 @@ def read_relaxation(
     ----------
     path : path-like
         Text file or workbook, see :func:`read_dma`.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    kind : {"E", "G"}, optional
-        Tensile or shear modulus, if the file does not state it or has both.
-    temperature : float, optional
-        Temperature of all points [K], if the file does not state it.
-    modulus_unit, time_unit, temperature_unit : str, optional
-        Units that the file does not state; `modulus_unit` is that of a stress as well.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -264,38 +204,21 @@ def read_relaxation(
     >>> found.kind, found.modulus.tolist()
     ('G', [4000000.0, 2000000.0, 1000000.0])
     """
-    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    (opened,) = _opened([path], format, kind, temperature, units, False)
+    (opened,) = _opened([path], options, more)
     return step_tests.one(RelaxationTest, *opened)
 
 
-def read_creep(
-    path: Path,
-    *,
-    format: str | None = None,
-    kind: str | None = None,
-    temperature: float | None = None,
-    modulus_unit: str | None = None,
-    time_unit: str | None = None,
-    temperature_unit: str | None = None,
-    decimal: str | None = None,
-) -> CreepTest:
+def read_creep(path: Path, options: Options = _NOTHING, **more: Any) -> CreepTest:
     r"""Read a creep test: time and compliance, or strain over stress.
 
     Parameters
     ----------
     path : path-like
         Text file or workbook, see :func:`read_dma`.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    kind : {"E", "G"}, optional
-        Tensile or shear modulus, if the file does not state it or has both.
-    temperature : float, optional
-        Temperature of all points [K], if the file does not state it.
-    modulus_unit, time_unit, temperature_unit : str, optional
-        Units that the file does not state; `modulus_unit` is that of a stress as well.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -319,22 +242,12 @@ def read_creep(
     >>> found.kind, found.compliance.tolist()
     ('G', [1e-06, 2e-06, 4e-06])
     """
-    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    (opened,) = _opened([path], format, kind, temperature, units, False)
+    (opened,) = _opened([path], options, more)
     return step_tests.one(CreepTest, *opened)
 
 
 def read_relaxations(
-    path: Path | Sequence[Path],
-    *,
-    format: str | None = None,
-    kind: str | None = None,
-    temperature: float | None = None,
-    modulus_unit: str | None = None,
-    time_unit: str | None = None,
-    temperature_unit: str | None = None,
-    temperature_in_name: bool = False,
-    decimal: str | None = None,
+    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
 ) -> tuple[RelaxationTest, ...]:
     r"""Read the relaxation tests of one or more files, one per temperature, from cold to hot.
 
@@ -345,18 +258,10 @@ def read_relaxations(
     ----------
     path : path-like, or sequence of them
         Text files or workbooks of one material, see :func:`read_dma`.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    kind : {"E", "G"}, optional
-        Tensile or shear modulus, if the file does not state it or has both.
-    temperature : float, optional
-        Temperature of all points [K], if the file does not state it.
-    modulus_unit, time_unit, temperature_unit : str, optional
-        Units that the file does not state; `modulus_unit` is that of a stress as well.
-    temperature_in_name : bool
-        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -380,22 +285,12 @@ def read_relaxations(
     >>> [round(test.temperature, 2) for test in found]
     [273.15, 293.15]
     """
-    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    opened = _opened(path, options, more)
     return _each(RelaxationTest, opened)
 
 
 def read_creeps(
-    path: Path | Sequence[Path],
-    *,
-    format: str | None = None,
-    kind: str | None = None,
-    temperature: float | None = None,
-    modulus_unit: str | None = None,
-    time_unit: str | None = None,
-    temperature_unit: str | None = None,
-    temperature_in_name: bool = False,
-    decimal: str | None = None,
+    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
 ) -> tuple[CreepTest, ...]:
     r"""Read the creep tests of one or more files, one per temperature, from cold to hot.
 
@@ -406,18 +301,10 @@ def read_creeps(
     ----------
     path : path-like, or sequence of them
         Text files or workbooks of one material, see :func:`read_dma`.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    kind : {"E", "G"}, optional
-        Tensile or shear modulus, if the file does not state it or has both.
-    temperature : float, optional
-        Temperature of all points [K], if the file does not state it.
-    modulus_unit, time_unit, temperature_unit : str, optional
-        Units that the file does not state; `modulus_unit` is that of a stress as well.
-    temperature_in_name : bool
-        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -441,18 +328,11 @@ def read_creeps(
     >>> [round(test.temperature, 2) for test in found]
     [273.15, 293.15]
     """
-    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    opened = _opened(path, options, more)
     return _each(CreepTest, opened)
 
 
-def read_shifts(
-    path: Path,
-    *,
-    format: str | None = None,
-    temperature_unit: str | None = None,
-    decimal: str | None = None,
-) -> ShiftTable:
+def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTable:
     r"""Read a table of shift factors: temperature and log_aT, or aT and optionally bT.
 
     log10 a_T is positive where the solid is slower than at the reference
@@ -463,12 +343,10 @@ def read_shifts(
     ----------
     path : path-like
         Text file or workbook, see :func:`read_dma`.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    temperature_unit : str, optional
-        ``"degC"``, ``"K"`` or ``"degF"``, if the file does not state it.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    options : Options
+        What the caller states about the file.
+    **more
+        Fields of :class:`Options` by name, which replace those of `options`.
 
     Returns
     -------
@@ -492,9 +370,8 @@ def read_shifts(
     >>> found.log10_shift.tolist()
     [2.1, 0.0]
     """
-    file, _, tables = _tables(path, format)
-    units = Units(temperature=temperature_unit, decimal=decimal)
-    return step_tests.shifts(file, tables, _given(None, None, units))
+    (opened,) = _opened([path], options, more)
+    return step_tests.shifts(opened.file, opened.tables, opened.given)
 
 
 class _Opened(NamedTuple):
@@ -503,29 +380,22 @@ class _Opened(NamedTuple):
     file: LabFile
     format: str
     tables: list[Table]
-    given: assembly.Given
+    given: Options
 
 
-def _opened(
-    path: Path | Sequence[Path],
-    format: str | None,
-    kind: str | None,
-    temperature: float | None,
-    units: Units,
-    temperature_in_name: bool,
-) -> list[_Opened]:
+def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any]) -> list[_Opened]:
     """Open one or more files, each with the temperature given by the caller."""
-    _given(kind, temperature, units)
+    given = replace(options, **more)
     paths = [path] if isinstance(path, str | PathLike) else list(path)
     if not paths:
         raise InputError("no file to read; give one or more paths")
-    if temperature is not None and temperature_in_name:
-        raise InputError("give either --temperature or --temperature-in-name, not both")
     opened = []
     for one in paths:
-        file, found, tables = _tables(one, format)
-        own = kelvin_in_name(file) if temperature_in_name else temperature
-        opened.append(_Opened(file, found, tables, assembly.Given(kind, own, units)))
+        file, found, tables = _tables(one, given)
+        own = given
+        if given.temperature_in_name:
+            own = replace(given, temperature=kelvin_in_name(file), temperature_in_name=False)
+        opened.append(_Opened(file, found, tables, own))
     return opened
 
 
@@ -534,32 +404,41 @@ def _each(kind: type[step_tests.Test], opened: Sequence[_Opened]) -> tuple[step_
     return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
 
 
-def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:
-    refuse_unknown(format, FORMATS)
+def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
+    refuse_unknown(given.format, FORMATS)
     file = load(path)
-    found = format_of(file, FORMATS, format, "csv")
-    tables = FORMATS[found].tables(file)
-    said = () if format is not None else (f"detected format: {found}",)
+    found = format_of(file, FORMATS, given.format, "csv")
+    layout = FORMATS[found]
+    if given.names and layout in (plain_layout, workbook_layout):
+        whole = layout.tables(file, given.names)
+    else:
+        whole = layout.tables(file)
+    said = () if given.format is not None else (f"detected format: {found}",)
     cut = () if found == "trios-json" else file.left_out
-    return replace(file, notes=(*said, *file.notes, *cut)), found, tables
+    parts = [part for table in whole for part in pieces(table)]
+    pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
+    numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
+    tables, others = _selected(file, numbered, given)
+    return replace(file, notes=(*said, *file.notes, *cut, *others)), found, tables
 
 
-def _given(kind: str | None, temperature: float | None, units: Units) -> assembly.Given:
-    """Check the caller's options before the file."""
-    if kind is not None and kind not in KINDS:
-        raise InputError(f"--kind must be E (tensile) or G (shear), got {kind!r}")
-    if units.decimal not in (None, ".", ","):
-        raise InputError(f"--decimal must be . or , got {units.decimal!r}")
-    if temperature is not None and not POSSIBLE[0] < temperature < POSSIBLE[1]:
-        raise InputError(
-            f"--temperature must be above 0 K, got {temperature!r} K; give Celsius + 273.15"
-        )
-    if units.frequency is not None:
-        radians_per_second(units.frequency, angular="rad" in units.frequency)
-    if units.modulus is not None:
-        scale(units.modulus, "Pa")
-    if units.time is not None:
-        scale(units.time, "s")
-    if units.temperature is not None:
-        kelvin(units.temperature)
-    return assembly.Given(kind, temperature, units)
+def _selected(
+    file: LabFile, tables: list[Table], given: Options
+) -> tuple[list[Table], tuple[str, ...]]:
+    """Return the table chosen by the caller, or those of the sheet that has a test, and notes."""
+    if given.table is not None:
+        places = "; ".join(f"{table.number}: {table.place}" for table in tables)
+        tables = [each for each in tables if given.table in (each.sheet, str(each.number))]
+        if not tables:
+            raise file.error(f"no table {given.table!r} (--table); the file has {places}")
+    for name in given.names:
+        if not any(name in Columns(file, table, given).names for table in tables):
+            headings = assembly.headings_of(tables)
+            raise file.error(f"no column {name!r} (--columns); the headings are {headings}")
+    if not tables:
+        return tables, ()
+    sheet = best_sheet([Columns(file, table, given) for table in tables])
+    others = dict.fromkeys(table.sheet for table in tables if table.sheet != sheet)
+    listed = ", ".join(map(repr, others))
+    notes = (f"sheet {sheet!r} is read, {listed} are not; --table chooses a sheet",) * bool(others)
+    return [table for table in tables if table.sheet == sheet], notes

@@ -11,9 +11,9 @@ from pathlib import PurePath
 
 import numpy as np
 
-from .columns import Table, tabulated
 from .lab_file import LabFile
 from .quantities import bare, recognise
+from .tables import Table, tabulated
 from .unit_checks import doubtful_temperature
 
 _PARAMETERS = re.compile(r"\s*([\w()\[\],]+\s*=[^;=]*;\s*)+([\w()\[\],]+\s*=[^;=]*)?;?\s*")

@@ -8,15 +8,15 @@ the headings of one interval.
 """
 
 import re
+from collections.abc import Sequence
 
-from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
 from .plain_layout import cells
+from .tables import Row, Table, first_headings, stated_temperature, tabulated, without_waves
 
 _LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
-_WHOLE = re.compile(r"\s*[0-9]+\s*")
+_WHOLE = re.compile(r"\s*[0-9]+(\.0)?\s*")  # workbooks have floats
 _UNITS_WITHIN = 4  # lines below the headings
-Row = tuple[int, list[str]]
 
 
 def name(file: LabFile) -> str | None:
@@ -39,12 +39,18 @@ def tables(file: LabFile) -> list[Table]:
         raise file.error(
             "expected intervals that begin with 'Interval and data points:', a number and a count"
         )
-    rows = [
+    rows: list[Row] = [
         (number, cells(file, text, number, separator))
         for number, text in enumerate(file.lines, start=1)
     ]
-    starts = [i for i, (_, row) in enumerate(rows) if _begins_interval(row)]
-    words = " ".join(text for text in file.lines[: starts[0]] if "geometr" in text.casefold())
+    return intervals(file, rows)
+
+
+def intervals(file: LabFile, rows: Sequence[Row]) -> list[Table]:
+    """Return the table of each interval in the rows of a file or a sheet."""
+    starts = [i for i, (_, row) in enumerate(rows) if begins_interval(row)]
+    above = (" ".join(row) for _, row in rows[: starts[0]])
+    words = " ".join(text for text in above if "geometr" in text.casefold())
     stated = stated_temperature([row for _, row in rows[: starts[0]]])
     return [
         _interval(file, rows[start:end], words, stated)
@@ -52,9 +58,9 @@ def tables(file: LabFile) -> list[Table]:
     ]
 
 
-def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) -> Table:
+def _interval(file: LabFile, rows: Sequence[Row], words: str, stated: float | None) -> Table:
     line, first = rows[0]
-    count = int(first[2])
+    count = int(float(first[2]))
     at = first_headings([row for _, row in rows])
     if at is None:
         raise file.error("expected headings below the beginning of the interval", line)
@@ -68,19 +74,20 @@ def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) 
         if not any(cell.strip() for cell in row) or _LABEL.fullmatch(row[0]):
             break
         data.append((number, row))
-    if len(data) != count:
-        raise file.error(
-            f"the interval states {count} points but has {len(data)}; the file is truncated or "
-            "edited",
-            line,
-        )
     # skip the label in front of the headings
     headings, unit_cells = ["", *rows[at][1][1:]], rows[units][1]
     if all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
-        headings, unit_cells = headings[1:], unit_cells[1:]
+        headings, unit_cells = headings[1:], list(unit_cells)[1:]
     own = stated_temperature([row for _, row in rows[:at]])
     kelvins = stated if own is None else own
-    return tabulated(file, headings, unit_cells, data, words=words, temperature=kelvins)
+    table = tabulated(file, headings, unit_cells, data, words=words, temperature=kelvins)
+    found = len(without_waves(table).rows)
+    if found != count:
+        raise file.error(
+            f"the interval states {count} points but has {found}; the file is truncated or edited",
+            line,
+        )
+    return table
 
 
 def _separator(file: LabFile) -> str | None:
@@ -88,12 +95,13 @@ def _separator(file: LabFile) -> str | None:
         if ":" not in text:
             continue
         for separator in ("\t", ";", ","):
-            if separator in text and _begins_interval(text.split(separator)):
+            if separator in text and begins_interval(text.split(separator)):
                 return separator
     return None
 
 
-def _begins_interval(row: list[str]) -> bool:
+def begins_interval(row: Sequence[str]) -> bool:
+    """Return whether a row has a label and two integers: an interval and its count of points."""
     return (
         len(row) >= 3
         and _LABEL.fullmatch(row[0]) is not None

@@ -8,9 +8,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.errors import InputError
 
 from .assembly import (
-    Given,
     headings_of,
     kept,
     kind_of,
@@ -20,11 +20,13 @@ from .assembly import (
     source_of,
     temperatures,
 )
-from .columns import Columns, Table
+from .columns import Columns
 from .diagnosis import test_of
 from .grouping import levels
 from .lab_file import LabFile
+from .options import Options
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
+from .tables import Table
 from .unit_checks import doubtful_modulus
 
 Test = TypeVar("Test", RelaxationTest, CreepTest)
@@ -36,7 +38,7 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 
 
 def one(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
+    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
 ) -> Test:
     """Return the single test of a kind in a file."""
     rows = _rows(file, tables, given, kind)
@@ -44,7 +46,7 @@ def one(
 
 
 def each(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
+    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
 ) -> list[Test]:
     """Return the tests of a kind in a file, one per temperature."""
     rows = _by_temperature(_rows(file, tables, given, kind))
@@ -107,10 +109,10 @@ def _by_temperature(rows: _Rows) -> list[_Rows]:
     return [replace(part, temperature=_one_temperature(part)) for part in parts]
 
 
-def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
+def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
     """Return the shift factors of a file, as log10."""
     for table in tables:
-        columns = Columns(file, table, given.units)
+        columns = Columns(file, table, given)
         if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
             break
     else:
@@ -148,12 +150,12 @@ def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
         )
 
 
-def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: type) -> _Rows:
+def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type) -> _Rows:
     """Return time, modulus or compliance, and temperature of the single matching table."""
     wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
-        columns = Columns(file, table, given.units, given.kind)
+        columns = Columns(file, table, given)
         timed = "time" in columns or "step_time" in columns
         known = under in columns or under in table.levels
         if table.rows and timed and (wanted in columns or (over in columns and known)):
@@ -163,7 +165,11 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: ty
     # of several steps, select the one with constant stress or strain
     found = [columns for columns in found if test_of(columns) == test] or found
     if len(found) > 1:
-        raise file.error(f"{len(found)} tables have a {test} test; export one step")
+        numbers = [str(columns.table.number) for columns in found]
+        raise file.error(
+            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one with "
+            f"--table, {file.command(f'--table {numbers[0]}')}"
+        )
     (columns,) = found
     # prefer the time since the step to the time of the whole test
     timed = "step_time" if "step_time" in columns else "time"
@@ -171,7 +177,9 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: ty
     refuse_what_is_lacking(
         columns, given, [name for name in needed if name in columns], timed, "temperature", *needed
     )
-    time = columns.si(timed)
+    time = columns.si(timed) - given.step_start
+    if not given.step_start and timed == "time":
+        _refuse_late_start(columns, time)
     kind = kind_of(columns, given, *needed)
     if wanted in columns:
         values = columns.si(wanted)
@@ -187,6 +195,27 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: ty
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
     keep = kept(columns, time, values)
     return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
+
+
+def _refuse_late_start(columns: Columns, time: Array) -> None:
+    """Raise an error if time continues from the table before and is no time since the step."""
+    previous = columns.table.before
+    if previous is None or previous.sheet != columns.table.sheet or not np.isfinite(time).any():
+        return
+    before = Columns(columns.file, previous, columns.options)
+    if "time" not in before:
+        return
+    try:
+        end, start = before.si("time"), float(np.nanmin(time))
+    except InputError:
+        return
+    if np.isfinite(end).any() and 0 < np.nanmax(end) <= start:
+        example = columns.file.command(f'--step-start "{np.nanmax(end):g} s"')
+        raise columns.error(
+            f'"{columns.name("time")}" begins at {start:g} s, where the table before it ends, so '
+            "that it is not the time since the step; state when the step was applied with "
+            f"--step-start, {example}"
+        )
 
 
 def _ratio(columns: Columns, over: str, under: str) -> Array:

@@ -11,8 +11,8 @@ from typing import Any
 
 from viscotack.errors import InputError
 
-from .columns import Table, tabulated
 from .lab_file import LabFile
+from .tables import Table, tabulated
 
 _STEPS = ("Results Step Id", "Procedure Step Id")
 _DEEPEST = 50  # levels of nesting; exports have ten

@@ -6,9 +6,9 @@ rows. An export of one step may lack ``[step]``; it begins with ``Filename`` and
 Exports of all variables have eighty columns; unknown ones are ignored.
 """
 
-from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
 from .plain_layout import cells
+from .tables import Table, first_headings, stated_temperature, tabulated
 
 _STEP = "[step]"
 _LOOKED = 500  # lines searched for the table of an export of one step

@@ -38,11 +38,13 @@ def doubtful_modulus(modulus: Array) -> list[str]:
     Examples
     --------
     >>> doubtful_modulus(np.array([1e-3, 2e-3]))
-    ['check: the modulus stays below 0.002 Pa; check its unit']
+    ['check: the modulus stays below 0.002 Pa, less than that of weak gels']
     """
     low, high = float(np.min(modulus)), float(np.max(modulus))
     if high < _SOFT:
-        return [f"check: the modulus stays below {high:.2g} Pa; check its unit"]
+        return [f"check: the modulus stays below {high:.2g} Pa, less than that of weak gels"]
     if high > _HARD:
-        return [f"check: the modulus reaches {high:.2g} Pa, from {low:.2g} Pa; check its unit"]
+        return [
+            f"check: the modulus reaches {high:.2g} Pa, from {low:.2g} Pa, more than that of bone"
+        ]
     return []

@@ -8,10 +8,11 @@ sweeps.
 import re
 from collections.abc import Sequence
 
-from .columns import Table, tabulated
 from .lab_file import LabFile
-from .plain_layout import cells, is_comment, is_number, separators
+from .numbers import is_number
+from .plain_layout import cells, is_comment, separators
 from .quantities import recognise
+from .tables import Table, tabulated
 
 _LOOKED = 200  # lines searched for the headings
 _WITHIN = re.compile(

@@ -6,15 +6,26 @@ A row of headings, a row of units, then rows of numbers. Old workbooks (.xls) ne
 
 import io
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
-from viscotack.errors import InputError
-
-from .columns import Table, first_headings, stated_temperature, tabulated
-from .lab_file import LabFile, huge
-from .plain_layout import is_number
+from .lab_file import LabFile, refuse_huge
+from .numbers import is_number
+from .rheocompass_layout import begins_interval, intervals
+from .tables import (
+    Table,
+    by_columns,
+    first_headings,
+    heads,
+    holds,
+    numbered,
+    numeric,
+    stated_temperature,
+    tabulated,
+    under,
+)
 from .workbook_bounds import check_size, has_formulas
 
 _SHEET = "Exported Data"
@@ -30,37 +41,67 @@ def name(file: LabFile) -> str | None:
     return "eplexor" if _SHEET.encode() in file.content else "workbook"
 
 
-def tables(file: LabFile) -> list[Table]:
-    """Return the table of the sheet ``Exported Data``, or of the first sheet with a table.
+def tables(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
+    """Return the tables of all sheets, first that of the sheet ``Exported Data``.
+
+    `names` are the headings or numbers of columns given by the caller.
 
     Raises
     ------
     ValueError
-        If the workbook cannot be read, or no sheet has headings and units.
+        If the workbook cannot be read, or no sheet has headings.
     ImportError
         If the library for workbooks is not installed.
     """
     found = sheets(file)
+    # a sheet of details states the geometry
+    top = (row for rows in found.values() for row in rows[:_LOOKED] if row)
+    words = " ".join(" ".join(row) for row in top if "geometry" in row[0].casefold())
+    tables = []
     for title in sorted(found, key=lambda title: title != _SHEET):
-        rows = found[title]
-        at = first_headings(rows[:_LOOKED])
-        if at is not None:
-            units, data = under(rows, at)
-            words = " ".join(" ".join(row) for row in rows[:at] if "geometry" in row[0].casefold())
-            stated = stated_temperature(rows[:at])
-            return [tabulated(file, rows[at], units, data, words=words, temperature=stated)]
-    raise file.error(
-        f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; "
-        f"the sheets are {', '.join(map(repr, found))}"
-    )
+        parts = _of_sheet(file, found[title], names)
+        tables += [replace(each, sheet=title, words=each.words or words) for each in parts]
+    if not tables:
+        raise file.error(
+            f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; the "
+            f"sheets are {', '.join(map(repr, found))}{_by_number(file, found)}"
+        )
+    return tables
 
 
-def under(rows: Cells, at: int) -> tuple[list[str] | None, list[tuple[int, list[str]]]]:
-    """Return the units below a row of headings, if there are any, and the numbered rows."""
-    data = [(number, row) for number, row in enumerate(rows[at + 1 :], start=at + 2) if any(row)]
-    # a row with a number is a data point; the headings then contain the units
-    has_units = data and not any(map(is_number, data[0][1]))
-    return data.pop(0)[1] if has_units else None, data
+def _of_sheet(file: LabFile, rows: Cells, names: Sequence[str]) -> list[Table]:
+    numbered_rows = list(enumerate(rows, start=1))
+    at = first_headings(rows[:_LOOKED], names)
+    if at and begins_interval(rows[at - 1]):
+        return intervals(file, numbered_rows)
+    if at is None:
+        first = next((i for i, row in enumerate(rows[:_LOOKED]) if holds(row, names)), None)
+        if first is None:
+            return _of_sheet(file, rows, ()) if names else []
+        return [tabulated(file, numbered(rows[first]), None, numbered_rows[first:])]
+    stated = stated_temperature(rows[:at])
+    # further rows of headings begin further tables
+    starts = [at, *(i for i in range(at + 1, len(rows)) if _heads_again(rows[i]))]
+    found = []
+    for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
+        block = numbered_rows[start + 1 : end]
+        while end < len(rows) and block and not any(map(is_number, block[-1][1])):
+            block.pop()
+        units, data = under(block)
+        found.append(tabulated(file, rows[start], units, data, temperature=stated))
+    return found
+
+
+def _heads_again(row: Sequence[str]) -> bool:
+    return sum(map(bool, row)) > 1 and not any(map(is_number, row)) and heads(row)
+
+
+def _by_number(file: LabFile, found: dict[str, Cells]) -> str:
+    rows = (row for rows in found.values() for row in rows[:_LOOKED] if numeric(row))
+    first = next(rows, None)
+    if first is None or len(first) < 2:
+        return ""
+    return f"; choose columns by number, {file.command(by_columns(numbered(first)))}"
 
 
 def sheets(file: LabFile) -> dict[str, Cells]:
@@ -100,8 +141,7 @@ def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
 def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
     openpyxl = import_module("openpyxl")
     with zipfile.ZipFile(io.BytesIO(content)) as parts:
-        if huge(parts):
-            raise InputError("it unpacks to more than 200 MB")
+        refuse_huge(parts)
         formulas = has_formulas(parts)
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
     # read again to find formulas without values

@@ -82,7 +82,7 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
             label="measured",
             zorder=3,
         )
-        work = readable(fit.work_of_adhesion, "J/m$^2$", digits=3)
+        work = readable(fit.work_of_adhesion, "J/m^2", digits=3).replace("^2", "$^2$")
         interface = f"{work}, range {readable(fit.equilibrium_gap, 'm', digits=3)}"
         fitted = [force / load for force in fit.forces]
         axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")

@@ -1,7 +1,9 @@
 """Layouts of atomic force microscopes that are read by afmformats (extra ``afm``).
 
-These are maps of JPK (.jpk-force-map, .jpk-qi-data), curves of AFM Workshop, and the formats of
-afmformats itself (.h5, .tab). Its heights increase away from the sample. afmformats is by Paul
+These are maps of JPK (.jpk-force-map, .jpk-qi-data), curves of AFM Workshop, text of Optics11
+Chiaro and NT-MDT, and the formats of afmformats itself (.h5, .tab). Its heights increase away from
+the sample. Text of NT-MDT has columns of numbers alone; it is read if the caller names the format
+and states the spring constant and the sensitivity. afmformats is by Paul
 Müller and others, under the MIT licence: https://afmformats.readthedocs.io.
 """
 
@@ -14,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.lab.lab_file import LabFile, huge
+from viscotack.errors import InputError
+from viscotack.lab.lab_file import LabFile, refuse_huge
 
 from .grid import Given, time_by_speed
 from .header import bending, recorded
@@ -22,6 +25,7 @@ from .record import TackRecord
 
 HDF = b"\x89HDF"  # first bytes of an .h5 file
 _ENDINGS = (".jpk-force-map", ".jpk-qi-data", ".h5")
+_LOOKED = 60  # lines searched for the name of the device
 _FIRST = ("Force-Distance Curve", "# afmformats")  # first lines of AFM Workshop and .tab files
 
 
@@ -29,7 +33,11 @@ def name(file: LabFile) -> str | None:
     """Return the name of the format, or None for other files."""
     first = file.lines[0] if file.lines else ""
     known = PurePath(file.path).suffix.casefold() in _ENDINGS or first.startswith(_FIRST)
-    return "afmformats" if known else None
+    return "afmformats" if known or _is_chiaro(file) else None
+
+
+def _is_chiaro(file: LabFile) -> bool:
+    return any("Device:" in text and "Chiaro" in text for text in file.lines[:_LOOKED])
 
 
 def records(file: LabFile, given: Given) -> list[TackRecord]:
@@ -50,27 +58,34 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
     if file.content.startswith(b"PK"):
         try:
             with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
-                too_large = huge(parts)
+                refuse_huge(parts)
         except zipfile.BadZipFile as error:
             raise file.error(f"the file is truncated or damaged: {error}") from None
-        if too_large:
-            raise file.error("it unpacks to more than 200 MB")
+        except InputError as error:
+            raise file.error(str(error)) from None
     # afmformats also logs the tracebacks of its errors
     logging.getLogger("afmformats").setLevel(logging.CRITICAL)
     try:
-        curves = list(library.load_data(file.path))
+        stated = {"spring constant": given.spring_constant, "sensitivity": given.sensitivity}
+        known = {key: value for key, value in stated.items() if value is not None}
+        more = {"meta_override": known} if known else {}
+        curves = list(library.load_data(file.path, **more))
     except (KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:
         # its errors do not derive from Exception, and damaged files raise others
-        raise file.error(f"afmformats cannot read it: {error}") from None
+        cure = " (--sensitivity, --spring-constant)" if "specify" in str(error) else ""
+        raise file.error(f"afmformats cannot read it: {error}{cure}") from None
     return [found for curve in curves for found in _record(file, curve, given)]
 
 
 def _record(file: LabFile, curve: Any, given: Given) -> list[TackRecord]:
-    if not {"force", "height (measured)"} <= set(curve.columns):
+    # what Chiaro exports as measured is the indentation, zero before contact
+    measured = not _is_chiaro(file) and "height (measured)" in curve.columns
+    used = "height (measured)" if measured else "height (piezo)"
+    if not {"force", used} <= set(curve.columns):
         raise file.error(f"curve {curve.enum} has no force and measured height")
-    force, height = (np.asarray(curve[key], float) for key in ("force", "height (measured)"))
+    force, height = (np.asarray(curve[key], float) for key in ("force", used))
     notes = [f"curve {curve.enum} of the file, read by afmformats"]
     if "time" in curve.columns:
         time = np.asarray(curve["time"], dtype=float)

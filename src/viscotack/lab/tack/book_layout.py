@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from viscotack.lab.columns import Table
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.workbook_layout import sheets, under
+from viscotack.lab.tables import Table, under
+from viscotack.lab.workbook_layout import sheets
 
 from .grid import grid, heads_columns
 
@@ -35,7 +35,8 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     for title, rows in found.items():
         at = next((i for i, row in enumerate(rows[:_LOOKED]) if heads_columns(row, names)), None)
         if at is not None:
-            tables.append(grid(file, rows[at], *under(rows, at), f"sheet {title!r}"))
+            below = under(list(enumerate(rows, start=1))[at + 1 :])
+            tables.append(grid(file, rows[at], *below, f"sheet {title!r}"))
     if not tables:
         raise file.error(
             'no sheet has the columns of a tack test, such as "Travel, Force, Time", in its '

@@ -7,9 +7,10 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.columns import Cells, Table, ruled
+from viscotack.lab.columns import Cells
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.quantities import bare, no_unit
+from viscotack.lab.tables import Table, heads, ruled
 
 from .header import recorded
 from .headings import POSITIONS, SIZES, factor, measures, recognise
@@ -29,13 +30,17 @@ class Given:
     time_unit: str | None = None
     force_column: str | None = None
     position_column: str | None = None
+    time_column: str | None = None
     decimal: str | None = None
     nominal_speed: float | None = None
+    spring_constant: float | None = None
+    sensitivity: float | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
         """Headings given by the caller."""
-        return tuple(name for name in (self.force_column, self.position_column) if name)
+        chosen = (self.force_column, self.position_column, self.time_column)
+        return tuple(name.strip() for name in chosen if name)
 
 
 def grid(
@@ -57,9 +62,8 @@ def grid(
 
 def heads_columns(cells: Sequence[str], names: Sequence[str] = ()) -> bool:
     """Return whether a row heads force and position or time, or contains the given names."""
-    if names:
-        held = {cell.strip().strip('"').strip().casefold() for cell in cells}
-        return all(name.strip().casefold() in held for name in names)
+    if names and not all(map(str.isdecimal, names)):
+        return heads(cells, names)
     named = {heading.quantity for heading in map(recognise, cells) if heading is not None}
     return "force" in named and bool(named & {*POSITIONS, "time"})
 
@@ -78,7 +82,7 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
     kind, index = columns.position()
     position = columns.values(kind, index)
     time = None
-    if (at := columns.optional("time")) is not None:
+    if (at := columns.optional("time", given.time_column)) is not None:
         time = columns.values("time", at)
     size = columns.size()
     rows = [force, position, *([] if time is None else [time])]
@@ -137,9 +141,11 @@ class _Columns:
         self.cells = Cells(file, table, given.decimal, self.units, notes)
 
     def named(self, name: str) -> int:
-        """Return the column with a heading given by the caller."""
+        """Return the column whose heading or number (from 1) the caller gives."""
         wanted = name.strip().casefold()
         places = [i for i, text in enumerate(self.table.headings) if text.casefold() == wanted]
+        if not places and wanted.isdecimal() and 0 < int(wanted) <= len(self.table.headings):
+            places = [int(wanted) - 1]
         if not places:
             known = ", ".join(repr(text) for text in self.table.headings if text)
             raise self.file.error(f"no column has the heading {name!r}; the headings are {known}")
@@ -175,9 +181,10 @@ class _Columns:
         kind = heading.quantity if heading and heading.quantity in POSITIONS else "travel"
         return kind, index
 
-    def optional(self, quantity: str) -> int | None:
+    def optional(self, quantity: str, name: str | None = None) -> int | None:
         """Return the column of a quantity, or None."""
-        return self.the(quantity, None, (quantity,)) if quantity in self.found else None
+        known = name is not None or quantity in self.found
+        return self.the(quantity, name, (quantity,)) if known else None
 
     def size(self) -> Array | None:
         """Return the contact radius [m] from a column of radius, diameter or area, or None."""

@@ -8,14 +8,14 @@ import re
 from dataclasses import dataclass
 
 from viscotack.errors import InputError
-from viscotack.lab.quantities import BRACKET, bare, no_unit, plain, scale
+from viscotack.lab.quantities import BRACKET, IN, bare, no_unit, plain, scale
 
 # quantity -> words, lower case, without spaces, marks and accents
 _WORDS = {
     "force": "force load normalforce kraft normalkraft standardkraft standardforce prufkraft last "
     "axialforce fn forcenormale effort charge fuerza carga verticalforce contactforce tipforce",
     "gap": "gap spalt spaltbreite messspalt measuringgap separation tipsampleseparation entrefer "
-    "plategap",
+    "plategap h",
     "depth": "depth indentation indentationdepth penetration penetrationdepth eindringtiefe "
     "profondeur profundidad",
     "travel": "travel extension displacement distance position crosshead crossheadtravel "
@@ -66,7 +66,7 @@ def recognise(text: str) -> Heading | None:
     text = text.strip().strip('"').strip()
     if (whole := _BY_WORD.get(plain(text))) is not None:
         return Heading(whole, "")
-    for pattern in (BRACKET, _COMMA):
+    for pattern in (BRACKET, _COMMA, IN):
         match = pattern.fullmatch(text)
         name = _BY_WORD.get(plain(match[1])) if match else None
         if match and name:

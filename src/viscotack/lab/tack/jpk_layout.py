@@ -13,7 +13,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.lab_file import LabFile, huge
+from viscotack.lab.lab_file import LabFile, refuse_huge
 
 from .header import Words, bending, real, recorded, whole
 from .record import TackRecord
@@ -27,7 +27,7 @@ _TYPES = {
 }
 _PLAIN = {"float": ">f4", "float-data": ">f4", "double": ">f8", "double-data": ">f8"}
 # height of the cantilever's carrier; measured is preferred to commanded
-_HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
+HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
 _SEGMENT = re.compile(r"segments/(\d{1,4})/segment-header\.properties")
 _MOST = 64  # segments
 
@@ -48,11 +48,10 @@ def records(file: LabFile) -> list[TackRecord]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
-            if huge(parts):
-                raise file.error("it unpacks to more than 200 MB")
+            refuse_huge(parts)
             files = {part: parts.read(part) for part in parts.namelist()}
-    except InputError:
-        raise
+    except InputError as error:
+        raise file.error(str(error)) from None
     except Exception as error:
         # The library raises many undocumented errors for damaged archives.
         raise file.error(
@@ -115,7 +114,7 @@ def _deflection(
 
 def _height(file: LabFile, own: Words) -> str:
     present = own.get("channels.list", "").split()
-    for channel in _HEIGHTS:
+    for channel in HEIGHTS:
         if channel in present:
             return channel
     raise file.error(f"no channel of height; the channels are {', '.join(present) or 'none'}")

@@ -16,7 +16,15 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import format_of, load, refuse_unknown
 
-from . import afm_layout, book_layout, ibw_layout, jpk_layout, nid_layout, text_layout
+from . import (
+    afm_layout,
+    book_layout,
+    ibw_layout,
+    jpk_layout,
+    jpk_text_layout,
+    nid_layout,
+    text_layout,
+)
 from .grid import Given, record
 from .headings import factor
 from .record import TackRecord
@@ -27,6 +35,7 @@ AnyPath = str | PathLike[str]
 FORMATS: dict[str, ModuleType] = {
     "afmformats": afm_layout,
     "jpk-force": jpk_layout,
+    "jpk-text": jpk_text_layout,
     "nid": nid_layout,
     "ibw": ibw_layout,
     "workbook": book_layout,
@@ -46,8 +55,11 @@ def read(
     time_unit: str | None = None,
     force_column: str | None = None,
     position_column: str | None = None,
+    time_column: str | None = None,
     decimal: str | None = None,
     nominal_speed: float | None = None,
+    spring_constant: float | None = None,
+    sensitivity: float | None = None,
 ) -> list[TackRecord]:
     r"""Read the records of tack tests, one per continuous period of time.
 
@@ -64,12 +76,15 @@ def read(
     force_unit, length_unit, time_unit : str, optional
         Such as ``"mN"``, ``"um"`` and ``"s"``, if a heading has no unit. Grams are converted to
         newtons.
-    force_column, position_column : str, optional
-        Heading of the column to use, if there are several or none is recognised.
+    force_column, position_column, time_column : str, optional
+        Heading or number (from 1) of the column to use, if there are several or none is recognised.
     decimal : {".", ","}, optional
         Decimal mark, if numbers such as ``1,234`` are ambiguous.
     nominal_speed : float, optional
         Set speed [m/s], if a file has no column of time.
+    spring_constant, sensitivity : float, optional
+        Spring constant [N/m] and deflection by signal [m/A] of a cantilever, if the format
+        ``afmformats`` needs them (text of NT-MDT).
 
     Raises
     ------
@@ -90,7 +105,16 @@ def read(
     (41, 0.02, -1)
     """
     given = Given(
-        force_unit, length_unit, time_unit, force_column, position_column, decimal, nominal_speed
+        force_unit,
+        length_unit,
+        time_unit,
+        force_column,
+        position_column,
+        time_column,
+        decimal,
+        nominal_speed,
+        spring_constant,
+        sensitivity,
     )
     _check(format, given)
     chosen = [paths] if isinstance(paths, str | PathLike) else list(paths)

@@ -163,7 +163,8 @@ def _departure(time: Array, depth: Array, dwell: int, at: int, late: int, way: f
     held = (lasted < 0.5 * lasted[0]) & (lasted > 0.1 * lasted[0])
     # the drive may overshoot on arrival, so the deepest point is not the level
     level = float(np.median(depth[dwell : late + 1][held])) if held.sum() >= 10 else depth[at]
-    near = depth[at : late + 1] >= level - 4 * point_noise(depth[dwell:]) - _STEP * way
+    noise = point_noise(depth[dwell:]) if depth.size > dwell + 2 else 0.0
+    near = depth[at : late + 1] >= level - 4 * noise - _STEP * way
     return at + int(np.flatnonzero(near)[-1]) if near.any() else at
 
 

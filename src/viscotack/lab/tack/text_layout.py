@@ -5,11 +5,13 @@ above quoted columns), Zwick testXpert, Stable Micro Systems texture analysers (
 and nanoindenters (tabs, micronewtons in Latin-1).
 """
 
+import shlex
 from collections.abc import Sequence
 
-from viscotack.lab.columns import Table
+from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.plain_layout import below, first_line, repeats
+from viscotack.lab.plain_layout import below, by_number, first_line, repeats
+from viscotack.lab.tables import Table, numeric
 
 from .grid import grid, heads_columns
 from .headings import recognise
@@ -32,18 +34,30 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     ValueError
         If no line looks like headings, or a row has not one cell per heading.
     """
-    found = _headings(file, names)
+    found = _headings(file, names) or by_number(file, names)
     if found is None:
-        first = next((line.strip() for line in file.lines if line.strip()), "")
-        raise file.error(
-            f"none of the first {_LOOKED} lines has the columns of a tack test, such as "
-            f'"Time [s], Gap [mm], Normal Force [N]"; the file begins {first[:60]!r}'
-        )
+        raise _no_headings(file)
     line, separator, headings = found
     return [
         grid(file, headings, *below(file, lines, separator), f"table {count}")
         for count, lines in enumerate(repeats(file, line), start=1)
     ]
+
+
+def _no_headings(file: LabFile) -> InputError:
+    first = next((line.strip() for line in file.lines if line.strip()), "")
+    numbers = first_line(file, _LOOKED, numeric, recognise, sure=True)
+    choose = ""
+    if numbers is not None and len(numbers[2]) > 1:
+        choose = (
+            f"; {len(numbers[2])} columns of numbers begin at line {numbers[0]}, for example: "
+            f"viscotack test read {shlex.quote(file.path)} --time-column 1 --time-unit s "
+            "--position-column 2 --length-unit um --force-column 3 --force-unit mN"
+        )
+    return file.error(
+        f"none of the first {_LOOKED} lines has the columns of a tack test, such as "
+        f'"Time [s], Gap [mm], Normal Force [N]"; the file begins {first[:60]!r}{choose}'
+    )
 
 
 def _headings(file: LabFile, names: Sequence[str] = ()) -> tuple[int, str | None, list[str]] | None:

@@ -69,6 +69,27 @@ class Dma(Part):
     decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
         None
     )
+    step_start: Annotated[
+        float,
+        Number(
+            "Time of the step, if the file counts time from the start of the whole test.",
+            unit="s",
+            metavar="TIME",
+            example="300 s",
+        ),
+    ] = 0.0
+    columns: Annotated[
+        str | None,
+        Text(
+            "Columns by heading or number, with units that the file does not state.",
+            metavar="NAMES",
+            example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
+        ),
+    ] = None
+    table: Annotated[
+        str | None,
+        Text("Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"),
+    ] = None
 
     def measured(self, files: tuple[Path, ...]) -> "Measured":
         """Read the files: sweeps of one material, or tests over time."""
@@ -80,5 +101,4 @@ class Dma(Part):
             return read(files, **said)
         if test == "dma":
             return read_dma(files, **said)
-        del said["frequency_unit"]
         return (read_relaxations if test == "relaxation" else read_creeps)(files, **said)

@@ -54,11 +54,19 @@ class Rig(Part):
     length_unit: Annotated[str | None, Text("Unit such as um, if not in the file.")] = None
     time_unit: Annotated[str | None, Text("Unit such as s, if not in the file.")] = None
     force_column: Annotated[
-        str | None, Text("Heading of the force column, if not detected.", metavar="NAME")
+        str | None,
+        Text("Heading or number of the force column, if not detected.", metavar="NAME"),
     ] = None
     position_column: Annotated[
         str | None,
-        Text("Heading of the gap, depth or travel column, if there are several.", metavar="NAME"),
+        Text(
+            "Heading or number of the gap, depth or travel column, if there are several.",
+            metavar="NAME",
+        ),
+    ] = None
+    time_column: Annotated[
+        str | None,
+        Text("Heading or number of the time column, if not detected.", metavar="NAME"),
     ] = None
     decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
         None
@@ -69,6 +77,23 @@ class Rig(Part):
             'Nominal speed, "10 um/s", if a file has no time; it is not checked.',
             unit="m/s",
             metavar="SPEED",
+        ),
+    ] = None
+    spring_constant: Annotated[
+        float | None,
+        Number(
+            "Spring constant of a cantilever, if its file does not state it (NT-MDT).",
+            unit="N/m",
+            metavar="STIFFNESS",
+        ),
+    ] = None
+    sensitivity: Annotated[
+        float | None,
+        Number(
+            'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it '
+            "(NT-MDT).",
+            unit="m/A",
+            metavar="LENGTH/CURRENT",
         ),
     ] = None
     compliance: Annotated[
@@ -111,7 +136,9 @@ class Rig(Part):
     def reading(self) -> dict[str, Any]:
         """Keywords of :func:`viscotack.lab.tack.read`."""
         units = ("force_unit", "length_unit", "time_unit")
-        names = ("format", *units, "force_column", "position_column", "decimal", "nominal_speed")
+        columns = ("force_column", "position_column", "time_column", "decimal")
+        cantilever = ("nominal_speed", "spring_constant", "sensitivity")
+        names = ("format", *units, *columns, *cantilever)
         return {name: getattr(self, name) for name in names}
 
     @property

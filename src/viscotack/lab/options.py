@@ -1,0 +1,128 @@
+"""What a caller states about a file that does not state it: units, kind, columns, table."""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+from viscotack.errors import InputError
+
+from .arrays import KINDS
+from .quantities import COLUMNS, POSSIBLE, kelvin, plain, radians_per_second, scale
+
+_COLUMN = re.compile(r"([^=]+)=\s*(.*\S)\s*")
+_BRACKET = re.compile(r"(.*\S)\s*\[([^\[\]]+)\]")
+
+
+class Column(NamedTuple):
+    """A column chosen by the caller: its heading or number, and its unit ("" if in the file)."""
+
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the caller states about a file, for files that do not state it.
+
+    Parameters
+    ----------
+    format : str, optional
+        One of :data:`viscotack.lab.FORMATS`; by default it is detected from the content.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, if neither the headings nor the text around them state it, or
+        to select one if the file has both.
+    temperature : float, optional
+        Temperature of all points [K].
+    frequency_unit : str, optional
+        ``"Hz"`` or ``"rad/s"``, if the file states no unit or 1/s. An angular frequency
+        without a unit is assumed to be in rad/s, with a note.
+    modulus_unit : str, optional
+        Such as ``"MPa"``; also of a stress.
+    time_unit : str, optional
+        Such as ``"s"``.
+    temperature_unit : str, optional
+        ``"degC"``, ``"K"`` or ``"degF"``, of a column or of a number above columns.
+    temperature_in_name : bool
+        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    step_start : float
+        Time at which the step was applied [s], not negative, if the file counts time from the start
+        of the whole test.
+    columns : str, optional
+        Quantities, each with the heading or the number (from 1) of its column and, if the file
+        does not state it, a unit: ``"time=1 [s]; modulus=G(t) raw [kPa]"``.
+    table : str, optional
+        Number (from 1) of one of several tables in a file, or the name of its sheet.
+
+    Raises
+    ------
+    ValueError
+        If a value is not one of those above, or a unit does not suit its quantity.
+
+    Examples
+    --------
+    >>> Options(columns="time=1 [s]; modulus=G(t)").chosen["time"]
+    Column(name='1', unit='s')
+    """
+
+    format: str | None = None
+    kind: str | None = None
+    temperature: float | None = None
+    frequency_unit: str | None = None
+    modulus_unit: str | None = None
+    time_unit: str | None = None
+    temperature_unit: str | None = None
+    temperature_in_name: bool = False
+    decimal: str | None = None
+    step_start: float = 0.0
+    columns: str | None = None
+    table: str | None = None
+
+    def __post_init__(self):
+        if self.kind is not None and self.kind not in KINDS:
+            raise InputError(f"--kind must be E (tensile) or G (shear), got {self.kind!r}")
+        if self.decimal not in (None, ".", ","):
+            raise InputError(f"--decimal must be . or , got {self.decimal!r}")
+        if self.temperature is not None and not POSSIBLE[0] < self.temperature < POSSIBLE[1]:
+            raise InputError(
+                f"--temperature must be above 0 K, got {self.temperature!r} K; give Celsius "
+                "+ 273.15"
+            )
+        if self.temperature is not None and self.temperature_in_name:
+            raise InputError("give either --temperature or --temperature-in-name, not both")
+        if not 0 <= self.step_start < math.inf:
+            raise InputError(f"--step-start must not be negative, got {self.step_start!r} s")
+        if self.frequency_unit is not None:
+            radians_per_second(self.frequency_unit, angular="rad" in self.frequency_unit)
+        if self.modulus_unit is not None:
+            scale(self.modulus_unit, "Pa")
+        if self.time_unit is not None:
+            scale(self.time_unit, "s")
+        if self.temperature_unit is not None:
+            kelvin(self.temperature_unit)
+        _ = self.chosen
+
+    @cached_property
+    def chosen(self) -> Mapping[str, Column]:
+        """Columns chosen by the caller, by quantity."""
+        found = {}
+        for part in filter(str.strip, (self.columns or "").split(";")):
+            match = _COLUMN.fullmatch(part)
+            quantity = COLUMNS.get(plain(match[1])) if match else None
+            if match is None or quantity is None:
+                raise InputError(
+                    '--columns must be like "frequency=1 [Hz]; storage=Column name [Pa]" with the '
+                    f"quantities {', '.join(sorted(set(COLUMNS.values())))}, got {part.strip()!r}"
+                )
+            unit = _BRACKET.fullmatch(match[2])
+            found[quantity] = Column(unit[1], unit[2].strip()) if unit else Column(match[2], "")
+        return found
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Headings and numbers of the columns chosen by the caller."""
+        return tuple(column.name for column in self.chosen.values())

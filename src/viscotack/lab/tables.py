@@ -1,0 +1,285 @@
+"""Tables of laboratory files as text: headings, units near them, rows of cells.
+
+Readers of all formats produce a :class:`Table`. A row is a line number with its cells.
+"""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from .lab_file import LabFile
+from .numbers import is_number
+from .quantities import POSSIBLE, bare, in_kelvin, is_unit, no_unit, recognise
+
+_STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
+_ABOVE = 4  # rows of words above the numbers
+_ONE = ("1", "1.0")
+_SEGMENT = re.compile(r"[0-9]+\|[0-9]+")  # segment and point of HAAKE RheoWin
+_COUNTERS = 3  # columns, from the left, that may number the points
+
+Row = tuple[int, Sequence[str]]
+Rows = tuple[tuple[int, tuple[str, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Headings, units and rows of cells, as text.
+
+    Parameters
+    ----------
+    headings, units : tuple of str
+        One per column; an empty unit where the file states none.
+    rows : tuple of (int, tuple of str)
+        Line number in the file, and cells, one per heading.
+    words : str
+        Text around the table: geometry, step name.
+    temperature : float or None
+        Temperature stated once for all rows [K].
+    levels : dict of str to float
+        Other values stated once for all rows: the step of ``strain`` [-] or ``stress`` [Pa].
+    label : str
+        Text above the columns of one of several tables side by side, such as a temperature.
+    sheet : str
+        Name of the sheet in a workbook.
+    number : int
+        Number of the table in the file, from 1.
+    before : Table or None
+        Table before this one in the file or sheet.
+    notes : tuple of str
+        Decisions of the layout's reader.
+    """
+
+    headings: tuple[str, ...]
+    units: tuple[str, ...]
+    rows: Rows
+    words: str = ""
+    temperature: float | None = None
+    notes: tuple[str, ...] = ()
+    levels: Mapping[str, float] = field(default_factory=dict)
+    label: str = ""
+    sheet: str = ""
+    number: int = 0
+    before: "Table | None" = None
+
+    @property
+    def place(self) -> str:
+        """Sheet, first row and headings, to identify the table in a message."""
+        known = ", ".join(filter(None, self.headings))
+        line = f"row {self.rows[0][0]}: " if self.rows else ""
+        return f"{self.sheet + ', ' if self.sheet else ''}{line}{known:.60}"
+
+
+def tabulated(
+    file: LabFile,
+    headings: Sequence[str],
+    units: Sequence[str] | None,
+    rows: Iterable[Row],
+    **stated: Any,
+) -> Table:
+    """Return a table; raise an error that names the first row of another length.
+
+    `stated` are the other fields of :class:`Table`.
+    """
+    names, beside, chosen = ruled(file, headings, units, rows)
+    given = [recognise(heading) for heading in names]
+    # a row of units counts only where the heading itself has no unit
+    own = [(heading and heading.unit) or unit for heading, unit in zip(given, beside, strict=True)]
+    return Table(names, tuple(own), chosen, **stated)
+
+
+def ruled(
+    file: LabFile, headings: Sequence[str], units: Sequence[str] | None, rows: Iterable[Row]
+) -> tuple[tuple[str, ...], tuple[str, ...], Rows]:
+    """Return headings, units and rows of one length; raise an error for a row of another length.
+
+    In a workbook a cell cannot shift, so that cells beside the headings are ignored.
+    """
+    width = max((i + 1 for i, cell in enumerate(headings) if cell.strip()), default=0)
+    chosen = []
+    for line, cells in rows:
+        cells = tuple(map(str.strip, cells))
+        if len(cells) < width or (any(cells[width:]) and not file.is_workbook):
+            raise file.error(
+                f"{len(cells)} cells under {width} headings; a cell is missing or extra, "
+                "or the file is truncated",
+                line,
+            )
+        if any(cells[:width]) or not file.is_workbook:
+            chosen.append((line, cells[:width]))
+    names = tuple(heading.strip() for heading in headings[:width])
+    beside = [*(units or ()), *[""] * width][:width]
+    return names, tuple(map(bare, beside)), tuple(chosen)
+
+
+def heads(row: Sequence[str], names: Sequence[str] = ()) -> bool:
+    """Return whether a row names two or more quantities, or the columns given by the caller."""
+    if names:
+        held = {cell.strip().strip('"').strip().casefold() for cell in row}
+        words = [name for name in names if name.casefold() in held]
+        numbers = [name for name in names if name not in words]
+        return bool(words or heads(row)) and _are_columns(numbers, row)
+    # a label with a colon describes the test, unless two quantities follow
+    row = row[1:] if row and row[0].rstrip().endswith(":") else row
+    return len({heading.quantity for heading in map(recognise, row) if heading is not None}) >= 2
+
+
+def first_headings(rows: Sequence[Sequence[str]], names: Sequence[str] = ()) -> int | None:
+    """Return the index of the first row of headings, or None."""
+    return next((i for i, row in enumerate(rows) if heads(row, names)), None)
+
+
+def holds(row: Sequence[str], numbers: Sequence[str]) -> bool:
+    """Return whether a row has numbers alone, in all columns that the caller chose by number."""
+    return bool(numbers) and numeric(row) and _are_columns(numbers, row)
+
+
+def _are_columns(numbers: Sequence[str], row: Sequence[str]) -> bool:
+    return all(name.isdecimal() and 0 < int(name) <= len(row) for name in numbers)
+
+
+def numbered(row: Sequence[str]) -> list[str]:
+    """Return the numbers of columns, as headings of a table without any."""
+    return [str(i) for i in range(1, len(row) + 1)]
+
+
+def by_columns(names: Sequence[str]) -> str:
+    """Return an example of the option that chooses columns by their headings or numbers."""
+    sweep, step = (("frequency", "Hz"), ("storage", "Pa"), ("loss", "Pa")), ("time", "modulus")
+    wanted = sweep if len(names) > 2 else tuple(zip(step, ("s", "Pa"), strict=True))
+    parts = [f"{what}={name} [{unit}]" for (what, unit), name in zip(wanted, names, strict=False)]
+    return f'--columns "{"; ".join(parts)}"'
+
+
+def numeric(row: Sequence[str]) -> bool:
+    """Return whether a row has numbers and nothing else but gaps."""
+    filled = [cell for cell in row if cell.strip()]
+    return bool(filled) and all(map(is_number, filled))
+
+
+def under(rows: Sequence[Row]) -> tuple[Sequence[str] | None, list[Row]]:
+    """Split the rows below headings into units, if there are any, and data.
+
+    Above the first row with a number there may be blank rows, a row of units and a row of words
+    such as ``Waveform``; the row with most units is that of the units.
+    """
+    filled = [row for row in rows if any(map(str.strip, row[1]))]
+    number = (i for i, (_, row) in enumerate(filled) if any(map(is_number, row)))
+    above = [row for _, row in filled[: min(next(number, _ABOVE), _ABOVE)]]
+    if not above:
+        return None, filled
+    at = max(range(len(above)), key=lambda i: _units_in(above[i]))
+    return above[at], filled[at + 1 :]
+
+
+def _units_in(row: Sequence[str]) -> int:
+    return sum(not no_unit(cell) and is_unit(cell) for cell in row)
+
+
+def pieces(table: Table) -> list[Table]:
+    """Return the tables within a table: side by side, or one below the other; without raw waves."""
+    return [without_waves(part) for block in _side_by_side(table) for part in _stacked(block)]
+
+
+def _side_by_side(table: Table) -> list[Table]:
+    """Return the tables that stand side by side, each with the same headings."""
+    names = [heading.casefold() for heading in table.headings]
+    first = next((i for i, name in enumerate(names) if name), 0)
+    starts = [i for i, name in enumerate(names) if name and name == names[first]]
+    # a column without a heading, left of each table, may number its points
+    starts = [i - 1 if first and not names[i - 1] else i for i in starts]
+    blocks = list(zip(starts, [*starts[1:], len(names)], strict=True))
+    shown = [[name for name in names[a:b] if name] for a, b in blocks]
+    if len(blocks) < 2 or any(block != shown[0] for block in shown) or not heads(shown[0]):
+        return [table]
+    parts = []
+    for a, b in blocks:
+        rows = tuple((line, row[a:b]) for line, row in table.rows if any(row[a:b]))
+        note = f"the columns {a + 1} to {b} are one of {len(blocks)} tables side by side"
+        cut = {"headings": table.headings[a:b], "units": table.units[a:b], "rows": rows}
+        parts.append(replace(table, notes=(*table.notes, note), **cut))
+    return parts
+
+
+def _stacked(table: Table) -> list[Table]:
+    """Return the parts of a table whose points are numbered from 1 again, or as ``2|1``."""
+    for counter in range(min(_COUNTERS, len(table.headings))):
+        cells = [row[counter] for _, row in table.rows]
+        if recognise(table.headings[counter]) is not None:
+            continue
+        if cells and all(map(_SEGMENT.fullmatch, cells)):
+            keys = [cell.partition("|")[0] for cell in cells]
+            starts = [i for i, key in enumerate(keys) if not i or key != keys[i - 1]]
+        else:
+            starts = [i for i, cell in enumerate(cells) if cell in _ONE]
+        ends = [*starts[1:], len(cells)]
+        if len(starts) < 2 or starts[0]:
+            continue
+        parts = [table.rows[a:b] for a, b in zip(starts, ends, strict=True)]
+        if all(_counts([row[counter] for _, row in part if row[counter]]) for part in parts):
+            return [
+                replace(table, rows=part, notes=(*table.notes, f"part {i} of {len(parts)}"))
+                for i, part in enumerate(parts, start=1)
+            ]
+    return [table]
+
+
+def without_waves(table: Table) -> Table:
+    """Remove samples of raw waves between the numbered points of a rheometer, and their columns.
+
+    Only the points are numbered (1, 2, 3, ...); a sample fills the columns of waves, and leaves
+    others empty that every point fills. There are at least as many samples as points.
+    """
+    rows = table.rows
+    for counter in range(min(_COUNTERS, len(table.headings))):
+        points = [row for _, row in rows if row[counter]]
+        if not 0 < len(points) < len(rows) or not _counts([row[counter] for row in points]):
+            continue
+        others = (i for i in range(len(table.headings)) if i != counter)
+        full = [i for i in others if all(row[i] for row in points)]
+        samples = {line for line, row in rows if not row[counter] and not all(row[i] for i in full)}
+        # a row of sums below the points is no sample
+        if len(samples) < max(len(rows) - len(points), len(points)):
+            continue
+        waves = {i for line, row in rows if line in samples for i, cell in enumerate(row) if cell}
+        note = f"{len(samples)} samples of raw waves between the points are not used"
+        return replace(
+            table,
+            headings=tuple("" if i in waves else h for i, h in enumerate(table.headings)),
+            rows=tuple(row for row in rows if row[0] not in samples),
+            notes=(*table.notes, note),
+        )
+    return table
+
+
+def _counts(cells: Sequence[str]) -> bool:
+    """Return whether cells are 1, 2, 3, ... or ``4|1``, ``4|2``, ``4|3``, ..."""
+    try:
+        found = [float(cell.rpartition("|")[2]) for cell in cells]
+    except ValueError:
+        return False
+    return found == list(range(1, len(cells) + 1))
+
+
+def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
+    """Return the temperature stated above a table [K]; None if there is none or more than one.
+
+    Examples
+    --------
+    >>> stated_temperature([["Temperature", "25 °C"]]), stated_temperature([["Temp: 300 K"]])
+    (298.15, 300.0)
+    """
+    found = set()
+    for row in rows:
+        words = [cell.strip() for cell in row if cell.strip()]
+        label, _, value = words[0].partition(":") if words else ("", "", "")
+        if len(words) > 1:
+            value = words[1]
+        heading = recognise(label) if label else None
+        match = _STATED.fullmatch(value.strip())
+        if heading is None or heading.quantity != "temperature" or match is None:
+            continue
+        value = in_kelvin(float(match[1].replace(",", ".")), match[2])
+        if POSSIBLE[0] < value < POSSIBLE[1]:
+            found.add(value)
+    return found.pop() if len(found) == 1 else None
