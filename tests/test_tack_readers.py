@@ -213,6 +213,14 @@ def test_what_afmformats_cannot_read_is_refused_by_the_name_of_the_file(tmp_path
         read(tmp_path, b"\x89HDF\r\n\x1a\n" + bytes(40), "map.h5")
 
 
+def test_files_that_this_package_reads_itself_are_not_given_to_afmformats(tmp_path, monkeypatch):
+    stand_in(monkeypatch, lambda path: pytest.fail("the library was called"))
+    path = tmp_path / "curve.ibw"
+    path.write_bytes(tack_files.ibw(WHOLE))
+    with pytest.raises(InputError, match="leave out --format"):
+        tack.read(path, format="afmformats")
+
+
 def test_without_afmformats_the_error_states_how_to_install_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "afmformats", None)
     with pytest.raises(InputError, match=r"map.jpk-qi-data: .*pip install viscotack\[afm\]"):

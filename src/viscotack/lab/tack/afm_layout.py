@@ -25,6 +25,9 @@ from .record import TackRecord
 
 HDF = b"\x89HDF"  # first bytes of an .h5 file
 _ENDINGS = (".jpk-force-map", ".jpk-qi-data", ".h5")
+# Endings of files that may be read if the caller names the format. This excludes those of Igor,
+# which this package reads: a damaged one takes the memory of the machine in the library.
+_ALLOWED = (*_ENDINGS, ".jpk-force", ".tab", ".csv", ".txt", ".tsv")
 _LOOKED = 60  # lines searched for the name of the device
 _FIRST = ("Force-Distance Curve", "# afmformats")  # first lines of AFM Workshop and .tab files
 
@@ -49,6 +52,11 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
         If afmformats is not installed or cannot read the file, or a curve has no force, or has no
         time while no nominal speed was given.
     """
+    if not file.path.casefold().endswith(_ALLOWED):
+        raise file.error(
+            f"afmformats is used only for files that end with {', '.join(_ALLOWED)}; "
+            "leave out --format"
+        )
     try:
         library = import_module("afmformats")
     except ImportError:
