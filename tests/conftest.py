@@ -13,6 +13,10 @@ settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
 
 
+# It takes names of the system away from the process that imports it.
+collect_ignore = ["without_posix"]
+
+
 def pytest_addoption(parser):
     parser.addoption(
         "--tack",

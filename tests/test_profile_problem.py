@@ -32,6 +32,7 @@ from viscotack.result import columns, load, save
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off_force, summary
 from viscotack.theory import profiles
+from viscotack.theory.elastic.relaxed import ends
 from viscotack.traction import LennardJones
 
 SOLID = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
@@ -207,9 +208,17 @@ def test_the_time_a_cone_bears_a_load_is_in_seconds():
     assert held == pytest.approx(0.1 * in_units, rel=1e-9)
 
 
-def test_advice_on_spheres_is_not_given_on_cones():
-    with pytest.raises(ValueError, match="advice covers spheres on a half-space, got a cone"):
-        advise(problem())
+def test_advice_on_a_cone_is_that_of_the_cone():
+    case = problem()
+    found = advise(case)
+    interface = {
+        "contact_modulus": SOLID.contact_modulus,
+        "work_of_adhesion": LAW.work_of_adhesion,
+    }
+    _, end = ends(CONE, **interface)
+    slow = found.contact.slow_force * found.force_scale
+    assert slow == pytest.approx(-end.force, rel=1e-6)
+    assert found.contact.slow_force < found.pull_off_force < found.contact.fast_force
 
 
 def test_a_tabor_number_that_the_mesh_cannot_serve_is_answered_by_theory_or_refused():

@@ -188,7 +188,7 @@ def strongest(
     >>> lens = dict(contact_modulus=2e6, work_of_adhesion=0.15)
     >>> small, large = (strongest(Sphere(5e-3), largest=a, **lens) for a in (1e-4, 1e-3))
     >>> f"{small.force * 1e3:.2f} mN, {large.force * 1e3:.2f} mN"
-    '-2.24 mN, -3.53 mN'
+    '-2.21 mN, -3.53 mN'
     """
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     depth, force = curve(shape, body=body, **solid)
