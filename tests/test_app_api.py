@@ -381,6 +381,7 @@ def test_a_server_on_this_machine_answers_to_its_names_and_its_own_pages_only(be
     assert ask("GET", "/", headers={"host": "evil.example"}).status_code == 403
     assert ask("POST", "/", headers={"origin": "http://evil.example"}).status_code == 403
     assert ask("POST", "/", headers={"origin": "http://localhost"}).status_code == 200
+    assert ask("POST", "/", headers={"origin": "http://["}).status_code == 403
     assert "default-src 'self'" in ask("GET", "/").headers["content-security-policy"]
 
 

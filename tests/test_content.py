@@ -390,3 +390,21 @@ def test_every_archive_that_unpacks_to_too_much_is_refused_alike(file, monkeypat
     for reader, name in ((lab.read, "book.xlsx"), (tack.read, "curve.jpk-force")):
         with pytest.raises(InputError, match=f"{name}.*unpacks to more than 200 MB"):
             reader(file(buffer.getvalue(), name))
+
+
+@pytest.mark.parametrize("heading", ["Segment", "Cycle", "Sample"])
+def test_a_column_that_counts_no_points_does_not_split_a_table(tmp_path, heading):
+    rows = [f"1,{f:g},{1e6 + 1e4 * f:g},{1e5 + 1e3 * f:g}" for f in (1, 2, 5, 10, 20, 50)]
+    path = tmp_path / "one.csv"
+    path.write_text("\n".join([f"{heading},f [Hz],E' [Pa],E'' [Pa]", *rows, ""]))
+    found = lab.read(path, temperature=293.15)
+    assert len(found) == 6 and found.ids == (0,)
+
+
+def test_tables_side_by_side_may_be_headed_by_primes(tmp_path):
+    rows = [f"{f},{1e6 * f},{1e5 * f},{f},{2e6 * f},{2e5 * f}" for f in (1, 2, 5, 10, 20)]
+    path = tmp_path / "two.csv"
+    path.write_text("\n".join(["f [Hz],E' [Pa],E'' [Pa],f [Hz],E' [Pa],E'' [Pa]", *rows, ""]))
+    assert lab.read(path, temperature=293.15).ids == (0, 1)
+    second = lab.read(path, temperature=293.15, table="2")
+    assert second.storage.tolist() == [2e6 * f for f in (1, 2, 5, 10, 20)]

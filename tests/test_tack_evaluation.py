@@ -253,3 +253,33 @@ def test_the_smallest_force_is_estimated_without_bias(jump):
         off = np.array([(one.value - least) / one.uncertainty for one in found])
         assert abs(np.mean([one.value for one in found]) - least) < 0.002
         assert np.max(np.abs(off)) < 4 and 0.5 < np.std(off) < 1.5
+
+
+def with_tail(size, count):
+    """Return a test with a tension that falls linearly to zero after the jump of the force."""
+    test = tack_files.made(noise=0.0)
+    first = int(np.argmin(test.force)) + 1
+    first += int(np.argmax(test.force[first:] > -1e-9))
+    force = test.force.copy()
+    force[first : first + count] = size * test.force.min() * np.linspace(1, 0, count)
+    return test, force
+
+
+@pytest.mark.parametrize(("size", "count"), [(0.15, 80), (0.1, 200), (0.15, 200)])
+def test_a_weak_contact_after_the_pull_off_is_in_the_uncertainty_of_the_zero(size, count):
+    test, force = with_tail(size, count)
+    true = -float(test.force.min())
+    for seed in range(2):
+        noisy = force + 0.014 * true * np.random.default_rng(seed).standard_normal(force.size)
+        (cycle,) = tack.evaluate(tack.TackRecord(test.time, noisy, test.drive, into=1)).cycles
+        found = cycle.pull_off_force
+        assert abs(found.value - true) < 2.5 * found.uncertainty
+
+
+def test_whole_digits_of_a_signal_without_noise_are_in_its_uncertainty():
+    test = tack_files.made(noise=0.0)
+    true, digit = -float(test.force.min()), 1e-4
+    rounded = np.round(test.force / digit) * digit
+    (cycle,) = tack.evaluate(tack.TackRecord(test.time, rounded, test.drive, into=1)).cycles
+    assert cycle.noise >= digit / np.sqrt(12) * 0.99
+    assert abs(cycle.pull_off_force.value - true) < 3 * cycle.pull_off_force.uncertainty

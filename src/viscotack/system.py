@@ -9,7 +9,7 @@ import stat
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,7 @@ if sys.platform == "win32":
         os.lseek(handle, _LOCKED, os.SEEK_SET)
         try:
             msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-        except OSError:
+        except PermissionError:
             return False
         return True
 
@@ -121,6 +121,9 @@ else:
 
     def peak_memory() -> float:
         """Return the peak resident memory of this process [bytes]."""
+        with suppress(OSError, StopIteration):  # Linux; getrusage has that of the parent, too
+            lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+            return 1024.0 * int(next(x for x in lines if x.startswith("VmHWM:")).split()[1])
         # kilobytes, but bytes on macOS
         unit = 1.0 if sys.platform == "darwin" else 1024.0
         return unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

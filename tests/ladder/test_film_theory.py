@@ -94,7 +94,7 @@ def test_kendall_on_a_half_space_is_that_of_the_profiles_and_the_strength_limits
     case = dict(contact_radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
     kendall = -profiles.punch_pull_off(**case).force
     assert disc.pull_off_force(**case) == pytest.approx(kendall, rel=1e-12)
-    thin = Layer(2e-6, SQUEEZED)
+    thin = Layer(1e-5, SQUEEZED)
     limit = disc.strength_limit(contact_radius=1e-3, strength=50e3)
     assert disc.pull_off_force(**case, body=thin, strength=50e3) == limit
     assert disc.pull_off_force(**case, body=thin) > limit
@@ -141,3 +141,21 @@ def test_a_crack_that_recedes_on_a_layer_has_the_limits_of_jkr():
 def test_a_profile_with_several_edges_is_refused_on_a_layer():
     with pytest.raises(vt.InputError, match="several edges"):
         profile_on(vt.WavySphere(1.0, 0.06, 0.5), Layer(1.0))
+
+
+def test_the_smallest_depth_on_a_thin_incompressible_film_is_found_far_below_beta():
+    body = Layer(1e-3, SQUEEZED)
+    fold = film.instability(shape=BALL, body=body, **UNITS)
+    near = fold.contact_radius * np.array([0.97, 1.03])
+    beside = indenter.depth(near, shape=BALL, body=body, **UNITS)
+    assert np.all(beside > fold.depth) and fold.depth < -0.03
+
+
+def test_what_the_theory_of_films_does_not_know_is_refused():
+    nearly = Layer(1e-3, Bonded(poisson_ratio=0.499))
+    with pytest.raises(ValueError, match="nearly incompressible layer is too wide"):
+        film.pull_off(shape=BALL, body=nearly, **UNITS)
+    with pytest.raises(ValueError, match="is too wide; it may be up to 100"):
+        disc.pull_off_force(contact_radius=1.0, body=Layer(1e-3), **UNITS)
+    with pytest.raises(ValueError, match="use theory.disc"):
+        film.instability(shape=vt.Disc(1.0), body=Layer(1.0), **UNITS)

@@ -53,7 +53,7 @@ class CaseSettings:
         Time limit of a case [s]; a longer case is a failure. If it does not end by itself, its
         process is killed some seconds later.
     memory_limit : float
-        Memory limit of a case [bytes], in addition to the idle worker; on Linux only.
+        Memory limit of a case [bytes], in addition to the idle worker.
     own : tuple of str
         Python files with user-defined laws, materials, shapes and observables.
     own_sha256 : tuple of str

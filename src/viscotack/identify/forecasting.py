@@ -160,12 +160,11 @@ def forecast_rates(
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
     sample = np.exp(moved + noise).reshape(-1, v.size) * changed
     slower, uncertain = _slower(fit, v, load, passport, spring, dwell)
-    draws = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
-    sample = np.maximum(sample, draws)
+    floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
+    raised = np.median(sample, axis=0) < slower
+    sample = np.maximum(sample, floor)
     part = (1 - level) / 2
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
-    raised = slower > median
-    median, high = np.maximum(median, slower), np.maximum(high, slower)
     return RateForecast(
         v,
         median,
@@ -226,7 +225,8 @@ def _slower(
         if one.preload is None or one.preload > (1 + _SAME) * preload:
             continue
         at = (speed > (1 + _SAME) * one.speed) & (one.force.value > slower)
-        slower[at], uncertain[at] = one.force.value, one.force.uncertainty / one.force.value
+        own = one.force.uncertainty / one.force.value
+        slower[at], uncertain[at] = one.force.value, np.hypot(own, fit.between_speeds)
     return slower, uncertain
 
 

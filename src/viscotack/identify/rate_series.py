@@ -42,10 +42,6 @@ from .solutions import solution_words, solutions
 _THEORY, _GROWING_THEORY = 0.02, 0.03
 _LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _MOST = 40  # largest number of speeds
-_BETWEEN, _CLOSE = (
-    (1e-3, 1.0),
-    0.05,
-)  # searched scatters between speeds, and their relative accuracy
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 
@@ -213,6 +209,10 @@ def identify_rates(
     found = _growth(forward, search, replace(search, table=plain, opening=None), best)
     objective, data = search.objective, search.data
     several = solutions(objective, best, intervals, level)
+    if several[0].misfit < best.misfit:
+        best = several[0]
+        intervals = search.intervals(best, level)
+        several = (best, *several[1:])
     doubted = bool(allowed(passport))
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
     words = [

@@ -237,7 +237,7 @@ def settled(search: Search) -> Settled:
     rest = search.objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
     count = search.data.speed.size
-    freedom = count - len(best.values)
+    freedom = count + (search.data.prior is not None) - len(best.values)
 
     def excess(log_scatter: float) -> float:
         wider = search.scattered(float(np.exp(log_scatter))).objective

@@ -6,6 +6,7 @@ Readers of all formats produce a :class:`Table`. A row is a line number with its
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any
 
 from .lab_file import LabFile
@@ -190,7 +191,10 @@ def _side_by_side(table: Table) -> list[Table]:
     starts = [i - 1 if first and not names[i - 1] else i for i in starts]
     blocks = list(zip(starts, [*starts[1:], len(names)], strict=True))
     shown = [[name for name in names[a:b] if name] for a, b in blocks]
-    if len(blocks) < 2 or any(block != shown[0] for block in shown) or not heads(shown[0]):
+    if len(blocks) < 2 or any(block != shown[0] for block in shown):
+        return [table]
+    a, b = blocks[0]
+    if not heads([heading for heading in table.headings[a:b] if heading]):
         return [table]
     parts = []
     for a, b in blocks:
@@ -214,6 +218,8 @@ def _stacked(table: Table) -> list[Table]:
             starts = [i for i, cell in enumerate(cells) if cell in _ONE]
         ends = [*starts[1:], len(cells)]
         if len(starts) < 2 or starts[0]:
+            continue
+        if any(b - a < 2 for a, b in pairwise(starts)):  # numbers of samples, not of points
             continue
         parts = [table.rows[a:b] for a, b in zip(starts, ends, strict=True)]
         if all(_counts([row[counter] for _, row in part if row[counter]]) for part in parts):

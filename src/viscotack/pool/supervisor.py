@@ -29,7 +29,8 @@ import ctypes, os, signal, sys
 if sys.platform == "linux":
     PR_SET_PDEATHSIG = 1
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-if os.getppid() != {parent}:
+# in a virtual environment of Windows the parent is a launcher
+if os.name == "posix" and os.getppid() != {parent}:
     os._exit(1)  # the parent has ended already
 """
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -93,7 +94,7 @@ class Limits:
         Whether the pool interrupts the task at the time limit. False for a task that checks the
         time itself.
     memory : float
-        Largest growth of the resident memory of its process [bytes]; enforced on Linux only.
+        Largest growth of the resident memory of its process [bytes].
     """
 
     seconds: float = inf

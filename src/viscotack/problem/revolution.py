@@ -249,6 +249,7 @@ def _check_disc(problem: Any) -> None:
         )
     stiffness, limit = 2 * disc.radius, "half its radius"
     if isinstance(body := problem.body, Layer):
+        on_layer.check_disc(disc.radius, body)
         stiffness = float(on_layer.stiffness(np.array(disc.radius), body))
         if DEEPEST_LAYER * body.thickness < most:
             most, limit = DEEPEST_LAYER * body.thickness, "half the thickness of the layer"

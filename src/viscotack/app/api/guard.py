@@ -134,7 +134,7 @@ class Guard:
         if self.rules.hosts and _bare(host) not in self.rules.hosts:
             return 403, f"this server is called {' or '.join(self.rules.hosts)}, not {host!r}"
         origin = headers.get("origin", "")
-        if origin and urlsplit(origin).netloc != host:
+        if origin and _place(origin) != host:
             # a page of another origin in the browser of the user
             return 403, "pages from elsewhere may not ask this server"
         if not self.rules.token or self._knows(scope, headers):
@@ -201,6 +201,14 @@ class _Arriving:
     def _reject(self, status: int, words: str) -> Rejected:
         self.rejected = status, words
         return Rejected(words)
+
+
+def _place(origin: str) -> str | None:
+    """Return host and port of an origin, None if it has another form."""
+    try:
+        return urlsplit(origin).netloc
+    except ValueError:
+        return None
 
 
 def _bare(host: str) -> str:

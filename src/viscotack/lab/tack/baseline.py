@@ -17,7 +17,7 @@ neighbouring points). First the contact points of both parts are averages over t
 of these, then the baseline is that over the strengths, drift and tilt, given the free points.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -44,6 +44,7 @@ _MISFIT = 3.0  # variance of the residuals over that of the noise that a second 
 _GAIN = 20.0  # smallest gain of a second step
 _UNLIKELY = 8.0  # log evidence below the best one
 _UNSURE = 0.05  # largest probability that free points are in contact
+_DOUBTED = 4.0  # standard deviations from that of the outer points that make a zero doubtful
 _FEW = 6  # smallest number of free points
 
 
@@ -77,6 +78,21 @@ class Baseline:
         """Return the standard uncertainty of the weighted sum of the force out of contact."""
         x = np.sum(np.reshape(weights, (-1, 1)) * self._terms(depth, time), axis=0)
         return float(np.sqrt(max(x @ self.covariance @ x, 0.0)))
+
+    def doubted(self, other: "Baseline", depth: float, time: float) -> "Baseline":
+        """Return this baseline with the difference from another one in its uncertainty.
+
+        Only where the difference at a depth and time is improbable by both uncertainties. The other
+        one is fitted to the outer halves of the free parts: a weak contact that lasts beyond the
+        pull-off, as of fibrils, bends the inner ones like a wander of the zero.
+        """
+        at, when = np.array([depth]), np.array([time])
+        apart = abs(float((self.at(at, when) - other.at(at, when))[0]))
+        own, others = (one.uncertainty(at, when) for one in (self, other))
+        if apart < max(_DOUBTED * own, _DOUBTED / 2 * others):
+            return self
+        off = self.coefficients - other.coefficients
+        return replace(self, covariance=self.covariance + np.outer(off, off))
 
     def _terms(self, depth: Array, time: Array) -> Array:
         return _terms(

@@ -5,7 +5,7 @@ than one point, no force at the end of the sensor's range, and a zero more certa
 pull-off. Each rejection states the failed criterion with numbers.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -283,7 +283,14 @@ def _zero(
     free = [slice(own.end - int(_KEPT * min(outwards.free, most)), own.end)]
     if inwards is not None:
         free.insert(0, slice(int(_KEPT * inwards.free)))
-    return baseline(clean, way, time, free, noise), inwards, outwards
+    outer = [slice((free[-1].start + own.end) // 2, own.end)]
+    if inwards is not None:
+        outer.insert(0, slice(free[0].stop // 2))
+    law, far = (baseline(clean, way, time, parts, noise) for parts in (free, outer))
+    lowest = own.retract + int(np.argmin(clean[back]))
+    law = law.doubted(far, float(way[lowest]), float(time[lowest]))
+    # a signal without noise still has whole digits
+    return replace(law, noise=max(law.noise, rounding(clean))), inwards, outwards
 
 
 def _least(force: Array, at: int, noise: float, zero: float) -> Extremum:

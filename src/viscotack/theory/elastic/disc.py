@@ -22,7 +22,7 @@ import numpy as np
 from viscotack.geometry import Body, HalfSpace, Sphere
 from viscotack.theory._checks import Number, Values, plain, positive
 
-from . import indenter
+from . import indenter, on_layer
 
 _HALF_SPACE = HalfSpace()
 
@@ -89,6 +89,7 @@ def energy_release_rate(
     >>> [f"{value * 1e3:.2f} mJ/m^2" for value in each]
     ['0.16 mJ/m^2', '25.12 mJ/m^2']
     """
+    on_layer.check_disc(contact_radius, body)
     E = positive(contact_modulus=contact_modulus)
     one = indenter.drawn(
         contact_radius, shape=Sphere(1.0), contact_modulus=1.0, work_of_adhesion=1.0, body=body
@@ -131,6 +132,7 @@ def pull_off_force(
     >>> f"{pull_off_force(**disc, body=film, strength=40e3) * 1e3:.0f} mN"
     '126 mN'
     """
+    on_layer.check_disc(contact_radius, body)
     a, E, w = positive(
         contact_radius=contact_radius,
         contact_modulus=contact_modulus,

@@ -120,6 +120,7 @@ def instability(
     >>> f"{instability(body=film, **solid).depth * 1e6:.2f} um"
     '-1.04 um'
     """
+    _refuse_disc(shape)
     return _ends(shape, body, contact_modulus, work_of_adhesion)[0]
 
 
@@ -150,6 +151,7 @@ def work_to_pull_off(
     >>> f"{work_to_pull_off(body=film, **solid) * 1e9:.2f} nJ"
     '0.95 nJ'
     """
+    _refuse_disc(shape)
     solid: Any = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     end = pull_off(shape=shape, body=body, **solid)
     free = relaxed.contact(AtForce(0.0), shape=shape, body=body, **solid)
@@ -161,6 +163,11 @@ def work_to_pull_off(
     )
     nodes, weight = gauss(a, 3)
     return float(-weight @ (force(nodes) * depth(nodes, 1)))
+
+
+def _refuse_disc(shape: Shape) -> None:
+    if isinstance(shape, Disc):
+        raise InputError("a disc has one contact radius and detaches as a whole: use theory.disc")
 
 
 def thin_limit(*, radius: Values, work_of_adhesion: Values, base: Base) -> Number:

@@ -37,7 +37,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere, detail
+from viscotack.geometry import Base, Bonded, Cone, Layer, PowerLawProfile, Sphere, detail
 from viscotack.geometry.gauss import gauss
 
 from ._sneddon import half_space_depth
@@ -54,6 +54,8 @@ _DETAILS, _MOST_PANELS = 4.0, 24
 _MANY, _COARSEST, _PER_DETAIL = 8, 0.25, 8
 # Radius [b] up to which the equation is solved.
 LARGEST, _ROUND_OFF = 100.0, 1 + 1e-12
+# Poisson ratio above which the sums are no powers of the radius beyond it, except at 0.5.
+_NEARLY = 0.49
 # Solutions per decade of radius for shapes that are powers, and of how many one is interpolated.
 _PER_DECADE, _AROUND = 10, 8
 _MIDDLE, _POWERS = (_AROUND - 1) / 2, np.arange(_AROUND)[::-1]
@@ -108,6 +110,24 @@ def stiffness(a: npt.NDArray, body: Layer) -> npt.NDArray:
     return _sums(a, Sphere(1.0), body)[2]
 
 
+def check_disc(radius: Any, body: Any) -> None:
+    """Raise an error for a disc so wide that its stiffness is only a power of the radius."""
+    if not isinstance(body, Layer):
+        return
+    widest = float(np.max(radius)) / body.thickness
+    if widest > LARGEST * _ROUND_OFF:
+        raise InputError(
+            f"a disc with a radius of {widest:.4g} thicknesses of the layer is too wide; it may be "
+            f"up to {LARGEST:g}: make the layer thicker"
+        )
+
+
+def is_power(body: Layer) -> bool:
+    """Whether contacts wider than `LARGEST` thicknesses follow powers of the radius."""
+    base = body.base
+    return not (isinstance(base, Bonded) and _NEARLY < base.poisson_ratio < 0.5)
+
+
 def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Layer) -> npt.NDArray:
     r"""Return the gap [m] at some distances from the axis [m] around a contact at a depth [m].
 
@@ -150,6 +170,12 @@ def _continued(a: float, shape: Any, body: Layer) -> Array:
         raise InputError(
             f"a contact of {a:.4g} thicknesses of the layer is too wide for a shape with details; "
             f"it may be up to {LARGEST:g}: make the layer thicker"
+        )
+    if not is_power(body):
+        raise InputError(
+            f"a contact of {a:.4g} thicknesses of a nearly incompressible layer is too wide; it "
+            f"may be up to {LARGEST:g}, where such a layer is still becoming a compressible one: "
+            "make the layer thicker, or state a Poisson ratio up to 0.49 or of 0.5"
         )
     last, power = _beyond(shape, body)
     return last * (a / LARGEST) ** power

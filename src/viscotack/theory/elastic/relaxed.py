@@ -47,6 +47,8 @@ _TOLERANCE = 1e-13
 _FEWER, _PER_DETAIL = 200, 8
 # Radii among which the strongest contact is searched for, over the largest one, and their number.
 _SMALLEST, _LOOKS = 1e-3, 60
+# Factor on a radius at which the theory must still hold.
+_BESIDE_END = 1.05
 # Logarithms of the ends, over beta, between which the minima of a shape without details lie.
 _NEAR = (-5.0, 5.0)
 
@@ -145,12 +147,14 @@ def ends(
         return theory.instability(**case), theory.pull_off(**case)
     depth, force = curve(shape, body=body, **solid)
     length = adhesion_length(shape, **solid)
-    if np.isinf(detail(shape)):
+    if np.isinf(detail(shape)) and isinstance(body, HalfSpace):
         brackets = [length * np.exp(_NEAR)] * 2
     else:
         looks = _radii(shape, body, length)
         brackets = [_around_least(looks, function) for function in (depth, force)]
-    radii = (least(*each) for each in zip((depth, force), brackets, strict=True))
+    radii = [least(*each) for each in zip((depth, force), brackets, strict=True)]
+    if isinstance(body, Layer) and not on_layer.is_power(body):
+        force(max(radii) * _BESIDE_END)  # an error if the least lies beyond the radii of the theory
     fold, end = (Point(a, float(depth(a)), float(force(a))) for a in radii)
     return fold, end
 
@@ -363,10 +367,11 @@ def _radii(shape: Shape, body: Body, length: float) -> Array:
     """
     low, high = length * np.array(_RADII)
     many = _COUNT if body == _HALF_SPACE else _FEWER
-    if np.isinf(detail(shape)):
-        return np.geomspace(low, high, many)
-    if isinstance(body, Layer):
+    is_smooth = bool(np.isinf(detail(shape)))
+    if isinstance(body, Layer) and not (is_smooth and on_layer.is_power(body)):
         high = min(high, on_layer.LARGEST * body.thickness)
+    if is_smooth:
+        return np.geomspace(low, high, many)
     far = min(high, end(shape))
     looks = int(np.clip(_PER_DETAIL * far / detail(shape), 2, many))
     even = np.arange(1, looks + 1) * detail(shape) / _PER_DETAIL
