@@ -216,7 +216,7 @@ def readable(
         Upper end of the range that `value` begins; with the same prefix, unless it is more than
         a thousand times as large.
     uncertainty : float, optional
-        Standard uncertainty, of which one digit is written.
+        Standard uncertainty, of which one digit is written; omitted below the last of `digits`.
 
     Examples
     --------
@@ -226,6 +226,8 @@ def readable(
     '1.7 to 213 um/s'
     >>> readable(0.1523, "J/m^2", uncertainty=0.0021)
     '152.3 +- 2 mJ/m^2'
+    >>> readable(1e-6, "m/s", uncertainty=6e-13)
+    '1 um/s'
     """
     if to is not None and 0 < 1000 * abs(value) < abs(to):
         return f"{readable(value, unit, digits=digits)} to {readable(to, unit, digits=digits)}"
@@ -240,6 +242,6 @@ def readable(
     text = number(value, digits)
     if to is not None:
         text += f" to {number(to, digits)}"
-    if uncertainty is not None:
+    if uncertainty is not None and not uncertainty < 10.0**-digits * abs(value):
         text += f" +- {number(uncertainty, 1)}"
     return f"{text} {name}".rstrip()
