@@ -116,8 +116,9 @@ def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
     assert exit_status(["test", "read", folder, *words]) == 0
     said = capsys.readouterr().out
     assert "4 cycles, 1 refused" in said
-    assert "1 um/s: 4.21 mN, standard deviation 0 N of 2 tests, JKR work of adhesion 172 mJ/m2" in (
-        said
+    assert (
+        "1 um/s: 4.21 mN, standard deviation 0 mN of 2 tests, JKR work of adhesion 172 mJ/m2"
+        in (said)
     )
     assert "exponent of force by speed 0.138, standard error 0.01" in said
     rows = list(csv.DictReader(table.read_text().splitlines()))

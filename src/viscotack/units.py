@@ -199,6 +199,7 @@ def readable(
     digits: int = 4,
     to: float | None = None,
     uncertainty: float | None = None,
+    like: float = 0.0,
 ) -> str:
     """Text of a quantity for people, with an SI prefix by its size.
 
@@ -217,6 +218,8 @@ def readable(
         a thousand times as large.
     uncertainty : float, optional
         Standard uncertainty, of which one digit is written; omitted below the last of `digits`.
+    like : float
+        A larger quantity, whose prefix is taken.
 
     Examples
     --------
@@ -231,7 +234,7 @@ def readable(
     """
     if to is not None and 0 < 1000 * abs(value) < abs(to):
         return f"{readable(value, unit, digits=digits)} to {readable(to, unit, digits=digits)}"
-    rounded = max((float(f"{x:.{digits}g}") for x in (value, to or 0.0)), key=abs)
+    rounded = max((float(f"{x:.{digits}g}") for x in (value, to or 0.0, like)), key=abs)
     factor, name = prefixed(rounded, "" if unit == "1" else unit)
 
     def number(x: float, digits: int) -> str:

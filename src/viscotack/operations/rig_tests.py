@@ -121,7 +121,8 @@ def _words_by_speed(table: Any, radius: float | None) -> list[str]:
     for one in table.speeds:
         line = f"  {readable(one.speed, 'm/s', digits=3)}: {readable(one.force, 'N', digits=3)}"
         if one.force_deviation is not None:
-            line += f", standard deviation {readable(one.force_deviation, 'N', digits=2)}"
+            line += ", standard deviation "
+            line += readable(one.force_deviation, "N", digits=2, like=one.force)
             line += f" of {len(one.cycles)} tests"
         if radius is not None:
             work = jkr_work(one.force, radius)

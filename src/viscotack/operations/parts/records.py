@@ -174,6 +174,13 @@ def rates_record(fit: Any) -> dict[str, Any]:
     }
 
 
+def forecast_rows(forecast: Any) -> list[dict[str, float]]:
+    """Return a row for each speed of a forecast."""
+    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
+    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
+    return [dict(zip(names, map(float, row), strict=True)) for row in columns]
+
+
 def _growth_record(found: Any) -> dict[str, Any]:
     """Return the growth of the interface with speed."""
     grows = isfinite(found.reference_speed)
