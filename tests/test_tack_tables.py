@@ -112,7 +112,8 @@ def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
     (folder / "notes.txt").write_text("nothing measured\n")
     (folder / ".hidden").write_text("nothing measured\n")
     book, table = tmp_path / "tests.xlsx", tmp_path / "repeats.csv"
-    words = ["--radius", "5.19 mm", "--xlsx", book, "--repeats", table]
+    curves = tmp_path / "curves.csv"
+    words = ["--radius", "5.19 mm", "--xlsx", book, "--repeats", table, "--curves", curves]
     assert exit_status(["test", "read", folder, *words]) == 0
     said = capsys.readouterr().out
     assert "4 cycles, 1 refused" in said
@@ -124,6 +125,12 @@ def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
     rows = list(csv.DictReader(table.read_text().splitlines()))
     assert [row["tests"] for row in rows] == ["2", "1", "1"]
     assert float(rows[0]["jkr_work_of_adhesion_J_m2"]) == pytest.approx(0.1721, rel=1e-3)
+    columns = list(csv.DictReader(curves.read_text().splitlines()))
+    heads = list(columns[0])
+    assert len(heads) == 8 and heads[0] == "depth [m] 1: lens_1_um_s.csv cycle 1, 1 um/s"
+    fastest = [float(row[heads[-1]]) for row in columns if row[heads[-1]]]
+    # the pull-off is that of a parabola, within the noise of a point
+    assert min(fastest) == pytest.approx(-10.9e-3, rel=5e-3)
     sheets = openpyxl.load_workbook(book)
     assert sheets.sheetnames == ["cycles", "repeats", "series", "refused"]
     assert sheets["cycles"].max_row == 5 and sheets["refused"].max_row == 2

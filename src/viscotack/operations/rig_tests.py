@@ -28,6 +28,11 @@ class ReadTests(Operation):
     outputs: ClassVar = (
         csv_file("Write a row for each cycle; - is standard output."),
         csv_file("Write a row for each speed; - is standard output.", "repeats"),
+        csv_file(
+            "Write depth and force of every retraction as two columns, slowest first; - is "
+            "standard output.",
+            "curves",
+        ),
         Output(
             "xlsx",
             "Write a workbook FILE.xlsx of cycles, repeats by speed and rejected files, with units "
@@ -56,7 +61,13 @@ class ReadTests(Operation):
         from viscotack.pictures.tack import draw_tests
 
         from .parts.drawn import retraction
-        from .parts.records import cycle_row, repeat_rows, series_record, tests_record
+        from .parts.records import (
+            curve_rows,
+            cycle_row,
+            repeat_rows,
+            series_record,
+            tests_record,
+        )
         from .parts.tables import rows_as_csv
         from .parts.workbook import as_workbook
 
@@ -81,6 +92,7 @@ class ReadTests(Operation):
             files={
                 "csv": rows_as_csv(rows),
                 "repeats": rows_as_csv(repeats),
+                "curves": lambda target: rows_as_csv(curve_rows(found.cycles))(target),
                 "xlsx": as_workbook(sheets),
             },
             pictures={"plot": lambda: draw_tests(found.cycles)},

@@ -1,8 +1,12 @@
 """Records of measured files and fits, for ``--json`` and the API."""
 
 from dataclasses import asdict
+from itertools import zip_longest
 from math import isfinite
+from pathlib import Path
 from typing import Any
+
+from viscotack.units import readable
 
 from .json_data import plain
 
@@ -89,6 +93,17 @@ def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]
         }
         for one in table.speeds
     ]
+
+
+def curve_rows(cycles: Any) -> list[dict[str, Any]]:
+    """Return the retractions side by side: depth and force of each, slowest first."""
+    columns = {}
+    for number, one in enumerate(sorted(cycles, key=lambda one: one.speed.value), start=1):
+        speed = readable(one.speed.value, "m/s", digits=3)
+        name = f"{number}: {Path(one.source.path).name} cycle {one.number}, {speed}"
+        columns[f"depth [m] {name}"] = one.depth[one.retraction].tolist()
+        columns[f"force [N] {name}"] = one.force[one.retraction].tolist()
+    return [dict(zip(columns, row, strict=True)) for row in zip_longest(*columns.values())]
 
 
 def series_record(table: Any) -> dict[str, Any]:
