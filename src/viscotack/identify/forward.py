@@ -86,7 +86,7 @@ class Pulled(NamedTuple):
 
 
 class _Receded(NamedTuple):
-    """Curves of cases, dimensionless, with points first; start and lengths have no points."""
+    """Dimensionless curves, shape (points, cases); tabor and start have shape (cases,)."""
 
     found: Curves
     tabor: Array

@@ -142,7 +142,7 @@ def _words_by_speed(table: Any, radius: float | None) -> list[str]:
         lines.append(line)
         lines += [f"    far from the others: {x.source.path} cycle {x.number}" for x in one.far]
     if table.scatter is not None:
-        lines.append(f"  scatter of single tests {table.scatter:.2g}, pooled over speeds")
+        lines.append(f"  scatter of single tests {100 * table.scatter:.2g} %, pooled over speeds")
     if table.exponent is not None:
         exponent = table.exponent
         lines.append(

@@ -108,8 +108,9 @@ def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
     """Draw one measured retraction for each speed, the curve of the fit, and their difference.
 
     Of repeated tests the one nearest to the fitted series is drawn; at most six speeds. The
-    travel counts from zero force. The curves of the fit are those of a rigid machine. The
-    difference is drawn until the pull-off of the fit.
+    travel counts from zero force. The curves of the fit are those of a rigid machine, with
+    tensions scaled to the pull-off with the machine's stiffness. The difference is drawn until
+    the pull-off of the fit.
     """
     import matplotlib.style
     from matplotlib import colormaps
@@ -160,6 +161,7 @@ def _fitted_pair(
     depth, force = fit.forward.curve(
         fit.work_of_adhesion, fit.equilibrium_gap, one.speed, one.preload or 0.0, growth
     )
+    force = np.where(force < 0, fit.yielding[i] * force, force)
     fitted = _from_zero_force(depth, force)
     # the free flight is not compared
     back = cycle.retraction
