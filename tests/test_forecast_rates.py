@@ -1,6 +1,8 @@
 """A forecast from a rate series: held where it was measured, honest elsewhere; and its report."""
 
 import json
+import re
+from base64 import b64decode
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -63,6 +65,16 @@ def fit(series):
 @pytest.fixture(scope="module")
 def exact(series):
     return identify_rates(series, material=SOLID, radius=RADIUS)
+
+
+@pytest.mark.parametrize("speed", [1e-6, 1e-3])
+def test_a_computed_curve_has_the_pull_off_and_the_travel_to_zero_force(forward, speed):
+    pulled = forward.pulled(WORK, GAP, speed, PRELOAD)
+    depth, force = forward.curve(WORK, GAP, speed, PRELOAD)
+    assert force[0] == pytest.approx(PRELOAD)
+    assert force.min() == pytest.approx(-float(pulled.force))
+    zero = np.interp(0.0, -force[: int(np.argmin(force))], depth[: int(np.argmin(force))])
+    assert depth[0] - zero == pytest.approx(float(pulled.travels[..., 0]), rel=1e-3)
 
 
 def test_a_forecast_covers_the_true_value_and_widens_away_from_the_data(fit, forward):
@@ -199,7 +211,15 @@ def test_from_rig_files_to_a_report_in_three_commands(tmp_path, capsys):
     speeds = ["--speed", "1 um/s", "--speed", "1 mm/s"]
     assert exit_status(["report", str(study), *speeds, "-o", str(page)]) == 0
     seen = _Seen()
-    seen.feed(page.read_text())
-    assert seen.headings == 8 and seen.drawings == 3
+    content = page.read_text()
+    seen.feed(content)
+    words = re.sub(r"<[^>]*>", " ", re.sub(r"(?s)<(svg|style).*?</\1>", "", content))
+    assert not re.search(r"\de[-+]\d", words)
+    row = [x.strip() for x in words.split("JKR 2F/(3πR)")[1].split("\n") if x.strip()][0]
+    assert row.split("  ")[:3] == ["1 µm/s", "1", "4.21 mN"]
+    assert "JKR work of adhesion 2F/(3πR) at 1 µm/s" in words
+    tables = [b64decode(link.split(",")[1]) for link in seen.links if "text/csv" in link]
+    assert [len(table.splitlines()) for table in tables] == [4, 4, 3]
+    assert seen.headings == 8 and seen.drawings == 4
     # nothing is asked of the net: only places within the drawings, and the points of the posterior
-    assert all(link.startswith(("#", "data:image/png")) for link in seen.links)
+    assert all(link.startswith(("#", "data:image/png", "data:text/csv")) for link in seen.links)

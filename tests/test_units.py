@@ -130,6 +130,18 @@ def test_a_range_and_an_uncertainty_have_the_prefix_of_the_quantity():
     assert readable(4.31e-3, "N", uncertainty=2e-5) == "4.31 +- 0.02 mN"
 
 
+def test_a_deviation_has_the_prefix_of_its_mean():
+    assert readable(1.1e-4, "N", digits=2, like=4.2e-3) == "0.11 mN"
+    assert readable(0.0, "N", like=4.2e-3) == "0 mN"
+
+
+def test_an_uncertainty_below_the_last_digit_is_omitted():
+    assert readable(1e-6, "m/s", uncertainty=6e-13) == "1 um/s"
+    assert readable(-1.5e-3, "N", uncertainty=0.0) == "-1.5 mN"
+    assert readable(1e-6, "m/s", uncertainty=2e-10) == "1 +- 0.0002 um/s"
+    assert readable(0.0, "N", uncertainty=1e-3) == "0 +- 0.001 N"
+
+
 @pytest.mark.parametrize("unit", ["N", "m", "m/s", "J/m^2", "Pa", "N/m", "m/N", "J", "s"])
 @pytest.mark.parametrize("value", [3.125e-10, 4.5e-7, 8e-5, 0.0625, 1.0, 512.0])
 def test_what_is_written_for_people_is_read_again(value, unit):

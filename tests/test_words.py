@@ -47,9 +47,10 @@ WORDS = {
 }
 # A name that speaks of one of them, and what may stand before and behind the word.
 SPEAKS = re.compile(r"pull_?off|peak|crack_?speed|detach|^work")
+MORE = "note|low|high|uncertainty|mean|weighted_mean|standard_deviation"
 ALLOWED = re.compile(
     "|".join(
-        rf"(?:slowest_|fastest_)?{word}(?:_(?:{unit}))?(?:_(?:note|low|high|uncertainty))?"
+        rf"(?:slowest_|fastest_)?{word}(?:_(?:{unit}))?(?:_(?:{MORE}))?"
         for word, unit in WORDS.items()
     )
 )

@@ -199,6 +199,7 @@ def readable(
     digits: int = 4,
     to: float | None = None,
     uncertainty: float | None = None,
+    like: float = 0.0,
 ) -> str:
     """Text of a quantity for people, with an SI prefix by its size.
 
@@ -216,7 +217,9 @@ def readable(
         Upper end of the range that `value` begins; with the same prefix, unless it is more than
         a thousand times as large.
     uncertainty : float, optional
-        Standard uncertainty, of which one digit is written.
+        Standard uncertainty, of which one digit is written; omitted below the last of `digits`.
+    like : float
+        A larger quantity, whose prefix is taken.
 
     Examples
     --------
@@ -226,10 +229,12 @@ def readable(
     '1.7 to 213 um/s'
     >>> readable(0.1523, "J/m^2", uncertainty=0.0021)
     '152.3 +- 2 mJ/m^2'
+    >>> readable(1e-6, "m/s", uncertainty=6e-13)
+    '1 um/s'
     """
     if to is not None and 0 < 1000 * abs(value) < abs(to):
         return f"{readable(value, unit, digits=digits)} to {readable(to, unit, digits=digits)}"
-    rounded = max((float(f"{x:.{digits}g}") for x in (value, to or 0.0)), key=abs)
+    rounded = max((float(f"{x:.{digits}g}") for x in (value, to or 0.0, like)), key=abs)
     factor, name = prefixed(rounded, "" if unit == "1" else unit)
 
     def number(x: float, digits: int) -> str:
@@ -240,6 +245,6 @@ def readable(
     text = number(value, digits)
     if to is not None:
         text += f" to {number(to, digits)}"
-    if uncertainty is not None:
+    if uncertainty is not None and not uncertainty < 10.0**-digits * abs(value):
         text += f" +- {number(uncertainty, 1)}"
     return f"{text} {name}".rstrip()

@@ -85,6 +85,17 @@ class Pulled(NamedTuple):
     interface: Array
 
 
+class _Receded(NamedTuple):
+    """Dimensionless curves, shape (points, cases); tabor and start have shape (cases,)."""
+
+    found: Curves
+    tabor: Array
+    start: Array
+    energy: Array
+    interface: Array
+    effective: Array
+
+
 class Changed(NamedTuple):
     """Effect of machine stiffness and loading history on pull-offs.
 
@@ -232,7 +243,21 @@ class Forward:
         joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
         return Pulled(*(one.reshape((*shape, *one.shape[1:])) for one in joined))
 
-    def _pulled(self, cases: Sequence[Array], radii: int) -> Pulled:
+    def curve(
+        self, work: float, gap: float, speed: float, preload: float, growth: Growth | None = None
+    ) -> tuple[Array, Array]:
+        """Compute depth [m] and force [N], compression positive, of one retraction.
+
+        The contact relaxed under the preload; its machine is rigid. Arguments as of
+        :meth:`pulled`.
+        """
+        given = (work, gap, speed, preload, *(growth or ()))
+        one = self._receded([np.atleast_1d(np.asarray(x, dtype=float)) for x in given], 160)
+        _, force = _ranged(one.found, one.effective)
+        beta = (self.radius**2 * work / self.material.contact_modulus) ** (1 / 3)
+        return one.found.depth[:, 0] * beta**2 / self.radius, force[:, 0] * self.radius * work
+
+    def _receded(self, cases: Sequence[Array], radii: int) -> _Receded:
         w, h0, v, P, *grown = cases
         # without a Problem per case, which rejects interfaces far from the data as large strain
         modulus, profile = self.material.contact_modulus, profile_of(Sphere(radius=1.0))
@@ -251,6 +276,12 @@ class Forward:
         # interface Q times as strong, with bulk amplification Gamma/Q
         bulk = np.maximum(energy / interface, 1.0)
         effective = mu * interface ** (2 / 3) * bulk ** (-1 / 3)
+        return _Receded(found, mu, start, energy, interface, effective)
+
+    def _pulled(self, cases: Sequence[Array], radii: int) -> Pulled:
+        w, h0, *_ = cases
+        found, mu, start, energy, interface, effective = self._receded(cases, radii)
+        modulus = self.material.contact_modulus
         tension, pressed = _ranged(found, effective)
         at = np.argmax(tension, axis=0), np.arange(mu.size)
         beta = (self.radius**2 * w / modulus) ** (1 / 3)

@@ -42,19 +42,25 @@ class PullOff:
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     """Return one pull-off per speed; repeated cycles are averaged.
 
-    Speeds within 3 % are equal. The uncertainty of a mean includes the scatter of repeated cycles,
-    which is pooled over all speeds (:mod:`.repeats`). The preload is the force at the start of the
-    retractions, or None if one begins in tension.
+    Speeds are equal as in :func:`same_speeds`. The uncertainty of a mean includes the scatter of
+    repeated cycles, which is pooled over all speeds (:mod:`.repeats`). The preload is the force at
+    the start of the retractions, or None if one begins in tension.
     """
+    groups = same_speeds(cycles)
+    repeats = pooled([[one.pull_off_force.value for one in same] for same in groups])
+    rows = zip(groups, repeats.means, repeats.far, strict=True)
+    return [_of_one_speed(same, mean, repeats, far) for same, mean, far in rows]
+
+
+def same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
+    """Return the cycles of each speed, slowest first; speeds within 3 % are equal."""
     groups: list[list[Cycle]] = []
     for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
         if groups and cycle.speed.value <= (1 + _SAME) * groups[-1][0].speed.value:
             groups[-1].append(cycle)
         else:
             groups.append([cycle])
-    repeats = pooled([[one.pull_off_force.value for one in same] for same in groups])
-    rows = zip(groups, repeats.means, repeats.far, strict=True)
-    return [_of_one_speed(same, mean, repeats, far) for same, mean, far in rows]
+    return groups
 
 
 def _of_one_speed(

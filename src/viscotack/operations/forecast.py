@@ -13,6 +13,7 @@ from .declare.cards import FileOfNames, Number, Place, Placed, Text
 from .declare.options import Operation, Part
 from .declare.study import read_study
 from .identify import IdentifyRates
+from .parts.records import forecast_rows
 from .parts.rig import refusals
 
 _MOST = 50  # speeds between two ends
@@ -133,7 +134,7 @@ class Forecast(Operation):
 
         found = _identified(self.study, caller)
         forecast = self.wish.of(found.fit)
-        rows = _rows(forecast)
+        rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, rows),
@@ -170,7 +171,7 @@ class Report(Operation):
         forecast = self.wish.of(found.fit)
         return Answer(
             (found, forecast),
-            record=lambda: _record(found.fit, forecast, _rows(forecast)),
+            record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
             words=lambda: "\n".join([*found.fit.words, *forecast.words]),
             files={"output": as_text(lambda: page(found, forecast))},
             notes=refusals(found.survey),
@@ -197,12 +198,6 @@ def _asked(study: Placed) -> IdentifyRates:
     asked = read_study(study.path, known=known, usual=word, also=place.also, place=place).operation
     assert isinstance(asked, IdentifyRates), "no other is known"
     return asked
-
-
-def _rows(forecast: Any) -> list[dict[str, float]]:
-    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
-    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
-    return [dict(zip(names, map(float, row), strict=True)) for row in columns]
 
 
 def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Figures of an identified interface: measured points, fitted curves, residuals."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,9 @@ from viscotack.identify import (
     SlowTestFit,
     fitted_force,
 )
+from viscotack.identify.forward import Growth
+from viscotack.identify.pull_off import same_speeds
+from viscotack.lab.tack import Cycle
 from viscotack.units import readable
 
 from .plot import axis_unit
@@ -27,6 +31,7 @@ _SCALES = {
     "strengthening": ("strength over that at rest", 1.0),
     "exponent": ("exponent of growth", 1.0),
 }
+_CURVES = 6  # largest number of speeds with a curve
 _MOST = 20.0  # largest difference of the information criterion of a model that is drawn
 
 
@@ -97,6 +102,82 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
         axes.set_ylabel(f"pull-off force [{load_unit}]")
         axes.legend()
     return figure
+
+
+def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
+    """Draw one measured retraction for each speed, the curve of the fit, and their difference.
+
+    Of repeated tests the one nearest to the fitted series is drawn; at most six speeds. The
+    travel counts from zero force. The curves of the fit are those of a rigid machine, with
+    tensions scaled to the pull-off with the machine's stiffness. The difference is drawn until
+    the pull-off of the fit.
+    """
+    import matplotlib.style
+    from matplotlib import colormaps
+    from matplotlib.figure import Figure
+
+    chosen = np.unique(np.linspace(0, len(fit.series) - 1, _CURVES).round().astype(int))
+    size = max(one.force.value for one in fit.series)
+    groups = same_speeds(cycles)
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(8.4, 7.0), layout="constrained")
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
+        load, load_unit = axis_unit(size, "N")
+        pairs = [_fitted_pair(fit, int(i), groups) for i in chosen]
+        far, far_unit = axis_unit(max(float(np.ptp(fitted[0])) for _, fitted in pairs), "m")
+        colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(pairs)))
+        for i, colour, (measured, fitted) in zip(chosen, colours, pairs, strict=True):
+            one = fit.series[i]
+            label = (
+                f"{readable(one.speed, 'm/s', digits=3)}: "
+                f"{readable(one.force.value, 'N', digits=3)}, fit "
+                f"{readable(fit.forces[i], 'N', digits=3)}"
+            ).replace(" u", " µ")
+            travel, force = measured
+            above.plot(travel / far, force / load, lw=1.0, color=colour, label=label)
+            above.plot(fitted[0] / far, fitted[1] / load, "--", color=colour)
+            # the steep end, where travels that differ little give large differences, is left out
+            last = fitted[0][np.argmin(fitted[1])]
+            inside = (travel >= fitted[0][0]) & (travel <= last)
+            rest = force[inside] - np.interp(travel[inside], *fitted)
+            below.plot(travel[inside] / far, rest / load, lw=1.0, color=colour)
+        below.axhline(0.0, color="0.6", lw=0.8)
+        above.set_ylabel(f"force, compression positive [{load_unit}]")
+        below.set_ylabel(f"difference [{load_unit}]")
+        below.set_xlabel(f"travel from zero force [{far_unit}]")
+        above.legend(fontsize="small", loc="lower left")
+    return figure
+
+
+def _fitted_pair(
+    fit: RateSeriesFit, i: int, groups: Sequence[Sequence[Cycle]]
+) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+    """Return travel [m] and force [N] of a measured retraction and of the fit at its speed."""
+    one = fit.series[i]
+    same = min(groups, key=lambda group: abs(group[0].speed.value - one.speed))
+    cycle = min(same, key=lambda cycle: abs(cycle.pull_off_force.value - one.force.value))
+    grown = fit.growth
+    growth = None if grown is None else Growth(grown.reference_speed, grown.exponent)
+    depth, force = fit.forward.curve(
+        fit.work_of_adhesion, fit.equilibrium_gap, one.speed, one.preload or 0.0, growth
+    )
+    force = np.where(force < 0, fit.yielding[i] * force, force)
+    fitted = _from_zero_force(depth, force)
+    # the free flight is not compared
+    back = cycle.retraction
+    travel, force = _from_zero_force(cycle.depth[back], cycle.force[back])
+    near = travel <= 1.1 * fitted[0][-1]
+    return (travel[near], force[near]), fitted
+
+
+def _from_zero_force(depth: Any, force: Any) -> tuple[Any, Any]:
+    """Return the travel from zero force, or from a start in tension, and the force."""
+    at = int(np.argmax(force < 0))
+    if at == 0:
+        return depth[0] - depth, force
+    share = force[at - 1] / (force[at - 1] - force[at])
+    zero = depth[at - 1] + share * (depth[at] - depth[at - 1])
+    return zero - depth, force
 
 
 def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> None:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
@@ -60,7 +61,8 @@ def survey(
     Parameters
     ----------
     paths : sequence of path-like
-        Files; intervals of one test are joined as in :func:`read`.
+        Files, or folders, of which all files are read but hidden ones and those in folders
+        inside; intervals of one test are joined as in :func:`read`.
     reading, evaluation : mapping, optional
         Keyword arguments of :func:`read` and :func:`evaluate`.
 
@@ -68,10 +70,12 @@ def survey(
     ------
     OSError
         If a file cannot be opened.
+    ValueError
+        If a folder contains no file.
     """
     found: list[Evaluation] = []
     unread: list[Unread] = []
-    for group in groups(paths):
+    for group in groups([file for path in paths for file in _files(path)]):
         try:
             records = read(group, **(reading or {}))
         except InputError as error:
@@ -83,3 +87,14 @@ def survey(
             except InputError as error:
                 unread.append(Unread(record.source.path, str(error)))
     return Survey(tuple(found), tuple(unread))
+
+
+def _files(path: AnyPath) -> list[AnyPath]:
+    """Return the visible files of a folder by name; a file itself."""
+    if not Path(path).is_dir():
+        return [path]
+    inside = sorted(Path(path).iterdir())
+    found: list[AnyPath] = [x for x in inside if x.is_file() and not x.name.startswith(".")]
+    if not found:
+        raise InputError(f"{path}: the folder contains no file")
+    return found

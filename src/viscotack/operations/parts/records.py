@@ -1,8 +1,12 @@
 """Records of measured files and fits, for ``--json`` and the API."""
 
 from dataclasses import asdict
+from itertools import zip_longest
 from math import isfinite
+from pathlib import Path
 from typing import Any
+
+from viscotack.units import readable
 
 from .json_data import plain
 
@@ -56,31 +60,85 @@ def _material_record(material: Any) -> dict[str, Any]:
     return {"model": word_of(material)} | asdict(material)
 
 
-def cycle_row(cycle: Any) -> dict[str, Any]:
-    """Return the numbers of a cycle by their names with units."""
+def cycle_row(cycle: Any, radius: float | None = None) -> dict[str, Any]:
+    """Return the numbers of a cycle by their names with units; JKR's work if a radius is given."""
     row: dict[str, Any] = {"cycle": cycle.number}
     for name, column in _MEASURED.items():
         one = getattr(cycle, name)
         row[column], row[f"{column}_uncertainty"] = one.value, one.uncertainty
-    return row | {column: getattr(cycle, name) for name, column in _PLAIN.items()}
+    row |= {column: getattr(cycle, name) for name, column in _PLAIN.items()}
+    return row | _jkr(cycle.pull_off_force.value, radius)
 
 
-def tests_record(found: Any) -> dict[str, Any]:
-    """Return the cycles and rejections of a survey of tack tests."""
+def _jkr(force: float, radius: float | None) -> dict[str, float]:
+    """Return the work of adhesion of an elastic JKR sphere; empty without a radius."""
+    from viscotack.identify.speed_table import jkr_work
+
+    return {} if radius is None else {"jkr_work_of_adhesion_J_m2": jkr_work(force, radius)}
+
+
+def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]:
+    """Return a row for each speed of a table of repeated tests."""
+    return [
+        {
+            "speed_m_s": one.speed,
+            "tests": len(one.cycles),
+            "pull_off_force_N_mean": one.force,
+            "pull_off_force_N_standard_deviation": one.force_deviation,
+            "pull_off_force_N_weighted_mean": one.weighted_mean,
+            "work_of_separation_J_mean": one.work,
+            "work_of_separation_J_standard_deviation": one.work_deviation,
+            **_jkr(one.force, radius),
+            "far": "; ".join(f"{cycle.source.path} cycle {cycle.number}" for cycle in one.far),
+        }
+        for one in table.speeds
+    ]
+
+
+def curve_rows(cycles: Any) -> list[dict[str, Any]]:
+    """Return the retractions side by side: depth and force of each, slowest first."""
+    columns = {}
+    for number, one in enumerate(sorted(cycles, key=lambda one: one.speed.value), start=1):
+        speed = readable(one.speed.value, "m/s", digits=3)
+        name = f"{number}: {Path(one.source.path).name} cycle {one.number}, {speed}"
+        columns[f"depth [m] {name}"] = one.depth[one.retraction].tolist()
+        columns[f"force [N] {name}"] = one.force[one.retraction].tolist()
+    return [dict(zip(columns, row, strict=True)) for row in zip_longest(*columns.values())]
+
+
+def series_record(table: Any) -> dict[str, Any]:
+    """Return the scatter of single tests, and the exponent of force by speed."""
+    exponent = table.exponent
+    return {
+        "scatter": table.scatter,
+        "scatter_degrees_of_freedom": table.freedom,
+        "exponent": None if exponent is None else exponent.value,
+        "exponent_standard_error": None if exponent is None else exponent.uncertainty,
+    }
+
+
+def tests_record(found: Any, table: Any, radius: float | None) -> dict[str, Any]:
+    """Return cycles and rejections of a survey of tack tests, and its table of repeats."""
     tests = [
         {
             "file": one.record.source.path,
             "sha256": one.record.source.sha256,
             "format": one.record.source.format,
             "cycles": [
-                cycle_row(cycle) | {"notes": list(cycle.source.notes)} for cycle in one.cycles
+                cycle_row(cycle, radius) | {"notes": list(cycle.source.notes)}
+                for cycle in one.cycles
             ],
             "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
         }
         for one in found.evaluations
     ]
     unread = [{"file": one.path, "reason": one.reason} for one in found.unread]
-    return {"tests": tests, "unread": unread}
+    return {
+        "tests": tests,
+        "unread": unread,
+        "repeats": repeat_rows(table, radius),
+        **series_record(table),
+    }
 
 
 def slow_record(fit: Any) -> dict[str, Any]:
@@ -129,6 +187,13 @@ def rates_record(fit: Any) -> dict[str, Any]:
         "growth": None if fit.growth is None else _growth_record(fit.growth),
         "words": list(fit.words),
     }
+
+
+def forecast_rows(forecast: Any) -> list[dict[str, float]]:
+    """Return a row for each speed of a forecast."""
+    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
+    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
+    return [dict(zip(names, map(float, row), strict=True)) for row in columns]
 
 
 def _growth_record(found: Any) -> dict[str, Any]:

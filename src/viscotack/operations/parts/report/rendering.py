@@ -4,6 +4,7 @@ Its words and their order stand in ``page.html``, its looks in ``page.css``.
 """
 
 import io
+from base64 import b64encode
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,17 +12,21 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.identify import RateForecast
+from viscotack.identify.speed_table import SpeedTable, jkr_work, speed_table
 from viscotack.identify.study import Answer
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.materials.passport_words import in_words
 from viscotack.units import readable
 from viscotack.version import __version__
 
+from ..records import cycle_row, forecast_rows, repeat_rows
+from ..tables import Writer, rows_as_csv
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _FOLDER = Path(__file__).parent
-_MOST_CURVES = 12  # cycles in the picture of curves
+_MOST_CURVES = 12  # of the picture of curves
 _MOST_ROWS = 13  # of the table of the forecast
 
 
@@ -41,13 +46,13 @@ def page(found: Answer, forecast: RateForecast) -> str:
         raise InputError(
             "a report needs Jinja2; install it with: pip install 'viscotack[lab]'"
         ) from error
-    from viscotack.pictures.identify import draw_posterior, draw_rate_series
+    from viscotack.pictures.identify import draw_fitted_curves, draw_posterior, draw_rate_series
     from viscotack.pictures.tack import draw_tests
 
     shelf = Environment(
         loader=FileSystemLoader(_FOLDER), autoescape=True, undefined=StrictUndefined
     )
-    fit = found.fit
+    fit, repeats = found.fit, speed_table(found.survey.cycles)
     return shelf.get_template("page.html").render(
         style=(_FOLDER / "page.css").read_text(),
         version=__version__,
@@ -55,7 +60,11 @@ def page(found: Answer, forecast: RateForecast) -> str:
         notes=found.study.notes,
         words=fit.words,
         cautions=forecast.words,
-        facts=_facts(found),
+        facts=[*_facts(found), *_as_reported(found, repeats)],
+        solutions=_solutions(found),
+        repeats=_repeats(repeats, found.study.radius),
+        far=[f"{Path(x.source.path).name} cycle {x.number}" for y in repeats.speeds for x in y.far],
+        tables=_tables(found, repeats, forecast),
         tests=_tests(found),
         refused=found.survey.reasons,
         decisions=_decisions(found),
@@ -65,7 +74,8 @@ def page(found: Answer, forecast: RateForecast) -> str:
         level=f"{fit.level:.0%}",
         theory=f"{100 * fit.theory:.3g} %",
         material=in_words(fit.passport),
-        curves=_drawing(draw_tests(found.survey.cycles[:_MOST_CURVES])),
+        curves=_drawing(draw_tests(found.survey.cycles, _MOST_CURVES)),
+        fitted=_drawing(draw_fitted_curves(fit, found.survey.cycles)),
         speeds=_drawing(draw_rate_series(fit, forecast)),
         posterior=_drawing(draw_posterior(forecast.posterior, fit)),
     )
@@ -90,6 +100,77 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
         ("residuals over their uncertainty", f"{fit.scatter:.2g}"),
         ("scatter from speed to speed beyond that", f"{fit.between_speeds:.2g}"),
     ]
+
+
+def _as_reported(found: Answer, repeats: SpeedTable) -> list[tuple[str, str]]:
+    """Return scatter of single tests, power law of force by speed, and comparison with JKR."""
+    rows = []
+    if repeats.scatter is not None:
+        rows.append(
+            ("scatter of single tests, pooled over speeds", f"{100 * repeats.scatter:.2g} %")
+        )
+    if repeats.exponent is not None:
+        exponent = f"{repeats.exponent.value:.3g} ± {repeats.exponent.uncertainty:.1g}"
+        rows.append(("exponent of a power law of force by speed", exponent))
+    slowest = repeats.speeds[0]
+    work = jkr_work(slowest.force, found.study.radius)
+    over = work / found.fit.work_of_adhesion
+    at = _text(slowest.speed, "m/s", digits=3)
+    comparison = f"{_text(work, 'J/m2', digits=3)}, {over:.3g} times the work of adhesion above"
+    return [*rows, (f"JKR work of adhesion 2F/(3πR) at {at}", comparison)]
+
+
+def _solutions(found: Answer) -> list[tuple[str, ...]]:
+    """Return the separate interfaces that fit the forces; empty if there is one."""
+    several = found.fit.solutions
+    if len(several) < 2:
+        return []
+    return [
+        (
+            _text(one.values["work_of_adhesion"], "J/m2", digits=3),
+            _text(one.values["equilibrium_gap"], "m", digits=3),
+            f"{np.exp((several[0].misfit - one.misfit) / 2):.2g}",
+        )
+        for one in several
+    ]
+
+
+def _repeats(repeats: SpeedTable, radius: float) -> list[tuple[str, ...]]:
+    return [
+        (
+            _text(one.speed, "m/s", digits=3),
+            str(len(one.cycles)),
+            *_mean(one.force, one.force_deviation, "N"),
+            *_mean(one.work, one.work_deviation, "J"),
+            _text(jkr_work(one.force, radius), "J/m2", digits=3),
+        )
+        for one in repeats.speeds
+    ]
+
+
+def _mean(value: float, deviation: float | None, unit: str) -> tuple[str, str]:
+    """Return a mean and a standard deviation; a dash for that of a single test."""
+    return _text(value, unit), "–" if deviation is None else _text(
+        deviation, unit, digits=2, like=value
+    )
+
+
+def _tables(found: Answer, repeats: SpeedTable, forecast: RateForecast) -> list[tuple[str, str]]:
+    """Return names of tables, and their CSV text as a data link."""
+    radius = found.study.radius
+    cycles = [{"file": x.source.path, **cycle_row(x, radius)} for x in found.survey.cycles]
+    tables = {
+        "cycles": cycles,
+        "repeats": repeat_rows(repeats, radius),
+        "forecast": forecast_rows(forecast),
+    }
+    return [(name, _link(rows_as_csv(rows))) for name, rows in tables.items()]
+
+
+def _link(write: Writer) -> str:
+    stream = io.BytesIO()
+    write(stream)
+    return f"data:text/csv;base64,{b64encode(stream.getvalue()).decode()}"
 
 
 def _growth(found: Answer) -> list[tuple[str, str]]:

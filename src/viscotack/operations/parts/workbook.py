@@ -1,0 +1,106 @@
+"""Tables as an XLSX workbook: units in the headings, SI prefixes by size."""
+
+import io
+import re
+from collections.abc import Mapping, Sequence
+from statistics import median
+from typing import TYPE_CHECKING, Any
+
+from viscotack.errors import InputError
+from viscotack.units import prefixed
+
+from .tables import Writer
+
+if TYPE_CHECKING:
+    from viscotack.files.whole import Target
+
+Rows = Sequence[Mapping[str, Any]]
+# Names of columns such as pull_off_force_N or pull_off_force_N_uncertainty.
+_UNITS = {"J_m2": "J/m2", "m_s": "m/s", "N": "N", "J": "J", "m": "m", "s": "s"}
+_NAME = re.compile(
+    rf"(.+?)_({'|'.join(_UNITS)})(?:_(uncertainty|mean|weighted_mean|standard_deviation))?"
+)
+_SPELLED = {"pull off": "pull-off", "jkr": "JKR"}
+_WIDEST = 60  # characters of a column
+# Control characters are not allowed in the XML of a workbook.
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+
+
+def as_workbook(sheets: Mapping[str, Rows]) -> Writer:
+    """Return a function that writes a workbook with a sheet for each table that has rows.
+
+    Numbers are in SI; a column whose name ends with a unit is divided by the prefix of its median,
+    together with its uncertainty, mean and deviation.
+    """
+
+    def write(target: "Target") -> None:
+        from viscotack.files.whole import write_whole
+
+        write_whole(target, _content(sheets))
+
+    return write
+
+
+def _content(sheets: Mapping[str, Rows]) -> bytes:
+    try:
+        from openpyxl import Workbook
+        from openpyxl.styles import Font
+    except ImportError as error:
+        raise InputError(
+            "a workbook needs openpyxl; install it with: pip install 'viscotack[lab]', or write "
+            "a CSV table"
+        ) from error
+    book = Workbook()
+    del book["Sheet"]
+    for title, rows in sheets.items():
+        if not rows:
+            continue
+        sheet = book.create_sheet(title)
+        sheet.freeze_panes = "A2"
+        for number, (heading, values) in enumerate(headed(rows).items(), start=1):
+            for line, value in enumerate((heading, *values), start=1):
+                cell = sheet.cell(line, number)
+                text = isinstance(value, str)
+                cell.value = _CONTROL.sub("?", value) if text else value
+                if text:
+                    # text that begins with = is no formula
+                    cell.data_type = "s"
+            head = sheet.cell(1, number)
+            head.font = Font(bold=True)
+            longest = max(len(x) for x in (heading, *values) if isinstance(x, str))
+            sheet.column_dimensions[head.column_letter].width = min(longest + 2, _WIDEST)
+    stream = io.BytesIO()
+    book.save(stream)
+    return stream.getvalue()
+
+
+def headed(rows: Rows) -> dict[str, list[Any]]:
+    """Return the columns of a table by headings with units, numbers divided by their prefixes."""
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    found = {}
+    for name, values in columns.items():
+        match = _NAME.fullmatch(name)
+        if match is None:
+            found[_words(name)] = values
+            continue
+        quantity, unit, more = match.groups()
+        factor, written = prefixed(_size(columns, f"{quantity}_{unit}"), _UNITS[unit])
+        heading = _words(" ".join(filter(None, (quantity, more))))
+        scaled = [None if value is None else value / factor for value in values]
+        found[f"{heading} [{written}]"] = scaled
+    return found
+
+
+def _size(columns: Mapping[str, list[Any]], quantity: str) -> float:
+    """Return the median size of the first column of a quantity, rounded; 0 without a number."""
+    values = next(values for name, values in columns.items() if name.startswith(quantity))
+    sizes = [abs(value) for value in values if value]
+    # 999.9997 nm/s is written as 1 um/s
+    return float(f"{median(sizes):.3g}") if sizes else 0.0
+
+
+def _words(name: str) -> str:
+    words = name.replace("_", " ")
+    for plain, spelled in _SPELLED.items():
+        words = words.replace(plain, spelled)
+    return words

@@ -1,0 +1,159 @@
+"""Tables of rig tests: a folder of files, statistics by speed, workbook, comparison with JKR."""
+
+import csv
+import json
+import shutil
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from command_line import exit_status
+from viscotack.errors import InputError
+from viscotack.identify.speed_table import jkr_work, speed_table
+from viscotack.lab.tack import Measured, survey
+from viscotack.operations.parts.workbook import as_workbook, headed
+from viscotack.pictures.tack import draw_tests
+from viscotack.theory import jkr
+
+RIG = Path(__file__).parents[1] / "examples" / "from_rig"
+
+
+@pytest.fixture(scope="module")
+def cycle():
+    (one,) = survey([RIG / "lens_30_um_s.csv"]).cycles
+    return one
+
+
+def repeated(cycle, speed, forces):
+    """Return copies of a cycle with a speed and pull-off forces."""
+    one = replace(cycle, speed=Measured(speed, 0.0))
+    return [replace(one, pull_off_force=Measured(force, 0.01 * force)) for force in forces]
+
+
+def test_repeats_have_means_deviations_and_the_exponent_of_a_power_law(cycle):
+    speeds = np.array([1e-6, 1e-5, 1e-4, 1e-3])
+    rows = [repeated(cycle, v, 4e-3 * (v / 1e-6) ** 0.2 * np.array([0.98, 1.02])) for v in speeds]
+    single = repeated(cycle, 1e-2, [4e-3 * 1e4**0.2])
+    found = speed_table([*single, *rows[2], *rows[0], *rows[3], *rows[1]])
+    assert [one.speed for one in found.speeds] == pytest.approx([*speeds, 1e-2])
+    first, last = found.speeds[0], found.speeds[-1]
+    assert first.force == pytest.approx(4e-3)
+    assert first.force_deviation == pytest.approx(4e-3 * 0.02 * np.sqrt(2))
+    assert last.force_deviation is None and last.work_deviation is None
+    assert found.exponent is not None and found.freedom == 4
+    assert found.exponent.value == pytest.approx(0.2, abs=1e-3)
+    assert found.exponent.uncertainty < 1e-3
+    assert speed_table([*rows[0], *single]).exponent is None
+    assert speed_table(single).scatter is None
+
+
+def test_the_standard_error_of_the_exponent_is_that_of_a_straight_line(cycle):
+    speeds, forces = np.array([1e-6, 1e-5, 1e-4, 1e-3]), np.array([4e-3, 6.4e-3, 9e-3, 16e-3])
+    found = speed_table([repeated(cycle, v, [P])[0] for v, P in zip(speeds, forces, strict=True)])
+    line, spread = np.polyfit(np.log(speeds), np.log(forces), 1, cov=True)
+    assert found.exponent is not None
+    assert found.exponent.value == pytest.approx(line[0])
+    assert found.exponent.uncertainty == pytest.approx(np.sqrt(spread[0, 0]))
+
+
+def test_the_work_of_jkr_is_that_of_its_pull_off():
+    force = float(jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.152))
+    assert jkr_work(force, 5e-3) == pytest.approx(0.152)
+    assert jkr_work(force, 5e-3) == pytest.approx(2 * force / (3 * np.pi * 5e-3))
+
+
+def test_columns_have_units_and_the_prefix_of_their_median():
+    rows = [
+        {"file": "a", "speed_m_s": 0.9999997e-6, "pull_off_force_N": 4e-3, "noise_N": None},
+        {"file": "b", "speed_m_s": 3e-5, "pull_off_force_N": 5e-3, "noise_N": 2e-6},
+        {"file": "c", "speed_m_s": 1e-3, "pull_off_force_N": 9e-3, "noise_N": 3e-6},
+    ]
+    rows = [row | {"pull_off_force_N_uncertainty": 1e-5} for row in rows]
+    found = headed(rows)
+    assert list(found) == [
+        "file",
+        "speed [um/s]",
+        "pull-off force [mN]",
+        "noise [uN]",
+        "pull-off force uncertainty [mN]",
+    ]
+    assert found["speed [um/s]"] == pytest.approx([0.9999997, 30, 1000])
+    assert found["pull-off force uncertainty [mN]"] == pytest.approx(3 * [0.01])
+    assert found["noise [uN]"] == [None, pytest.approx(2), pytest.approx(3)]
+    (heading,) = headed([{"work_J": 0.0}, {"work_J": None}])
+    assert heading == "work [J]"
+
+
+def test_a_workbook_without_openpyxl_names_the_package(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    with pytest.raises(InputError, match=r"pip install 'viscotack\[lab\]'"):
+        as_workbook({"cycles": [{"a": 1}]})(tmp_path / "book.xlsx")
+
+
+def test_text_in_a_workbook_is_no_formula(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    as_workbook({"cycles": [{"file": "=1+1\x07.csv"}], "refused": []})(tmp_path / "book.xlsx")
+    book = openpyxl.load_workbook(tmp_path / "book.xlsx")
+    assert book.sheetnames == ["cycles"]
+    cell = book["cycles"]["A2"]
+    assert (cell.value, cell.data_type) == ("=1+1?.csv", "s")
+
+
+def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
+    openpyxl = pytest.importorskip("openpyxl")
+    folder = tmp_path / "rig"
+    (folder / "inside").mkdir(parents=True)
+    for name in ("1", "30", "1000"):
+        shutil.copy(RIG / f"lens_{name}_um_s.csv", folder)
+    shutil.copy(RIG / "lens_1_um_s.csv", folder / "repeated.csv")
+    (folder / "notes.txt").write_text("nothing measured\n")
+    (folder / ".hidden").write_text("nothing measured\n")
+    book, table = tmp_path / "tests.xlsx", tmp_path / "repeats.csv"
+    curves = tmp_path / "curves.csv"
+    words = ["--radius", "5.19 mm", "--xlsx", book, "--repeats", table, "--curves", curves]
+    assert exit_status(["test", "read", folder, *words]) == 0
+    said = capsys.readouterr().out
+    assert "4 cycles, 1 refused" in said
+    assert (
+        "1 um/s: 4.21 mN, standard deviation 0 mN of 2 tests, JKR work of adhesion 172 mJ/m2"
+        in (said)
+    )
+    assert "exponent of force by speed 0.138, standard error 0.01" in said
+    rows = list(csv.DictReader(table.read_text().splitlines()))
+    assert [row["tests"] for row in rows] == ["2", "1", "1"]
+    assert float(rows[0]["jkr_work_of_adhesion_J_m2"]) == pytest.approx(0.1721, rel=1e-3)
+    columns = list(csv.DictReader(curves.read_text().splitlines()))
+    heads = list(columns[0])
+    assert len(heads) == 8 and heads[0] == "depth [m] 1: lens_1_um_s.csv cycle 1, 1 um/s"
+    fastest = [float(row[heads[-1]]) for row in columns if row[heads[-1]]]
+    # the pull-off is that of a parabola, within the noise of a point
+    assert min(fastest) == pytest.approx(-10.9e-3, rel=5e-3)
+    sheets = openpyxl.load_workbook(book)
+    assert sheets.sheetnames == ["cycles", "repeats", "series", "refused"]
+    assert sheets["cycles"].max_row == 5 and sheets["refused"].max_row == 2
+    heading, *forces = (cell.value for cell in sheets["repeats"]["C"])
+    assert heading == "pull-off force mean [mN]"
+    assert forces == pytest.approx([1e3 * float(row["pull_off_force_N_mean"]) for row in rows])
+    assert exit_status(["test", "read", folder, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert len(answer["repeats"]) == 3 and "jkr_work_of_adhesion_J_m2" not in answer["repeats"][0]
+    assert answer["exponent"] == pytest.approx(0.138, abs=1e-3)
+    assert exit_status(["test", "read", tmp_path / "rig" / "inside"]) == 2
+    assert "contains no file" in capsys.readouterr().err
+
+
+def test_curves_are_labelled_by_speed(cycle):
+    same = repeated(cycle, 1.331e-6, [4.30e-3, 4.32e-3])
+    figure = draw_tests([*repeated(cycle, 1e-3, [9e-3]), *same])
+    legend = figure.axes[0].get_legend()
+    assert legend is not None
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert texts == ["1.33 µm/s: 4.31 mN (2 tests)", "1 mm/s: 9 mN"]
+    colours = [line.get_color() for line in figure.axes[0].lines[:5:2]]
+    assert np.all(colours[0] == colours[1]) and np.any(colours[1] != colours[2])
+    few = draw_tests([*same, *repeated(cycle, 1e-3, [9e-3])], most=2)
+    # two curves with their pull-offs, two keys of the legend and the line at zero
+    assert len(few.axes[0].lines) == 7
