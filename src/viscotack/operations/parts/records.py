@@ -126,8 +126,20 @@ def rates_record(fit: Any) -> dict[str, Any]:
             }
             for one, force in zip(fit.series, fit.forces, strict=True)
         ],
+        "layer": _layer_record(fit.forward.body),
         "growth": None if fit.growth is None else _growth_record(fit.growth),
         "words": list(fit.words),
+    }
+
+
+def _layer_record(body: Any) -> dict[str, Any] | None:
+    """Return thickness and base of a layer, None for a half-space."""
+    if body.word != "layer":
+        return None
+    return {
+        "thickness_m": body.thickness,
+        "base": body.base.word,
+        "poisson_ratio": body.poisson_ratio,
     }
 
 
