@@ -1,6 +1,7 @@
 """The interface from a rate series on a layer: truth found, validity stated, the rest refused."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -107,6 +108,14 @@ def test_the_interval_of_a_simulated_series_on_a_layer_holds_the_truth():
     for name, value in (("work_of_adhesion", WORK), ("equilibrium_gap", gap)):
         ends = fit.intervals[name]
         assert ends.low < value < ends.high < 10 * ends.low
+
+
+def test_a_similar_solid_on_a_layer_has_almost_its_own_forces():
+    solid, body = replace(RUBBER, glassy_modulus=1.1e7), layer(0.5)
+    near = Forward(RUBBER, RADIUS, body=body).beside(solid).pulled(WORK, GAP, SPEEDS, PRELOAD)
+    own = Forward(solid, RADIUS, body=body).pulled(WORK, GAP, SPEEDS, PRELOAD)
+    assert near.force == pytest.approx(own.force, rel=0.01)
+    assert near.through == pytest.approx(own.through, rel=0.03)
 
 
 def test_the_error_of_the_theory_grows_on_thin_layers():

@@ -150,8 +150,8 @@ class Forward:
         unknown = [name for name, given in cases.items() if given]
         if isinstance(self.body, Layer) and unknown:
             raise InputError(
-                f"on a layer, {' and '.join(unknown)} cannot be taken into account; only pull-off "
-                "forces of relaxed contacts and a stiff machine"
+                f"on a layer, {' and '.join(unknown)} cannot be taken into account: the theory "
+                "covers pull-off forces of relaxed contacts with a stiff machine only"
             )
 
     def problem(
