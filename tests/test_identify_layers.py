@@ -92,7 +92,7 @@ def test_forces_without_noise_give_back_the_interface_on_a_layer(thickness, base
 @pytest.mark.slow
 def test_the_interval_of_a_simulated_series_on_a_layer_holds_the_truth():
     gap = BETA**2 / RADIUS / 8.0  # Tabor number 8
-    body, speeds = layer(1.0), np.geomspace(1e-5, 1e-3, 3)
+    body, load, speeds = layer(1.0), 5 * PRELOAD, np.geomspace(1e-5, 1e-3, 3)
     found = []
     for speed in speeds:
         problem = vt.Problem(
@@ -100,14 +100,16 @@ def test_the_interval_of_a_simulated_series_on_a_layer_holds_the_truth():
             traction=vt.LennardJones(work_of_adhesion=WORK, equilibrium_gap=gap),
             geometry=vt.Sphere(radius=RADIUS),
             body=body,
-            protocol=vt.Retraction(start=vt.AtForce(PRELOAD), speed=float(speed)),
+            protocol=vt.Retraction(start=vt.AtForce(load), speed=float(speed)),
         )
         run = vt.solve(problem, until="pull-off", accuracy=5e-3, estimate_error=False)
         found.append(run.pull_off_force * 1.5 * np.pi * RADIUS * WORK)
-    fit = identify_rates(series(found, 0.01, speeds), body=body, **CASE)
+    fit = identify_rates(series(found, 0.01, speeds), body=body, **CASE | {"preload": load})
+    assert len(fit.series) == len(speeds)
     for name, value in (("work_of_adhesion", WORK), ("equilibrium_gap", gap)):
         ends = fit.intervals[name]
-        assert ends.low < value < ends.high < 10 * ends.low
+        assert ends.low < value < ends.high < 2 * ends.low
+    assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.05)
 
 
 def test_a_similar_solid_on_a_layer_has_almost_its_own_forces():
