@@ -3,8 +3,10 @@
     python benchmarks/films.py [--plot FILE.png] [--map FILE.png]
 
 Prints, for films of a standard solid, the simulated pull-off force and how far the theory of a
-crack that recedes on the film is from it (`theory.crack.contact.recede`, short range), beside the
-error that `advise` states. `--plot` draws both; `--map` draws JKR on films, without simulation.
+crack that recedes on the film is from it (`theory.crack.contact.recede`, short range), and of the
+forward model of `identify rates` (the same with a correction for the range), beside the errors that
+`advise` and `identify rates` state. `--plot` draws both; `--map` draws JKR on films, without
+simulation.
 """
 
 import argparse
@@ -14,6 +16,7 @@ from typing import Any
 import numpy as np
 
 import viscotack as vt
+from viscotack.identify.forward import Forward
 from viscotack.theory import SteadyCrack, film
 from viscotack.theory.crack.contact import profile_on, recede
 
@@ -22,6 +25,7 @@ SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poi
 LAW = vt.LennardJones(1.0, 1.0)
 BALL = vt.Sphere(1.0)
 UNITS: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+_THEORY = 0.03  # of identify rates on a layer
 ROOT, LOAD = np.pi ** (1 / 3), 1.5 * np.pi
 GLUED, SLIDING = vt.Bonded(poisson_ratio=0.49), vt.Frictionless()
 SQUEEZED, MIDDLE = vt.Bonded(poisson_ratio=0.5), vt.Bonded(poisson_ratio=0.3)
@@ -34,10 +38,12 @@ def body_of(thickness: float, base: vt.Bonded | vt.Frictionless) -> vt.HalfSpace
     return vt.HalfSpace() if np.isinf(thickness) else vt.Layer(thickness, base)
 
 
-def case(body: Any, rate: float, tabor: float = TABOR, ratio: float = 0.1) -> vt.Groups:
+def case(
+    body: Any, rate: float, tabor: float = TABOR, ratio: float = 0.1, start: float = START
+) -> vt.Groups:
     """Return a retraction from a relaxed contact, the rate in mu h0 per time unit."""
     solid = replace(SOLID, glassy_modulus=1 / ratio)
-    return vt.Groups(tabor, solid, vt.AtRadius(START / ROOT), rate * tabor, body=body)
+    return vt.Groups(tabor, solid, vt.AtRadius(start / ROOT), rate * tabor, body=body)
 
 
 def simulated(groups: vt.Groups) -> float:
@@ -53,6 +59,19 @@ def by_crack(body: Any, rates: Any) -> Any:
     crack, profile = SteadyCrack(SOLID, LAW), profile_on(BALL, body)
     found = recede(crack, profile, **dict(zip(names, given, strict=True)))
     return -found.force.min(axis=0) / LOAD
+
+
+def by_forward(groups: vt.Groups) -> tuple[float, float | None]:
+    """Return the force of the forward model of `identify rates`, and its error if it applies."""
+    solid: Any = groups.material
+    body: Any = groups.body
+    forward = Forward(solid, 1.0, body=body)
+    assert groups.rate is not None and isinstance(groups.start, vt.AtRadius)
+    load = profile_on(BALL, body).relaxed_force(groups.start.contact_radius * ROOT)
+    case = 1.0, 1 / groups.tabor, np.array([groups.rate / groups.tabor]), np.array([load])
+    found = forward.changed(case[0], case[1], case[2], case[3])
+    error = None if found.refused else _THEORY + float(forward.layer_error(*case)[0])
+    return float(forward.pulled(*case).force[0]) / LOAD, error
 
 
 def grid() -> dict[float, list[float]]:
@@ -76,19 +95,39 @@ def judge(forces: dict[float, list[float]]) -> None:
     others += [(GLUED, 3.0, 5.0, 0.1, rate) for rate in RATES[1:4]]
     cases = [case(body_of(b, base), rate, mu, k) for base, b, mu, k, rate in others]
     found += [(each, simulated(each)) for each in cases]
-    held = []
+    held, identified = [], []
     for groups, force in found:
         row = next(e for e in vt.advise(groups).estimates if e.tier == "receding crack")
         assert groups.rate is not None
         off = (row.pull_off_force or np.nan) / force - 1
         error = f"stated {row.error:.1%}" if row.error is not None else "does not apply"
         held += [abs(off) <= row.error] if row.error is not None else []
+        other, stated = by_forward(groups)
+        if stated is not None:
+            identified.append(abs(other / force - 1) <= stated)
         print(
             f"{groups.body}, mu {groups.tabor:g}, k {groups.modulus_ratio:.2g}, rate "
-            f"{groups.rate / groups.tabor:g} mu: {force:.3f}, theory {off:+.1%}, {error}",
+            f"{groups.rate / groups.tabor:g} mu: {force:.3f}, theory {off:+.1%}, {error}; "
+            f"of identify {other / force - 1:+.1%}, "
+            + ("does not apply" if stated is None else f"stated {stated:.1%}"),
             flush=True,
         )
-    print(f"{len(found)} cases, {len(held)} to which it applies, {sum(held)} within its error")
+    for name, inside in (("advise", held), ("identify", identified)):
+        print(f"{name}: of {len(found)} applies to {len(inside)}, {sum(inside)} within its error")
+
+
+def judge_small_starts() -> None:
+    """Print the error of the forward model for starts little larger than the pull-off.
+
+    The edge travels 12 to 29 zones.
+    """
+    rows = [(1.0, 3.0, 30.0, 0.1, 2.73), (3.0, 0.3, 30.0, 0.1, 2.4)]
+    rows += [(2.0, 0.3, 40.0, 0.03, 2.73), (2.0, 1.0, 30.0, 0.03, 2.73)]
+    for b, *other in rows:
+        groups = case(body_of(b, GLUED), *other)
+        (found, error), force = by_forward(groups), simulated(groups)
+        stated = "does not apply" if error is None else f"stated {error:.1%}"
+        print(f"{b:g} beta, start {other[-1]:g} beta: {found / force - 1:+.1%}, {stated}")
 
 
 def draw(forces: dict[float, list[float]], path: str) -> None:
@@ -170,6 +209,7 @@ def main() -> None:
     if asked.plot:
         draw(forces, asked.plot)
     judge(forces)
+    judge_small_starts()
 
 
 if __name__ == "__main__":

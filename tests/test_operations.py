@@ -83,7 +83,7 @@ NOT_DRAWN = {
     "campaign verify": [{"folder": "study"}],
     "edge-energy": [{"file": "lens.npz"}],
     "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
-    "identify rates": [RATES],
+    "identify rates": [RATES, RATES | {"thickness": "300 um", "bonded": 0.49}],
     "material fit": [DMA | SHIFTED],
     "report": [{"study": "study.toml"}],
     "show": [{"file": "lens.npz"}],
@@ -227,6 +227,14 @@ def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, http, mo
     found = through_all(question, http)
     agree(question, found)
     assert found["Python"].refused == f"a rig of {tack_files.STIFFNESS:g} N/m"
+
+
+def test_every_door_refuses_a_compliant_rig_on_a_layer(folder, http):
+    given = RATES | {"thickness": "300 um", "bonded": 0.49, "compliance": "2 um/N"}
+    question = Question("identify rates", given)
+    found = through_all(question, http)
+    agree(question, found)
+    assert found["Python"].refused.startswith("on a layer, a compliant machine cannot be")
 
 
 def test_a_number_is_that_of_its_words(folder):

@@ -34,10 +34,11 @@ from .closed_forms import Estimate
 # Differences from the half-space for which a thickness is stated.
 TOLERANCES = (0.1, 0.05, 0.01)
 # Error of the receding crack on a film: a constant, and a factor of l a/b^2, which is limited.
-_ERROR, _BY_ZONE, _MOST_ZONE = 0.03, 0.07, 0.5
+_ERROR, ERROR_BY_ZONE, MOST_ZONE = 0.03, 0.07, 0.5
 # Smallest Tabor number over the cube root of the energy at pull-off, as simulated; smallest start
-# over the radius at pull-off; smallest modulus ratio.
-_LEAST_TABOR, _LEAST_START, _LEAST_RATIO = 2.9, 1.2, 0.03
+# over the radius at pull-off, or travel of the edge in zone lengths; smallest modulus ratio.
+_LEAST_ZONES = 10.0
+_LEAST_TABOR, _LEAST_START, LEAST_RATIO = 2.9, 1.2, 0.03
 # Length of the zone of a relaxed edge [beta], times the squared Tabor number.
 _REST_ZONE = 0.75
 # Part of the fast force at which the gain is called saturated, and rates [beta^2/R per time unit]
@@ -179,7 +180,7 @@ def other_contact(groups: Groups) -> OtherContact:
         over_half_space=over,
         radius_over_thickness=edge / body.thickness if layer else None,
         half_space_thickness=_thicknesses(groups),
-        reaches_through=layer and _zone(groups) * edge > _MOST_ZONE * body.thickness**2,
+        reaches_through=layer and _zone(groups) * edge > MOST_ZONE * body.thickness**2,
         film_strain=_strain(groups, start),
         saturation_rate=rates[0],
         half_space_saturation_rate=rates[1],
@@ -242,8 +243,8 @@ def _case(groups: Groups, radius: float | None) -> str:
         return "the profile may have several edges"
     if radius is None:
         return "JKR has no contact at the start"
-    if groups.modulus_ratio < _LEAST_RATIO:
-        return f"compared with simulations for modulus ratios from {_LEAST_RATIO:g} on"
+    if groups.modulus_ratio < LEAST_RATIO:
+        return f"compared with simulations for modulus ratios from {LEAST_RATIO:g} on"
     return ""
 
 
@@ -272,28 +273,46 @@ def _receding(
 def _outside(groups: Groups, radius: float, energy: float, edge: float) -> tuple[str, float]:
     """Return why the theory does not hold at a pull-off, or "", and its error."""
     effective = groups.effective_tabor * max(energy, 1.0) ** (-1 / 3)
+    through = 0.0
+    if isinstance(groups.body, Layer):
+        crack = SteadyCrack(groups.material, groups.traction)
+        zone = crack.zone_length * energy / groups.tabor**2
+        through = zone * edge / groups.body.thickness**2
+    why = outside(effective, radius / edge, through)
+    return why, np.inf if why else _ERROR + ERROR_BY_ZONE * through
+
+
+def outside(effective: float, start: float, through: float, zones: float = 0.0) -> str:
+    """Return why the theory of a receding crack does not hold at a pull-off, or "".
+
+    Parameters
+    ----------
+    effective : float
+        Effective Tabor number at the energy of the edge.
+    start : float
+        Contact radius of the start over that at pull-off.
+    through : float
+        Length of the cohesive zone times contact radius over the squared thickness of a film; 0 on
+        a half-space.
+    zones : float
+        Travel of the edge until pull-off in lengths of the cohesive zone, if known.
+    """
     if effective < _LEAST_TABOR:
-        why = (
+        return (
             f"the cohesive zone is too long: effective Tabor number {effective:.3g} at the energy "
             f"of the edge, valid from {_LEAST_TABOR:g}"
         )
-        return why, np.inf
-    if radius < _LEAST_START * edge:
-        why = f"the start is {radius / edge:.3g} times the radius at pull-off, valid from "
-        return f"{why}{_LEAST_START:g} times", np.inf
-    if not isinstance(groups.body, Layer):
-        return "", _ERROR
-    crack = SteadyCrack(groups.material, groups.traction)
-    zone = crack.zone_length * energy / groups.tabor**2
-    through = zone * edge / groups.body.thickness**2
-    if through > _MOST_ZONE:
-        why = (
+    if start < _LEAST_START and zones < _LEAST_ZONES:
+        why = f"the start is {start:.3g} times the radius at pull-off, valid from "
+        why += f"{_LEAST_START:g} times"
+        return why + (f" or {_LEAST_ZONES:g} zone lengths, not {zones:.2g}" if zones else "")
+    if through > MOST_ZONE:
+        return (
             "the film is too thin for the range of the forces: zone length times contact radius "
-            f"is {through:.2g} times the squared thickness, valid up to {_MOST_ZONE:g}; the force "
+            f"is {through:.2g} times the squared thickness, valid up to {MOST_ZONE:g}; the force "
             "is an upper limit"
         )
-        return why, np.inf
-    return "", _ERROR + _BY_ZONE * through
+    return ""
 
 
 def _recede(groups: Groups, radius: float, rates: Array, radii: int = 160) -> tuple[Array, ...]:

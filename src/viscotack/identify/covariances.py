@@ -87,7 +87,11 @@ def covariance(rows: Array) -> Array:
     return away.T @ away / (len(rows) - 1)
 
 
-def theory_covariance(speed: Array, theory: float) -> Array:
-    """Return the covariance of the theory's relative error, correlated between near speeds."""
+def theory_covariance(speed: Array, theory: float | Array) -> Array:
+    """Return the covariance of the theory's relative error, correlated between near speeds.
+
+    The error is one number, or one for each speed.
+    """
     apart = np.abs(np.subtract.outer(np.log(speed), np.log(speed)))
-    return theory**2 * np.exp(-apart / _TOGETHER)
+    error = np.broadcast_to(theory, speed.shape)
+    return np.multiply.outer(error, error) * np.exp(-apart / _TOGETHER)

@@ -267,16 +267,18 @@ def _together(
 ) -> Array:
     """Return the joint covariance of theory and material over measured and predicted speeds."""
     speed = np.concatenate([measured[0], wanted[0]])
-    spread = theory_covariance(speed, theory)
+    w, gap = fit.work_of_adhesion, fit.equilibrium_gap
+    load = np.full(wanted[0].size, wanted[1])
+    known = fit.forward.beside(passport.material)
+    both = ((fit.forward, *measured), (known, wanted[0], load))
+    more = [forward.layer_error(w, gap, v, preload) for forward, v, preload in both]
+    spread = theory_covariance(speed, theory + np.concatenate(more))
     solids = allowed(fit.passport)
     if not solids:
         return spread
     moved = allowed(passport) if passport.allowed else _slowed(fit.passport, passport, solids)
-    w, gap = fit.work_of_adhesion, fit.equilibrium_gap
-    load = np.full(wanted[0].size, wanted[1])
     law = None if fit.growth is None else fit.growth.law
     first = log_forces(fit.forward, solids, w, gap, *measured, law)
-    known = fit.forward.beside(passport.material)
     second = log_forces(known, moved, w, gap, wanted[0], load, law)
     rows = np.concatenate([first, second], axis=1)
     return spread + covariance(rows)

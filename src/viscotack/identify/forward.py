@@ -15,7 +15,8 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
+from viscotack.forecast.other_contacts import ERROR_BY_ZONE, LEAST_RATIO, outside
+from viscotack.geometry import HalfSpace, Layer, Sphere
 from viscotack.materials import Material
 from viscotack.methods import CrackContact, crack_contact
 from viscotack.methods.by_crack import crack_contacts
@@ -26,6 +27,8 @@ from viscotack.theory.crack.contact import (
     Curves,
     GrowingCracks,
     NeighbourEdges,
+    Profile,
+    SpheresOnLayers,
     profile_of,
     recede,
 )
@@ -74,6 +77,11 @@ class Pulled(NamedTuple):
     energy, interface : ndarray
         Energy per area of the edge at pull-off, and the part dissipated by the interface [works of
         adhesion]; the bulk multiplies by their ratio.
+    edge_radius : ndarray
+        Contact radius at pull-off [m].
+    zone, through : ndarray
+        Length of the cohesive zone at pull-off on a layer [m], and this times the contact radius
+        over the squared thickness; 0 on a half-space.
     """
 
     force: Array
@@ -83,6 +91,9 @@ class Pulled(NamedTuple):
     travels: Array
     energy: Array
     interface: Array
+    edge_radius: Array
+    zone: Array
+    through: Array
 
 
 class _Receded(NamedTuple):
@@ -123,11 +134,36 @@ class Forward:
         Radius of the sphere [m].
     lattice : GrowingCracks, optional
         Cracks of the material for interfaces that grow.
+    body : HalfSpace or Layer
+        What the sphere presses; a layer of the material with its thickness in m.
     """
 
     material: Material
     radius: float
     lattice: GrowingCracks | None = None
+    body: HalfSpace | Layer = HalfSpace()
+
+    def check(
+        self,
+        *,
+        stiffness: float | None = None,
+        moves: tuple[Move, ...] = (),
+        curves: bool = False,
+        growth: bool = False,
+    ) -> None:
+        """Raise an error for what is not known on a layer."""
+        cases = {
+            "a compliant machine": stiffness is not None,
+            "a finite dwell": bool(moves),
+            "whole curves": curves,
+            "an interface that grows with speed": growth,
+        }
+        unknown = [name for name, given in cases.items() if given]
+        if isinstance(self.body, Layer) and unknown:
+            raise InputError(
+                f"on a layer, {' and '.join(unknown)} cannot be taken into account: the theory "
+                "covers pull-off forces of relaxed contacts with a stiff machine only"
+            )
 
     def problem(
         self,
@@ -137,7 +173,10 @@ class Forward:
         speed: float = _SPEED,
         growth: Growth | None = None,
     ) -> Problem:
-        """Return the problem of a test: work [J/m2], h0 [m], preload [N], speed [m/s]."""
+        """Return the problem of a test on a half-space.
+
+        In work [J/m2], h0 [m], preload [N] and speed [m/s].
+        """
         law: Any = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
         if growth is not None:
             v0, n = (float(np.asarray(x)) for x in growth)
@@ -153,6 +192,11 @@ class Forward:
     def crack(self) -> SteadyCrack:
         """Return the steady cracks of the material, shared by all interfaces."""
         return SteadyCrack(self.material.reduced(), LennardJones(1.0, 1.0))
+
+    @property
+    def zone_length(self) -> float:
+        """Length of the cohesive zone at rest [E0* h0^2/dg]."""
+        return self.crack.zone_length
 
     def changed(
         self,
@@ -180,7 +224,11 @@ class Forward:
         growth : Growth, optional
             Growth of the interface.
         """
+        self.check(stiffness=stiffness, moves=moves, growth=growth is not None)
         loads = np.broadcast_to(preload, speed.shape)
+        if isinstance(self.body, Layer):
+            refused = _outside_layer(self.pulled(work, gap, speed, loads))
+            return Changed(np.ones(speed.size), refused)
         problems = [
             self.problem(work, gap, float(load), float(v), growth)
             for v, load in zip(speed, loads, strict=True)
@@ -198,9 +246,15 @@ class Forward:
                 ratio[i] = answer.pull_off_force * unit / rigid[i]  # type: ignore
         return Changed(ratio, refused)
 
+    def layer_error(self, work: float, gap: float, speed: Array, preload: Array) -> Array:
+        """Return the part of the theory's relative error by which it grows on thin layers."""
+        if not isinstance(self.body, Layer):
+            return np.zeros(speed.size)
+        return ERROR_BY_ZONE * self.pulled(work, gap, speed, preload).through
+
     def beside(self, material: Material) -> "Neighbour":
         """Return a fast approximate forward model for a similar material."""
-        return Neighbour(material, self.radius, self.lattice, known=self)
+        return Neighbour(material, self.radius, self.lattice, self.body, known=self)
 
     def edges(self, gap: Array, growth: Growth) -> Any:
         """Return one edge law per case, for its range and growth."""
@@ -260,15 +314,12 @@ class Forward:
     def _receded(self, cases: Sequence[Array], radii: int) -> _Receded:
         w, h0, v, P, *grown = cases
         # without a Problem per case, which rejects interfaces far from the data as large strain
-        modulus, profile = self.material.contact_modulus, profile_of(Sphere(radius=1.0))
+        modulus = self.material.contact_modulus
         mu = (self.radius * w**2 / modulus**2) ** (1 / 3) / h0
         rate = v * self.material.time_unit / h0 / mu
+        beta = (self.radius**2 * w / modulus) ** (1 / 3)
         # relaxed sphere: radii in beta, forces in R dg
-        start = np.asarray(
-            jkr.contact_radius_at_force(
-                P / (self.radius * w), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
-            )
-        )
+        profile, start = self._rest(beta, P / (self.radius * w))
         edge: Any = self.edges(h0, Growth(*grown)) if grown else self.crack
         found = recede(edge, profile, radius=start, rate=rate, tabor=mu, radii=radii)
         energy = np.maximum(found.amplification, 1.0)
@@ -282,9 +333,14 @@ class Forward:
         w, h0, *_ = cases
         found, mu, start, energy, interface, effective = self._receded(cases, radii)
         modulus = self.material.contact_modulus
+        beta = (self.radius**2 * w / modulus) ** (1 / 3)
         tension, pressed = _ranged(found, effective)
         at = np.argmax(tension, axis=0), np.arange(mu.size)
-        beta = (self.radius**2 * w / modulus) ** (1 / 3)
+        radius = found.radius[at] * beta
+        zone = through = np.zeros(mu.size)
+        if isinstance(self.body, Layer):
+            zone = self.zone_length * energy[at] / mu**2 * beta
+            through = zone * radius / self.body.thickness**2
         # heights in beta^2/R
         height = beta**2 / self.radius
         way = travels_of(found.depth[0] - found.depth, pressed, tension[at]) * height[:, None]
@@ -296,7 +352,38 @@ class Forward:
             way,
             energy[at],
             interface[at],
+            radius,
+            zone,
+            through,
         )
+
+    def _rest(self, beta: Array, load: Array) -> tuple[Profile | SpheresOnLayers, Array]:
+        """Return the profile, and the radii [beta] of relaxed contacts under loads [R dg]."""
+        if isinstance(self.body, Layer):
+            layers = SpheresOnLayers(self.body.thickness / beta, self.body.base)
+            return layers, layers.radius_at_force(load)
+        start = jkr.contact_radius_at_force(
+            load, radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
+        )
+        return profile_of(Sphere(radius=1.0)), np.asarray(start)
+
+
+def _outside_layer(pulled: Pulled) -> dict[int, str]:
+    """Map the index of each speed at which the theory does not hold on a layer to the reason."""
+    start = pulled.contact_radius / pulled.edge_radius
+    zones = (pulled.contact_radius - pulled.edge_radius) / pulled.zone
+    found = {}
+    rows = zip(pulled.effective_tabor, start, pulled.through, zones, strict=True)
+    for i, (energy, row) in enumerate(zip(pulled.energy, rows, strict=True)):
+        why = outside(*map(float, row))
+        if energy > 1 / LEAST_RATIO:
+            why = (
+                f"the edge takes {energy:.3g} works of adhesion; compared with simulations on "
+                f"layers up to {1 / LEAST_RATIO:.3g}"
+            )
+        if why:
+            found[i] = why
+    return found
 
 
 def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
@@ -344,6 +431,11 @@ class Neighbour(Forward):
     """Forward model of a material similar to another one with known cracks."""
 
     known: Forward = field(kw_only=True)
+
+    @property
+    def zone_length(self) -> float:
+        """Length of the cohesive zone at rest, which depends on the law alone."""
+        return self.known.zone_length
 
     @cached_property
     def crack(self) -> Any:

@@ -13,7 +13,7 @@ interface without growth.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -167,7 +167,7 @@ def growing(forward: Forward, opening: Opening, gaps: tuple[float, float]) -> Fo
         (min(speeds) / _FASTER, max(speeds) * _FASTER),
         _LATTICE,
     )
-    return Forward(forward.material, forward.radius, lattice)
+    return replace(forward, lattice=lattice)
 
 
 def growth_parameters() -> tuple[Parameter, Parameter]:

@@ -16,10 +16,12 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
+from viscotack.forecast.other_contacts import ERROR_BY_ZONE, MOST_ZONE
+from viscotack.geometry import HalfSpace, Layer
 from viscotack.materials import Material, Passport
 from viscotack.units import readable
 
-from .covariances import allowed, covariance, log_forces
+from .covariances import allowed, covariance, log_forces, theory_covariance
 from .forward import Forward
 from .growth import FoundGrowth, found_growth
 from .interpolated_forces import Table
@@ -38,10 +40,13 @@ from .search import (
 )
 from .solutions import solution_words, solutions
 
-# Relative standard uncertainty of the forward model, without and with growth.
-_THEORY, _GROWING_THEORY = 0.02, 0.03
+# Relative standard uncertainty of the forward model, without and with growth, and on a layer
+# much thicker than the contact.
+_THEORY, _GROWING_THEORY, _LAYER_THEORY = 0.02, 0.03, 0.03
 _LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _MOST = 40  # largest number of speeds
+_OVER = 1.2  # overshoot of the limit on a layer that is left
+_THICK = HalfSpace()
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 
@@ -130,6 +135,7 @@ def identify_rates(
     material: Material | Passport,
     radius: float,
     preload: float | None = None,
+    body: HalfSpace | Layer = _THICK,
     gaps: tuple[float, float] = (0.3e-9, 3e-6),
     work_of_adhesion: tuple[float, float] | None = None,
     stiffness: float | None = None,
@@ -152,6 +158,9 @@ def identify_rates(
         Radius of the sphere [m].
     preload : float, optional
         Force under which all contacts relaxed [N]; by default that of each pull-off.
+    body : HalfSpace or Layer
+        Sample: thick, or a layer of known thickness [m] on a rigid base. On a layer only pull-off
+        forces of relaxed contacts, a stiff machine and interfaces without growth are known.
     gaps : (float, float)
         Searched ranges of attraction h0 [m]; reduced to the validity of the theory.
     work_of_adhesion : (float, float), optional
@@ -169,7 +178,8 @@ def identify_rates(
         Relative standard deviation between tests, if repeated tests do not show it.
     theory : float, optional
         Relative standard uncertainty of the forward model, correlated between near speeds; by
-        default 2 %, or 3 % with growth.
+        default 2 %, or 3 % with growth or on a layer. Where the forces reach through a layer,
+        7 % times the zone length times the contact radius over the squared thickness is added.
     level : float
         Confidence level of the intervals.
 
@@ -178,8 +188,9 @@ def identify_rates(
     OutOfRange
         If the most likely interface is outside the range of the theory.
     ValueError
-        If there are fewer than two speeds (without curves), a pull-off has no travels (with
-        curves), or the theory holds for none of the searched ranges.
+        If an option is not available for a layer, there are fewer than two speeds (without curves),
+        a pull-off has no travels (with curves), or the theory holds for none of the searched
+        ranges.
 
     Notes
     -----
@@ -189,15 +200,18 @@ def identify_rates(
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
+    thin = isinstance(body, Layer)
     if theory is None:
-        theory = _GROWING_THEORY if growth else _THEORY
+        theory = _GROWING_THEORY if growth else _LAYER_THEORY if thin else _THEORY
+    forward = Forward(passport.material, radius, body=body)
+    forward.check(stiffness=stiffness, curves=curves, growth=growth)
     _check(series, radius, gaps, stiffness, curves, scatter, theory, level)
 
     def data_of(some: Sequence[PullOff]) -> Data:
         return Data(some, work_of_adhesion, curves, scatter, theory)
 
     forward, plain, search, dropped = _near(
-        Forward(passport.material, radius), data_of, series, passport, gaps, stiffness, growth
+        forward, data_of, series, passport, gaps, stiffness, growth
     )
     if growth:
         fit, intervals = closely(forward, search, level)
@@ -219,6 +233,7 @@ def identify_rates(
         *_words(best, intervals, fit.scatter, level, doubted, found),
         *_between_words(fit.between),
         *solution_words(several, forward, search.opening, data.speed, data.load, theory),
+        *_layer_words(forward, search, best),
         *_left_out(dropped),
         *(remark for one in series for remark in one.remarks),
     ]
@@ -278,7 +293,11 @@ def _near(
             # repeat for this machine, because the interface was that of a rigid one
             known, refused = _disturbed(search, known.best(), forward, passport, stiffness)
         if not refused:
-            return forward, plain, known, dropped
+            most = _largest_gap(known, forward)
+            if most is None:
+                return forward, plain, known, dropped
+            gaps = gaps[0], most
+            continue
         dropped |= {series[i].speed: why for i, why in refused.items()}
         series = [one for i, one in enumerate(series) if i not in refused]
         _check_left(series, data.curves, dropped)
@@ -301,12 +320,52 @@ def _disturbed(
     yielding, refused = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
     if refused:
         return search, refused
-    spread = search.spread
+    more = forward.layer_error(w, gap, data.speed, data.load)
+    spread = data.own + theory_covariance(data.speed, data.theory + more)
     if solids:
         # hardly depends on the interface
         rows = log_forces(forward, solids, w, gap, data.speed, data.load, grown)
         spread = spread + covariance(rows)
     return replace(search, spread=spread, yielding=yielding), {}
+
+
+def _largest_gap(search: Search, forward: Forward) -> float | None:
+    """Return the largest range whose forces do not reach through the layer; None if all do not.
+
+    The work of adhesion is the likely one of each range.
+    """
+    if not isinstance(forward.body, Layer):
+        return None
+    gaps, data = search.table.axes["equilibrium_gap"], search.data
+    likely = [search.objective.best({"equilibrium_gap": float(gap)}) for gap in gaps]
+    works = np.array([one.values["work_of_adhesion"] for one in likely])
+    pulled = forward.pulled(works[:, None], gaps[:, None], data.speed, data.load)
+    through = pulled.through.max(axis=-1)
+    if through[-1] <= _OVER * MOST_ZONE:
+        return None
+    over = int(np.argmax(through > MOST_ZONE))
+    ends = slice(max(over - 1, 0), over + 1)
+    return float(np.exp(np.interp(np.log(MOST_ZONE), np.log(through[ends]), np.log(gaps[ends]))))
+
+
+def _layer_words(forward: Forward, search: Search, best: Best) -> list[str]:
+    """Return a sentence on the layer and the error of the theory on it."""
+    if not isinstance(forward.body, Layer):
+        return []
+    data = search.data
+    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    pulled = forward.pulled(w, gap, data.speed, data.load)
+    radius, error = pulled.edge_radius, data.theory + ERROR_BY_ZONE * pulled.through
+    nu = forward.body.poisson_ratio
+    base = "sliding on its base" if nu is None else f"bonded, Poisson ratio {nu:.3g}"
+    return [
+        f"the sample is a layer of {readable(forward.body.thickness, 'm', digits=3)}, {base}; "
+        "contact radii at pull-off "
+        f"{readable(radius.min(), 'm', digits=2, to=radius.max())}, error of the theory "
+        f"{error.min():.1%} to {error.max():.1%}; contact modulus "
+        f"{readable(forward.material.contact_modulus, 'Pa', digits=3)} with the Poisson ratio "
+        f"{forward.material.poisson_ratio:.3g} of the material"
+    ]
 
 
 def _check_left(left: Sequence[PullOff], curves: bool, dropped: Mapping[float, str]) -> None:

@@ -54,8 +54,8 @@ class Data:
         self.load = np.array([one.preload for one in series], dtype=float)
         self.force = np.array([one.force.value for one in series])
         noise = np.array([one.force.uncertainty for one in series]) / self.force
-        own = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2)
-        self.spread = own + theory_covariance(self.speed, theory)
+        self.own = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2)
+        self.spread = self.own + theory_covariance(self.speed, theory)
 
     def some(self, count: int) -> npt.NDArray[np.intp]:
         """Select evenly a number of pull-offs from the slowest to the fastest."""

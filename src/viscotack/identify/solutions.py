@@ -6,6 +6,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from viscotack.arrays import Array
+from viscotack.forecast.other_contacts import MOST_ZONE
 from viscotack.units import readable
 
 from .forward import Forward
@@ -100,7 +101,7 @@ def _telling(
         w, gap = values["work_of_adhesion"], values["equilibrium_gap"]
         pulled = forward.pulled(w, gap, at, loads, growth=growth)
         forces.append(pulled.force)
-        holds &= pulled.effective_tabor >= LEAST_TABOR
+        holds &= (pulled.effective_tabor >= LEAST_TABOR) & (pulled.through <= MOST_ZONE)
     ratio = np.where(holds, np.abs(np.log(forces[0] / forces[1])), 0.0)
     i = np.unravel_index(int(np.argmax(ratio)), ratio.shape)
     if ratio[i] < 2 * theory:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.geometry import HalfSpace, Layer
 from viscotack.lab.tack import Survey, survey
 from viscotack.materials import Material
 from viscotack.materials.library import passport_of
@@ -27,6 +28,8 @@ class Study:
         Passport, material, or the name or file of a passport.
     radius : float
         Radius of the sphere [m].
+    body : HalfSpace or Layer
+        Sample: thick, or a layer of known thickness.
     preload : float, optional
         Force under which contacts relaxed [N]; by default the force at the start of the retraction.
     temperature : float, optional
@@ -51,6 +54,7 @@ class Study:
     files: tuple[Path, ...]
     material: Passport | Material | str
     radius: float
+    body: HalfSpace | Layer = HalfSpace()
     preload: float | None = None
     temperature: float | None = None
     work_of_adhesion: tuple[float, float] | None = None
@@ -110,6 +114,7 @@ def answer(study: Study) -> Answer:
         pull_offs(found.cycles),
         material=solid,
         radius=study.radius,
+        body=study.body,
         preload=study.preload,
         work_of_adhesion=study.work_of_adhesion,
         stiffness=1 / compliance if compliance > 0 else None,

@@ -9,6 +9,7 @@ from viscotack.units import readable
 from .declare.answer import Answer, Caller, Output, picture
 from .declare.cards import Choice, Known, Number, Switch, Text, Whole
 from .declare.options import Operation
+from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.rig import Files, Rig, refusals
 from .parts.solid import Solid, solid_of
 
@@ -102,7 +103,9 @@ class IdentifyRates(Operation):
     The steady-crack contact model is fitted to the true speed and pull-off force of every cycle.
     The intervals include the uncertainty of the material in the passport. The answer states which
     parameters the data do not determine, and at which speeds the model does not fit. With --growth
-    an interface that grows with speed is fitted.
+    an interface that grows with speed is fitted. A sample of known thickness is given by
+    --thickness, with --bonded if it does not slide; its tests need a stiff machine, and neither
+    --curves nor --growth.
 
     Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
     -o study.toml
@@ -123,6 +126,8 @@ class IdentifyRates(Operation):
     files: Files
     material: Solid
     radius: Radius
+    thickness: Annotated[float | None, THICKNESS] = None
+    bonded: Annotated[float | None, BONDED] = None
     preload: Annotated[
         float | None,
         Number(
@@ -171,6 +176,9 @@ class IdentifyRates(Operation):
     notes: Annotated[str, Text("Notes for the report.", metavar="WORDS")] = ""
     rig: Rig = field(default_factory=Rig)
 
+    def __post_init__(self) -> None:
+        body_of(self.thickness, self.bonded)
+
     def study(self, also: tuple[Any, ...] = ()) -> "Study":
         """Convert the options to a study for :func:`viscotack.identify.study.answer`."""
         from viscotack.identify.study import Study
@@ -179,6 +187,7 @@ class IdentifyRates(Operation):
             files=self.files,
             material=solid_of(self.material, also),
             radius=self.radius,
+            body=body_of(self.thickness, self.bonded),
             preload=self.preload,
             temperature=self.temperature,
             work_of_adhesion=self.work_of_adhesion,

@@ -13,44 +13,18 @@ from .declare.options import Operation
 from .declare.statement import Stated, Statement
 from .declare.wording import flag
 from .parts.closed_form import closed_form
+from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.record_words import record_words
 from .parts.tables import as_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from viscotack.geometry import HalfSpace, Layer
     from viscotack.methods.by_crack import CrackContact
 
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0, metavar="LENGTH")
 _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0, metavar="PRESSURE")
 _WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0, metavar="ENERGY")
-
-
-_THICKNESS = Number(
-    'Thickness of a layer on a rigid base, "60 um"; a half-space when left out.',
-    unit="m",
-    above=0,
-    metavar="LENGTH",
-)
-_GLUED = Number(
-    "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer slides "
-    "on its base.",
-    least=0,
-    most=0.5,
-    metavar="NU",
-)
-
-
-def _body(thickness: float | None, bonded: float | None) -> "HalfSpace | Layer":
-    """Return the half-space, or the layer of a thickness."""
-    from viscotack.geometry import Bonded, Frictionless, HalfSpace, Layer
-
-    if thickness is None:
-        if bonded is not None:
-            raise InputError("--bonded needs a layer; give its --thickness as well")
-        return HalfSpace()
-    return Layer(thickness, Frictionless() if bonded is None else Bonded(poisson_ratio=bonded))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,11 +41,11 @@ class Jkr(Operation):
     radius: Annotated[float, _RADIUS]
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
-    thickness: Annotated[float | None, _THICKNESS] = None
-    bonded: Annotated[float | None, _GLUED] = None
+    thickness: Annotated[float | None, THICKNESS] = None
+    bonded: Annotated[float | None, BONDED] = None
 
     def __post_init__(self) -> None:
-        _body(self.thickness, self.bonded)
+        body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
@@ -104,7 +78,7 @@ class Jkr(Operation):
         from viscotack.theory import film
         from viscotack.theory.elastic import relaxed
 
-        body = _body(self.thickness, self.bonded)
+        body = body_of(self.thickness, self.bonded)
         assert isinstance(body, Layer), "it has a thickness"
         solid: Any = {
             "shape": Sphere(self.radius),
@@ -157,17 +131,17 @@ class OfDisc(Operation):
             metavar="PRESSURE",
         ),
     ] = None
-    thickness: Annotated[float | None, _THICKNESS] = None
-    bonded: Annotated[float | None, _GLUED] = None
+    thickness: Annotated[float | None, THICKNESS] = None
+    bonded: Annotated[float | None, BONDED] = None
 
     def __post_init__(self) -> None:
-        _body(self.thickness, self.bonded)
+        body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
         from viscotack.theory import disc, indenter
 
-        a, E, body = self.radius, self.contact_modulus, _body(self.thickness, self.bonded)
+        a, E, body = self.radius, self.contact_modulus, body_of(self.thickness, self.bonded)
         solid: Any = {"contact_modulus": E, "work_of_adhesion": self.work_of_adhesion}
         limits: Any = {**solid, "strength": self.strength, "body": body}
         force = disc.pull_off_force(contact_radius=a, **limits)

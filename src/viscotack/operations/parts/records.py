@@ -184,6 +184,7 @@ def rates_record(fit: Any) -> dict[str, Any]:
             }
             for one, force in zip(fit.series, fit.forces, strict=True)
         ],
+        "layer": _layer_record(fit.forward.body),
         "growth": None if fit.growth is None else _growth_record(fit.growth),
         "words": list(fit.words),
     }
@@ -194,6 +195,17 @@ def forecast_rows(forecast: Any) -> list[dict[str, float]]:
     columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
     names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
     return [dict(zip(names, map(float, row), strict=True)) for row in columns]
+
+
+def _layer_record(body: Any) -> dict[str, Any] | None:
+    """Return thickness and base of a layer, None for a half-space."""
+    if body.word != "layer":
+        return None
+    return {
+        "thickness_m": body.thickness,
+        "base": body.base.word,
+        "poisson_ratio": body.poisson_ratio,
+    }
 
 
 def _growth_record(found: Any) -> dict[str, Any]:

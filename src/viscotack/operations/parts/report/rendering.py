@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.geometry import Layer
 from viscotack.identify import RateForecast
 from viscotack.identify.speed_table import SpeedTable, jkr_work, speed_table
 from viscotack.identify.study import Answer
@@ -73,6 +74,7 @@ def page(found: Answer, forecast: RateForecast) -> str:
         forecast=_forecast(forecast),
         level=f"{fit.level:.0%}",
         theory=f"{100 * fit.theory:.3g} %",
+        layer=isinstance(found.study.body, Layer),
         material=in_words(fit.passport),
         curves=_drawing(draw_tests(found.survey.cycles, _MOST_CURVES)),
         fitted=_drawing(draw_fitted_curves(fit, found.survey.cycles)),
@@ -91,6 +93,7 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
     return [
         ("sphere radius", _text(study.radius, "m")),
         ("material", fit.passport.name or str(study.material)),
+        *_layer(found),
         ("temperature", "not stated" if temperature is None else f"{temperature - 273.15:.4g} °C"),
         ("preload", preload),
         ("work of adhesion", _interval(found, "work_of_adhesion", "J/m2")),
@@ -171,6 +174,16 @@ def _link(write: Writer) -> str:
     stream = io.BytesIO()
     write(stream)
     return f"data:text/csv;base64,{b64encode(stream.getvalue()).decode()}"
+
+
+def _layer(found: Answer) -> list[tuple[str, str]]:
+    """Return thickness and base of the sample; empty for a half-space."""
+    body = found.study.body
+    if not isinstance(body, Layer):
+        return []
+    nu = body.poisson_ratio
+    base = "sliding on its base" if nu is None else f"bonded, Poisson ratio {nu:.3g}"
+    return [("layer", f"{_text(body.thickness, 'm')} thick, {base}")]
 
 
 def _growth(found: Answer) -> list[tuple[str, str]]:

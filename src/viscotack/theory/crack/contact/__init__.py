@@ -8,6 +8,7 @@ from . import growing, history, recession
 from ._profile import (
     LayerProfile,
     Profile,
+    SpheresOnLayers,
     profile_of,
     profile_on,
     radius_at_depth,
@@ -27,6 +28,7 @@ __all__ = [
     "LayerProfile",
     "NeighbourEdges",
     "Profile",
+    "SpheresOnLayers",
     "growing",
     "history",
     "profile_of",

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 import scipy
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Layer, detail
+from viscotack.geometry import Base, HalfSpace, Layer, Sphere, detail
+from viscotack.theory._roots import halved
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import largest_radius
 
@@ -82,6 +84,11 @@ class Profile:
         """Return the force of a relaxed adhesive contact (JKR)."""
         return self.force(radius, self.relaxed_depth(radius))
 
+    @property
+    def elastic_radius(self) -> Any:
+        """Radius of the largest tension of a relaxed contact."""
+        return _strongest(self)
+
 
 class LayerProfile:
     r"""The same of a contact on a layer, where annuli are not independent.
@@ -129,6 +136,58 @@ class LayerProfile:
     def relaxed_force(self, radius: Any) -> Any:
         """Return the force of a relaxed adhesive contact (JKR)."""
         return self.force(radius, self.relaxed_depth(radius))
+
+    @property
+    def elastic_radius(self) -> Any:
+        """Radius of the largest tension of a relaxed contact."""
+        return _strongest(self)
+
+
+class SpheresOnLayers(LayerProfile):
+    r"""The same of spheres on layers of several thicknesses b, one for each case.
+
+    Depth, drawn depth, stiffness and force are :math:`b^p` times functions of a/b alone, p being 2,
+    1/2, 1 and 3, so the table of one layer serves all. Below its smallest a/b they are those of a
+    half-space, which have the same powers.
+
+    Parameters
+    ----------
+    thickness : ndarray, shape (cases,)
+        Thickness of each layer [beta].
+    base : Base
+        Base of the layers.
+    """
+
+    _POWERS = (2.0, 0.5, 1.0, 3.0)
+
+    def __init__(self, thickness: Array, base: Base) -> None:
+        self._thickness, self._base = thickness, base
+        self._unit: Any = profile_on(Sphere(1.0), Layer(1.0, base))
+
+    def _of(self, column: int, radius: Any) -> Any:
+        inside = np.maximum(radius / self._thickness, _ON_LAYER[0])
+        return (radius / inside) ** self._POWERS[column] * self._unit._of(column, inside)
+
+    @property
+    def elastic_radius(self) -> Any:
+        """Radius of the largest tension of a relaxed contact, of each case."""
+        each, at = np.unique(self._thickness, return_inverse=True)
+        return _strongest(SpheresOnLayers(each, self._base))[at]
+
+    def radius_at_force(self, force: Array) -> Array:
+        """Return the radius of the larger, stable relaxed contact under positive forces [R dg]."""
+        low = self.elastic_radius
+        # a half-space yields more than a layer, and JKR's radius is below this
+        high = low + 3 * np.cbrt(1 + force)
+        return halved(lambda a: force - self.relaxed_force(a), low, high)
+
+
+def _strongest(profile: Profile | LayerProfile) -> Any:
+    """Return the radius of the largest tension of relaxed contacts, an array if of several."""
+    a = np.geomspace(1e-3, 1e2, 2000)
+    if isinstance(profile, SpheresOnLayers):
+        return a[np.argmin(profile.relaxed_force(a[:, None]), axis=0)]
+    return float(a[np.argmin(profile.relaxed_force(a))])
 
 
 @lru_cache(maxsize=32)

@@ -99,7 +99,7 @@ def recede(
     travel = _Travel(chain, profile, a0, r, mu)
     start = profile.relaxed_depth(a0)
     # end at the smallest radius at pull-off, that of the elastic contact
-    least = np.minimum(_SMALLEST * _elastic_radius(profile), a0 / 2)
+    least = np.minimum(_SMALLEST * profile.elastic_radius, a0 / 2)
     way = a0 * np.exp(_parts(radii)[:, None] * np.log(least / a0))
 
     def marched(a: Array) -> tuple[Array, Array]:
@@ -235,9 +235,3 @@ class _Travel:
             log = np.log(time)
         # earlier the solid is glassy
         return np.exp(self._travel(log) + np.minimum(log - self.first, 0.0))
-
-
-def _elastic_radius(profile: Profile | LayerProfile) -> float:
-    """Return the radius of the largest elastic tension."""
-    a = np.geomspace(1e-3, 1e2, 2000)
-    return float(a[np.argmin(profile.relaxed_force(a))])
