@@ -7,7 +7,7 @@ import viscotack as vt
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
 from viscotack.theory import SteadyCrack, disc, film, indenter, jkr, profiles
 from viscotack.theory.crack.contact import profile_on, recede
-from viscotack.theory.elastic import on_body, relaxed
+from viscotack.theory.elastic import on_body, on_layer, relaxed
 
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5))]
@@ -157,5 +157,9 @@ def test_what_the_theory_of_films_does_not_know_is_refused():
         film.pull_off(shape=BALL, body=nearly, **UNITS)
     with pytest.raises(ValueError, match="is too wide; it may be up to 100"):
         disc.pull_off_force(contact_radius=1.0, body=Layer(1e-3), **UNITS)
+    assert on_layer.is_power(Layer(1.0, SQUEEZED)) and not on_layer.is_power(nearly)
+    on_layer.check_disc(0.1, Layer(1e-3))
+    with pytest.raises(ValueError, match="1000 thicknesses"):
+        on_layer.check_disc(1.0, Layer(1e-3))
     with pytest.raises(ValueError, match="use theory.disc"):
         film.instability(shape=vt.Disc(1.0), body=Layer(1.0), **UNITS)

@@ -19,7 +19,10 @@ _MISSING = {"fcntl", "resource", "pwd", "grp", "termios"}
 
 def _locking(handle, mode, count):
     assert mode == 2 and count == 1
-    fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB, count, 1 << 30)
+    try:
+        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB, count, 1 << 30)
+    except BlockingIOError:  # what Windows raises
+        raise PermissionError(13, "Permission denied") from None
 
 
 def _import(name, globals=None, locals=None, fromlist=(), level=0):

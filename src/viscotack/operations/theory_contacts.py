@@ -140,6 +140,7 @@ class OfDisc(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
         from viscotack.theory import disc, indenter
+        from viscotack.theory.elastic.on_layer import LARGEST as WIDEST
 
         a, E, body = self.radius, self.contact_modulus, body_of(self.thickness, self.bonded)
         solid: Any = {"contact_modulus": E, "work_of_adhesion": self.work_of_adhesion}
@@ -161,7 +162,9 @@ class OfDisc(Operation):
         if self.thickness is not None:
             whole = disc.pull_off_force(contact_radius=a, strength=self.strength, **solid)
             record["over_half_space"] = force / whole
-        radii = a * np.geomspace(0.1, 10.0, 61)
+        # the theory of a layer ends at a hundred thicknesses
+        most = 10.0 if self.thickness is None else min(10.0, WIDEST * self.thickness / a)
+        radii = a * np.geomspace(0.1, most, 61)
         curve = radii, np.asarray(disc.pull_off_force(contact_radius=radii, **limits))
         labels = ("radius of the disc [m]", "pull-off force [N]")
         return closed_form(force, record, curve, labels, logarithmic=True)
