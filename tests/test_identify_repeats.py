@@ -88,7 +88,7 @@ def test_a_forecast_is_not_below_a_force_measured_at_a_slower_speed():
     raised = TRUE * np.array([1, 1, 1, 1, 1, 1.6])
     found = identify_rates(series(raised, 0.02), material=RUBBER, radius=RADIUS)
     forecast = forecast_rates(found, [1.2e-3, 1e-4])
-    assert forecast.force[0] >= 0.995 * raised[-1]
+    assert forecast.force[0] >= raised[-1]
     assert forecast.high[0] >= forecast.force[0] >= forecast.low[0]
     assert "less than was measured at a slower speed" in " ".join(forecast.words)
     # another preload or temperature is no slower test of the same contact

@@ -30,6 +30,7 @@ from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
 
 _MOST = 200  # largest number of speeds
+_SURELY = 2.0  # standard deviations of a measured force
 _SAME = 0.03  # relative difference of equal speeds and equal preloads
 _DRAWS, _TIMES = 200, 10  # number of sampled interfaces, and of forces per interface
 
@@ -160,11 +161,14 @@ def forecast_rates(
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
     sample = np.exp(moved + noise).reshape(-1, v.size) * changed
     slower, uncertain = _slower(fit, v, load, passport, spring, dwell)
-    floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
-    raised = np.median(sample, axis=0) < slower
-    sample = np.maximum(sample, floor)
     part = (1 - level) / 2
+    # only where noise does not explain the larger force, the band rises, too
+    surely = slower * (1 - _SURELY * uncertain) > np.median(sample, axis=0)
+    floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
+    sample = np.where(surely, np.maximum(sample, floor), sample)
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
+    raised = slower > median
+    median, high = np.maximum(median, slower), np.maximum(high, slower)
     return RateForecast(
         v,
         median,
@@ -225,15 +229,16 @@ def _slower(
         if one.preload is None or one.preload > (1 + _SAME) * preload:
             continue
         at = (speed > (1 + _SAME) * one.speed) & (one.force.value > slower)
-        own = one.force.uncertainty / one.force.value
-        slower[at], uncertain[at] = one.force.value, np.hypot(own, fit.between_speeds)
+        parts = one.force.uncertainty / one.force.value, fit.between_tests, fit.between_speeds
+        slower[at], uncertain[at] = one.force.value, np.linalg.norm(parts)
     return slower, uncertain
 
 
 def _raised_words(speed: Array) -> list[str]:
     if not speed.size:
         return []
-    at = readable(float(speed.min()), "m/s", digits=3, to=float(speed.max()))
+    ends = {"to": float(speed.max())} if speed.size > 1 else {}
+    at = readable(float(speed.min()), "m/s", digits=3, **ends)
     return [
         f"at {at} the model predicts less than was measured at a slower speed; there the forecast "
         "is the measured force"

@@ -67,6 +67,8 @@ class RateSeriesFit:
         Pull-off forces of the most likely interface at the measured speeds [N].
     scatter : float
         Root mean square of the residuals over their uncertainty, without `between_speeds`.
+    between_tests : float
+        Relative standard deviation between tests that repeats do not show, as given.
     between_speeds : float
         Relative scatter of the forces from speed to speed beyond that of repeated tests and of the
         theory, in the covariance; 0 if the residuals need none.
@@ -104,6 +106,7 @@ class RateSeriesFit:
     intervals: dict[str, Interval]
     forces: tuple[float, ...]
     scatter: float
+    between_tests: float
     between_speeds: float
     solutions: tuple[Best, ...]
     words: tuple[str, ...]
@@ -244,6 +247,7 @@ def identify_rates(
         intervals=intervals,
         forces=tuple((search.table(best.values) * search.yielding(best.values)).tolist()),
         scatter=fit.scatter,
+        between_tests=scatter,
         between_speeds=fit.between,
         solutions=several,
         words=tuple(words),
