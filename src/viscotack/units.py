@@ -215,7 +215,7 @@ def readable(
         Significant digits of the value.
     to : float, optional
         Upper end of the range that `value` begins; with the same prefix, unless it is more than
-        a thousand times as large.
+        a thousand times as large; omitted if it reads the same.
     uncertainty : float, optional
         Standard uncertainty, of which one digit is written; omitted below the last of `digits`.
     like : float
@@ -243,7 +243,7 @@ def readable(
         return f"{kept:.{max(digits, 4)}g}"
 
     text = number(value, digits)
-    if to is not None:
+    if to is not None and number(to, digits) != text:
         text += f" to {number(to, digits)}"
     if uncertainty is not None and not uncertainty < 10.0**-digits * abs(value):
         text += f" +- {number(uncertainty, 1)}"

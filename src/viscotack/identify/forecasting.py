@@ -25,13 +25,13 @@ from viscotack.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
 
 from .covariances import allowed, covariance, log_forces, theory_covariance
+from .pull_off import SAME
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
 
 _MOST = 200  # largest number of speeds
 _SURELY = 2.0  # standard deviations of a measured force
-_SAME = 0.03  # relative difference of equal speeds and equal preloads
 _DRAWS, _TIMES = 200, 10  # number of sampled interfaces, and of forces per interface
 
 
@@ -226,9 +226,9 @@ def _slower(
     if not same or stiffness != fit.stiffness:
         return slower, uncertain
     for one in (*fit.series, *fit.excluded):
-        if one.preload is None or one.preload > (1 + _SAME) * preload:
+        if one.preload is None or one.preload > (1 + SAME) * preload:
             continue
-        at = (speed > (1 + _SAME) * one.speed) & (one.force.value > slower)
+        at = (speed > (1 + SAME) * one.speed) & (one.force.value > slower)
         parts = one.force.uncertainty / one.force.value, fit.between_tests, fit.between_speeds
         slower[at], uncertain[at] = one.force.value, np.linalg.norm(parts)
     return slower, uncertain
@@ -237,8 +237,7 @@ def _slower(
 def _raised_words(speed: Array) -> list[str]:
     if not speed.size:
         return []
-    ends = {"to": float(speed.max())} if speed.size > 1 else {}
-    at = readable(float(speed.min()), "m/s", digits=3, **ends)
+    at = readable(float(speed.min()), "m/s", digits=3, to=float(speed.max()))
     return [
         f"at {at} the model predicts less than was measured at a slower speed; there the forecast "
         "is the measured force"

@@ -97,9 +97,10 @@ class Pulled(NamedTuple):
 
 
 class _Receded(NamedTuple):
-    """Dimensionless curves, shape (points, cases); tabor and start have shape (cases,)."""
+    """Dimensionless curves, shape (points, cases); length, tabor and start have shape (cases,)."""
 
     found: Curves
+    length: Array  # beta [m]
     tabor: Array
     start: Array
     energy: Array
@@ -308,8 +309,8 @@ class Forward:
         given = (work, gap, speed, preload, *(growth or ()))
         one = self._receded([np.atleast_1d(np.asarray(x, dtype=float)) for x in given], 160)
         _, force = _ranged(one.found, one.effective)
-        beta = (self.radius**2 * work / self.material.contact_modulus) ** (1 / 3)
-        return one.found.depth[:, 0] * beta**2 / self.radius, force[:, 0] * self.radius * work
+        height = one.length[0] ** 2 / self.radius
+        return one.found.depth[:, 0] * height, force[:, 0] * self.radius * work
 
     def _receded(self, cases: Sequence[Array], radii: int) -> _Receded:
         w, h0, v, P, *grown = cases
@@ -327,13 +328,11 @@ class Forward:
         # interface Q times as strong, with bulk amplification Gamma/Q
         bulk = np.maximum(energy / interface, 1.0)
         effective = mu * interface ** (2 / 3) * bulk ** (-1 / 3)
-        return _Receded(found, mu, start, energy, interface, effective)
+        return _Receded(found, beta, mu, start, energy, interface, effective)
 
     def _pulled(self, cases: Sequence[Array], radii: int) -> Pulled:
         w, h0, *_ = cases
-        found, mu, start, energy, interface, effective = self._receded(cases, radii)
-        modulus = self.material.contact_modulus
-        beta = (self.radius**2 * w / modulus) ** (1 / 3)
+        found, beta, mu, start, energy, interface, effective = self._receded(cases, radii)
         tension, pressed = _ranged(found, effective)
         at = np.argmax(tension, axis=0), np.arange(mu.size)
         radius = found.radius[at] * beta
@@ -347,7 +346,7 @@ class Forward:
         return Pulled(
             tension[at] * self.radius * w,
             effective[at],
-            found.speed[at] * modulus * h0**2 / w / self.material.time_unit,
+            found.speed[at] * self.material.contact_modulus * h0**2 / w / self.material.time_unit,
             start * beta,
             way,
             energy[at],
@@ -357,7 +356,7 @@ class Forward:
             through,
         )
 
-    def _rest(self, beta: Array, load: Array) -> tuple[Profile | SpheresOnLayers, Array]:
+    def _rest(self, beta: Array, load: Array) -> tuple[Profile, Array]:
         """Return the profile, and the radii [beta] of relaxed contacts under loads [R dg]."""
         if isinstance(self.body, Layer):
             layers = SpheresOnLayers(self.body.thickness / beta, self.body.base)

@@ -11,7 +11,7 @@ from viscotack.units import readable
 from .repeats import Repeats, pooled
 from .travel import travels
 
-_SAME = 0.03  # relative difference below which speeds are equal
+SAME = 0.03  # relative difference below which speeds, and preloads, are equal
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
     """Return the cycles of each speed, slowest first; speeds within 3 % are equal."""
     groups: list[list[Cycle]] = []
     for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
-        if groups and cycle.speed.value <= (1 + _SAME) * groups[-1][0].speed.value:
+        if groups and cycle.speed.value <= (1 + SAME) * groups[-1][0].speed.value:
             groups[-1].append(cycle)
         else:
             groups.append([cycle])

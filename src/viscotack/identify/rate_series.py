@@ -222,14 +222,13 @@ def identify_rates(
         fit = settled(search)
         intervals = fit.search.intervals(fit.best, level)
     search, best = fit.search, fit.best
-    _check_place(forward, search, best, stiffness)
-    found = _growth(forward, search, replace(search, table=plain, opening=None), best)
     objective, data = search.objective, search.data
     several = solutions(objective, best, intervals, level)
     if several[0].misfit < best.misfit:
         best = several[0]
         intervals = search.intervals(best, level)
-        several = (best, *several[1:])
+    _check_place(forward, search, best, stiffness)
+    found = _growth(forward, search, replace(search, table=plain, opening=None), best)
     doubted = bool(allowed(passport))
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
     words = [

@@ -6,7 +6,6 @@ unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 
 from . import growing, history, recession
 from ._profile import (
-    LayerProfile,
     Profile,
     SpheresOnLayers,
     profile_of,
@@ -25,7 +24,6 @@ __all__ = [
     "Drive",
     "GrowingCracks",
     "GrowingEdges",
-    "LayerProfile",
     "NeighbourEdges",
     "Profile",
     "SpheresOnLayers",

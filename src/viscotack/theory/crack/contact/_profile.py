@@ -10,6 +10,7 @@ D carries :math:`P = 2 \int_0^a (D - g(s)) ds`, and the energy release rate at i
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from functools import lru_cache
 from typing import Any
 
@@ -29,7 +30,39 @@ _RADII, _ROWS = (1e-6, 1e4), 60
 _ON_LAYER, _ROWS_ON_LAYER = (1e-4, 1e4), 20
 
 
-class Profile:
+class Profile(ABC):
+    """Contacts of a reduced shape: depth without adhesion, drawn depth and force.
+
+    Radii are in beta, depths in beta^2/R and forces in R dg.
+    """
+
+    @abstractmethod
+    def depth(self, radius: Any) -> Any:
+        """Return the depth of a contact without adhesion."""
+
+    @abstractmethod
+    def drawn(self, radius: Any) -> Any:
+        """Return by how much a work of adhesion of 1 draws a contact out."""
+
+    @abstractmethod
+    def force(self, radius: Any, depth: Any) -> Any:
+        """Return the force of a contact of this radius and depth."""
+
+    def relaxed_depth(self, radius: Any) -> Any:
+        """Return the depth of a relaxed adhesive contact (JKR)."""
+        return self.depth(radius) - self.drawn(radius)
+
+    def relaxed_force(self, radius: Any) -> Any:
+        """Return the force of a relaxed adhesive contact (JKR)."""
+        return self.force(radius, self.relaxed_depth(radius))
+
+    @property
+    def elastic_radius(self) -> Any:
+        """Radius of the largest tension of a relaxed contact."""
+        return _strongest(self)
+
+
+class HalfSpaceProfile(Profile):
     """Depths g of the annuli of a reduced shape of revolution, and their integral."""
 
     def __init__(self, shape: Any) -> None:
@@ -76,22 +109,9 @@ class Profile:
         a = np.asarray(radius)
         return 2 * (a * depth - self.total(a))
 
-    def relaxed_depth(self, radius: Any) -> Any:
-        """Return the depth of a relaxed adhesive contact (JKR)."""
-        return self.depth(radius) - self.drawn(radius)
 
-    def relaxed_force(self, radius: Any) -> Any:
-        """Return the force of a relaxed adhesive contact (JKR)."""
-        return self.force(radius, self.relaxed_depth(radius))
-
-    @property
-    def elastic_radius(self) -> Any:
-        """Radius of the largest tension of a relaxed contact."""
-        return _strongest(self)
-
-
-class LayerProfile:
-    r"""The same of a contact on a layer, where annuli are not independent.
+class LayerProfile(Profile):
+    r"""Contacts on a layer, where annuli are not independent.
 
     A contact of radius a and depth D carries :math:`P = P_1(a) - K(a) [g(a) - D]`, with the force
     without adhesion and the stiffness of a disc, and releases :math:`(D - g)^2/\Delta^2`, where
@@ -129,22 +149,9 @@ class LayerProfile:
         """Return the force of a contact of this radius and depth."""
         return self._of(3, radius) - self._of(2, radius) * (self.depth(radius) - depth)
 
-    def relaxed_depth(self, radius: Any) -> Any:
-        """Return the depth of a relaxed adhesive contact (JKR)."""
-        return self.depth(radius) - self.drawn(radius)
-
-    def relaxed_force(self, radius: Any) -> Any:
-        """Return the force of a relaxed adhesive contact (JKR)."""
-        return self.force(radius, self.relaxed_depth(radius))
-
-    @property
-    def elastic_radius(self) -> Any:
-        """Radius of the largest tension of a relaxed contact."""
-        return _strongest(self)
-
 
 class SpheresOnLayers(LayerProfile):
-    r"""The same of spheres on layers of several thicknesses b, one for each case.
+    r"""Contacts of spheres on layers of several thicknesses b, one for each case.
 
     Depth, drawn depth, stiffness and force are :math:`b^p` times functions of a/b alone, p being 2,
     1/2, 1 and 3, so the table of one layer serves all. Below its smallest a/b they are those of a
@@ -182,7 +189,7 @@ class SpheresOnLayers(LayerProfile):
         return halved(lambda a: force - self.relaxed_force(a), low, high)
 
 
-def _strongest(profile: Profile | LayerProfile) -> Any:
+def _strongest(profile: Profile) -> Any:
     """Return the radius of the largest tension of relaxed contacts, an array if of several."""
     a = np.geomspace(1e-3, 1e2, 2000)
     if isinstance(profile, SpheresOnLayers):
@@ -191,13 +198,13 @@ def _strongest(profile: Profile | LayerProfile) -> Any:
 
 
 @lru_cache(maxsize=32)
-def profile_of(shape: Any) -> Profile:
+def profile_of(shape: Any) -> HalfSpaceProfile:
     """Return the profile of a reduced shape on a half-space (cached)."""
-    return Profile(shape)
+    return HalfSpaceProfile(shape)
 
 
 @lru_cache(maxsize=32)
-def profile_on(shape: Any, body: HalfSpace | Layer) -> Profile | LayerProfile:
+def profile_on(shape: Any, body: HalfSpace | Layer) -> Profile:
     """Return the profile of a reduced shape on a body with lengths in beta (cached)."""
     if isinstance(body, Layer):
         return LayerProfile(shape, body)
@@ -206,12 +213,12 @@ def profile_on(shape: Any, body: HalfSpace | Layer) -> Profile | LayerProfile:
     raise InputError(f"a receding crack is known on a half-space or a layer, got a {body.word}")
 
 
-def radius_at_depth(profile: Profile | LayerProfile, depth: float) -> float:
+def radius_at_depth(profile: Profile, depth: float) -> float:
     """Return the radius of the larger, stable relaxed contact at a depth [beta^2/R]."""
     return _found(largest_radius(profile.relaxed_depth, depth), "depth")
 
 
-def radius_at_force(profile: Profile | LayerProfile, force: float) -> float:
+def radius_at_force(profile: Profile, force: float) -> float:
     """Return the radius of the larger, stable relaxed contact under a force [R dg]."""
     return _found(largest_radius(profile.relaxed_force, force), "force")
 

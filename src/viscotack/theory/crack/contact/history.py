@@ -53,7 +53,7 @@ from viscotack.theory.crack.steady import SteadyCrack
 
 from ._edge import Edge
 from ._memory import Chain, chain_of
-from ._profile import Profile
+from ._profile import HalfSpaceProfile
 
 # Number of annuli, fraction of them below a tenth of the largest radius, and margin beyond the
 # start.
@@ -156,7 +156,7 @@ class Contact:
     ----------
     crack : SteadyCrack
         Crack of the solid with the reduced law.
-    profile : Profile
+    profile : HalfSpaceProfile
         Profile of the reduced shape.
     tabor : float
         Tabor number.
@@ -172,7 +172,7 @@ class Contact:
     def __init__(
         self,
         crack: SteadyCrack,
-        profile: Profile,
+        profile: HalfSpaceProfile,
         *,
         tabor: float,
         largest: float,

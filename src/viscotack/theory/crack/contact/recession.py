@@ -26,7 +26,7 @@ from viscotack.theory.crack.steady import SteadyCrack
 
 from ._edge import Edge, Even
 from ._memory import Chain, chain_of, hereditary_travel
-from ._profile import LayerProfile, Profile
+from ._profile import Profile
 from .growing import GrowingEdges, NeighbourEdges
 
 # Number of radii of a curve, and the smallest one: over that of the start, and of the elastic
@@ -72,7 +72,7 @@ class Curves(NamedTuple):
 
 def recede(
     crack: SteadyCrack | GrowingEdges | NeighbourEdges,
-    profile: Profile | LayerProfile,
+    profile: Profile,
     *,
     radius: Array,
     rate: Array,
@@ -85,7 +85,7 @@ def recede(
     ----------
     crack : SteadyCrack
         Crack of the solid with the reduced law, common to all cases; or one edge per case.
-    profile : Profile or LayerProfile
+    profile : Profile
         Profile of the reduced shape, on a half-space or on a layer.
     radius, rate, tabor : ndarray
         For each case: radius of the relaxed start [beta], speed [beta^2/R per time unit of the
@@ -143,7 +143,7 @@ def _parts(radii: int) -> Array:
 
 def _marched(
     a: Array,
-    profile: Profile | LayerProfile,
+    profile: Profile,
     edge: Edge | GrowingEdges | NeighbourEdges,
     travel: _Travel,
     *,
@@ -220,9 +220,7 @@ def _root(
 class _Travel:
     """Hereditary travel, tabulated in ln t over the relevant times."""
 
-    def __init__(
-        self, chain: Chain, profile: Profile | LayerProfile, a0: Array, r: Array, mu: Array
-    ) -> None:
+    def __init__(self, chain: Chain, profile: Profile, a0: Array, r: Array, mu: Array) -> None:
         far = np.max(profile.depth(a0) + 4 * np.sqrt(a0) + 4) * 30
         self.last = float(np.log(np.max(far / r)))
         self.first = float(np.log(np.min(1e-9 / r)))
