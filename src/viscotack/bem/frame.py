@@ -184,12 +184,17 @@ def _recursion(modes: Modes, dt: float, theta: npt.NDArray) -> tuple[npt.NDArray
 def _four_nodes(nodes: npt.NDArray, at: npt.NDArray) -> tuple[npt.NDArray, npt.NDArray]:
     """Return the first of four nodes around each place, and their parts in the cubic there."""
     x = [nodes[k : len(nodes) - 3 + k] for k in range(4)]
-    bottom = [np.prod([x[k] - x[j] for j in range(4) if j != k], axis=0) for k in range(4)]
+    bottom = np.array(
+        [np.prod([x[k] - x[j] for j in range(4) if j != k], axis=0) for k in range(4)]
+    )
     first = np.clip(np.searchsorted(nodes, at, side="right") - 2, 0, len(nodes) - 4)
     off = [at - x[k][first] for k in range(4)]
     lower, upper = off[0] * off[1], off[2] * off[3]
-    top = off[1] * upper, off[0] * upper, lower * off[3], lower * off[2]
-    return first, np.stack([top[k] / bottom[k][first] for k in range(4)])
+    part = (1 / bottom)[:, first]
+    for k, (one, pair) in enumerate(zip((1, 0, 3, 2), (upper, upper, lower, lower), strict=True)):
+        part[k] *= off[one]
+        part[k] *= pair
+    return first, part
 
 
 @dataclass(frozen=True, eq=False)

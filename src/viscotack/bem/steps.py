@@ -130,11 +130,12 @@ def entered(
     strain: float,
     *,
     interface: float = 0.0,
-    least: float = 1.0,
+    allowed: float | None = None,
 ) -> Attempt:
     """Return an attempt with its energy terms; an energy imbalance increases its strain.
 
-    Imbalances below `least` times the tolerated one are ignored.
+    The imbalance may be `allowed` times the tolerated one. By default that is at most 1 and
+    decreases with the sum of the imbalances so far.
     """
     before = at.state
     first, entry = run.history.snapshots[0], at.books.entered(work, heat, interface)
@@ -142,9 +143,10 @@ def entered(
     missing = entry.imbalance(first, after.seen) - so_far
     largest = run.history.measure(entry, after.seen)
     tolerated = max(run.settings.imbalance * largest, _ROUND_OFF * after.seen.held)
-    # imbalances accumulate: the larger the sum so far, the less is allowed in this step
-    left = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
-    strain = max(strain, abs(missing) / (least * left * tolerated))
+    if allowed is None:
+        # imbalances accumulate: the larger the sum so far, the less is allowed in this step
+        allowed = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
+    strain = max(strain, abs(missing) / (allowed * tolerated))
     return Attempt(after, entry, at.mesh, missing, tolerated, strain)
 
 

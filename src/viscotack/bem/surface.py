@@ -249,8 +249,10 @@ def stiffness(
         lower, info = _potri(factor, lower=1, overwrite_c=1)
     if info:
         raise ArithmeticError("the influence matrix is not positive definite: the mesh is too fine")
-    lower = np.tril(lower)
-    return lower + np.tril(lower, -1).T
+    # the factor is zero above the diagonal, and so is the inverse
+    whole = lower + lower.T
+    whole.flat[:: len(whole) + 1] /= 2
+    return whole
 
 
 def _smoothed(rows: npt.NDArray, moved: npt.NDArray, area: npt.NDArray) -> npt.NDArray:

@@ -55,8 +55,8 @@ _SPEED_CHANGE = 0.2
 _LOOSER = 40.0
 # An edge that moves less than this fraction of the half width stays within the fine nodes.
 _WITHIN = 0.8
-# Remeshing changes the energies. After it, an imbalance below this multiple of the tolerated one is
-# not attributed to the step.
+# Remeshing changes the energies, and a shorter step does not make this smaller. An imbalance below
+# this multiple of the tolerated one is not attributed to a step onto new nodes.
 _MOVED = 2.0
 # Factor by which a step is shortened if the edge would move too far.
 _SHORTER = 0.8
@@ -154,8 +154,8 @@ def travelled(run: Run, at: Place, goal: Ahead) -> Attempt | None:
     work, heat = _work(at.leg, after, at.dt), _heat(after, at.dt)
     strain = _strain(run, at, goal, nodes.mesh, way, after, bend)
     moved = nodes.mesh is not at.mesh
-    least = (_MOVED if run.body.weights.size else np.inf) if moved else 1.0
-    attempt = entered(run, at, after, work, heat, strain, least=least)
+    allowed = (_MOVED if run.body.weights.size else np.inf) if moved else None
+    attempt = entered(run, at, after, work, heat, strain, allowed=allowed)
     if moved and not attempt.too_long:
         run.history.meshes += 1
     return replace(attempt, mesh=nodes.mesh)
@@ -190,8 +190,7 @@ class _Nodes:
     surface: Surface
     modes: npt.NDArray
     relaxed: CubicSpline
-    gap: CubicSpline
-    rate: CubicSpline
+    opening: CubicSpline  # gap and its rate
 
     @classmethod
     def of(cls, body: Body, at: Place, goal: Ahead) -> _Nodes:
@@ -207,8 +206,7 @@ class _Nodes:
             surface,
             d,
             CubicSpline(old, state.relaxed),
-            CubicSpline(old, state.gap),
-            CubicSpline(old, state.rates.gap),
+            CubicSpline(old, np.array([state.gap, state.rates.gap]), axis=-1),
         )
 
 
@@ -224,8 +222,8 @@ def _balanced(run: Run, at: Place, goal: Ahead, nodes: _Nodes) -> tuple[Way, Fou
         way = Way.of(edge, travel, at.dt, goal.speed, goal.before)
         if guess is None:
             back = surface.position - travel * along(surface.position, edge + travel)
-            old = nodes.gap(back)
-            moved = np.maximum(old + at.dt * nodes.rate(back), old - 0.5 * room(old, span))
+            old, rate = nodes.opening(back)
+            moved = np.maximum(old + at.dt * rate, old - 0.5 * room(old, span))
             guess = np.maximum(moved, least_gap(span))
         passage = Passage.of(body.modes, at.dt, way, nodes.relaxed, surface.position, h)
         free = surface.rigid_gap + passage.inherited(body.modes, nodes.modes)
@@ -280,7 +278,7 @@ def _after(
     rates = Rates(
         relaxed=np.zeros_like(e),
         edge=(edge - way.begin) / dt,
-        gap=(found.gap - nodes.gap(back)) / dt,
+        gap=(found.gap - nodes.opening(back)[0]) / dt,
         known=False,
         followed=rate,
     )

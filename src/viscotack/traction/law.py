@@ -64,7 +64,7 @@ class Traction(Protocol):
 def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return gaps as an array; raise an error unless all are positive."""
     h = np.asarray(gap, dtype=float)
-    if not (h > 0).all():
+    if h.size and not h.min() > 0:
         raise InputError(f"gap must be positive, got a minimum of {h.min()} m")
     return h
 
