@@ -148,8 +148,10 @@ class Body:
         edge, rates = surface.edge(gap, self.contact.law.edge_gap), _at_rest(gap)
         return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, opening)
 
-    def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
-        """Advance the state by one trial time step."""
+    def after(
+        self, state: State, s: Step, hold: Hold, most_iterations: int, largest_gain: float
+    ) -> Trial:
+        """Advance the state by one trial time step; for `largest_gain` see `descend`."""
         surface, stepped = state.surface, None
         law: Any = self.contact.law
         if state.extra is not None:
@@ -170,6 +172,7 @@ class Body:
                 guess,
                 machine,
                 least_gain=_LEAST_GAIN,
+                largest_gain=largest_gain,
                 most_iterations=most_iterations,
             )
         gap, opening, bent = balance.gap, None, 0.0

@@ -165,6 +165,7 @@ def descend(
     hold: Hold,
     *,
     least_gain: float = 0.0,
+    largest_gain: float = np.inf,
     most_iterations: int = 500,
 ) -> Balance:
     """Minimise the energy from an initial guess and return the stable equilibrium.
@@ -172,9 +173,10 @@ def descend(
     The free gap is the gap at depth zero. If the tangent is not positive definite, stiffness is
     added so that the search direction remains downhill; the line search uses the energy. The
     iteration ends when the gaps no longer change, or when an iteration reduces the energy by less
-    than the fraction `least_gain`. At large Tabor numbers the energy depends very little on the
-    edge position, and without `least_gain` the iteration would continue along that flat valley. If
-    the iterations run out, the returned balance is marked as not stable.
+    than the fraction `least_gain` and than `largest_gain` [nodal force times h0]. At large Tabor
+    numbers the energy depends very little on the edge position, and without `least_gain` the
+    iteration would continue along that flat valley. If the iterations run out, the returned balance
+    is marked as not stable.
     """
     solid = _Elastic.of(surface.stiffness / compliance, free_gap, hold)
     face, gap, span = surface.interface, guess, effective_range(law)
@@ -219,7 +221,7 @@ def descend(
         # limit: the residual that a smooth law leaves after such a change
         most = _KEPT_LEAVES if kept else _UNBALANCED + _CURVED * largest**2
         balanced = left < most * float(np.abs(faces.tension).sum())
-        little = -slope < least_gain * size
+        little = -slope < min(least_gain * size, largest_gain)
         if whole and ((last and not kept) or (little and balanced)):
             return Balance(gap, faces, solid.depth(gap), iteration, True)
         smallest = int(gap.argmin())

@@ -42,6 +42,11 @@ _GROWTH = 1.5
 # The total energy imbalance may be this multiple of that allowed per step. Close to this limit the
 # allowance of a step is reduced, but not below this fraction.
 _MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
+# The iterations of a step end only when one reduces the energy by less than this fraction of the
+# tolerated imbalance. At the beginning of a run, when little work has been done, this is less than
+# a fraction of the energy of the contact can resolve, and a wide contact would seem to create
+# energy.
+_GAINED = 1e-3
 # Relative round-off of the energies.
 _ROUND_OFF = 1e-11
 # Allowed change of attraction due to a change of opening speed in a step, relative to the allowed
@@ -106,7 +111,9 @@ def is_shortest(run: Run, at: Place, s: Step) -> bool:
 
 def tried(run: Run, at: Place, s: Step, most_iterations: int = _MOST_ITERATIONS) -> Trial:
     """Compute a trial step from the present state."""
-    trial = run.body.after(at.state, s, at.hold(s.length), most_iterations)
+    tolerated = run.settings.imbalance * run.history.measure(at.books, at.seen)
+    gain = _GAINED * tolerated / at.state.surface.unit
+    trial = run.body.after(at.state, s, at.hold(s.length), most_iterations, gain)
     run.history.iterations += trial.iterations
     return trial
 
