@@ -16,7 +16,6 @@ import numpy as np
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.loop_error import hysteresis_errors
 from viscotack.bem.preload import Beginning
-from viscotack.geometry import Layer
 from viscotack.result import Result
 from viscotack.result.dead_load import time_held
 from viscotack.result.observables import (
@@ -47,9 +46,6 @@ _ELASTIC = 1.6
 # Springs side by side snap off node by node: their errors are of first order in the distance of the
 # nodes, which is sqrt(2) times as large in the companion (tests/ladder/test_bodies.py).
 _SPRINGS = 3.0
-# On layers stated errors would otherwise cover 94 % of random problems
-# (`benchmarks/trust.py --films`).
-_LAYER = 1.1
 # Relative error 1: the value is unknown.
 _ALL = 1.0
 
@@ -122,8 +118,6 @@ def _of_pull_off(
     slope, more = accuracy / travel, _ELASTIC if result.groups.modulus_ratio == 1 else 1.0
     if result.groups.body.decay_length == 0:
         more *= _SPRINGS
-    elif isinstance(result.groups.body, Layer):
-        more *= _LAYER
     shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
     share = abs(found.force - alike.force) / found.force
     force = more * _from_difference("force", share, accuracy)
