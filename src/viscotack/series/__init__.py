@@ -8,6 +8,7 @@ derivation is in docs/pick_and_print.md.
 from .opening import SeriesOpening, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
+from .window_file import WindowFile, read_window
 
 __all__ = [
     "Cell",
@@ -15,6 +16,8 @@ __all__ = [
     "SeriesOpening",
     "SeriesResult",
     "Window",
+    "WindowFile",
+    "read_window",
     "simulate_in_series",
     "which_opens",
     "window",

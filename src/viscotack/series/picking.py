@@ -126,6 +126,7 @@ def window(
     stiffness: float | None = None,
     simulate: bool = False,
     accuracy: float = DEFAULT_ACCURACY,
+    time_limit: float | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Window:
     """Return where a stamp picks an object from a donor, and where it prints it on a receiver.
@@ -143,6 +144,8 @@ def window(
         Simulate the cells that steady cracks do not decide; each takes seconds.
     accuracy : float
         Of the simulations.
+    time_limit : float, optional
+        Longest time of one simulation [s]; its cell is then undecided.
     progress : callable, optional
         Called with the completed fraction, 0 to 1.
 
@@ -189,7 +192,9 @@ def window(
         first, second = (
             posed(each, preload=preload, speed=speed, stiffness=stiffness) for each in (base, stamp)
         )
-        return which_opens(first, second, simulate=simulate, accuracy=accuracy)
+        return which_opens(
+            first, second, simulate=simulate, accuracy=accuracy, time_limit=time_limit
+        )
 
     rows, criticals = [], []
     for number, preload in enumerate(F):

@@ -43,7 +43,7 @@ from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.theory.crack.steady import SteadyCrack
 
-from ._memory import chain_of
+from ._memory import Chain, chain_of
 from ._profile import HalfSpaceProfile
 
 # Rows of the tables of a crack and of an elastic contact, and the slowest crack, Gamma - 1.
@@ -61,6 +61,9 @@ _TOGETHER = 1e-3
 _TINY = 1e-300
 # LSODA is the faster of both methods, and fails more often.
 _METHODS = (scipy.integrate.LSODA, scipy.integrate.Radau)
+# Retardation times below this fraction of the time in which the drive extends both contacts to a
+# unit of force count as instantaneous.
+_INSTANT = 1e-5
 # Tension [R dg] at which the range of the law, and a band, take half their effect.
 _ONSET = 0.1
 # Change of the force in the first step, over its scale.
@@ -136,6 +139,18 @@ class Receding:
         """Return the same contact with a factor on its tension."""
         other = copy(self)
         other._strength = strength
+        return other
+
+    def over(self, time: float) -> Receding:
+        """Return the same contact for a pull of this length [s]; much faster modes are instant."""
+        chain = self._chain
+        is_fast = chain.times * self.scales.time < _INSTANT * time
+        other = copy(self)
+        other._chain = Chain(
+            chain.instantaneous + float(chain.weights[is_fast].sum()),
+            chain.weights[~is_fast],
+            chain.times[~is_fast],
+        )
         return other
 
     def start(self) -> Array:
@@ -250,6 +265,10 @@ class Elastic:
         """Largest tension [N]."""
         return self._pull_off * self._strength
 
+    def over(self, time: float) -> Elastic:
+        """Return the same contact, which has no modes."""
+        return self
+
     def start(self) -> Array:
         """Return the state, which is empty."""
         return np.zeros(0)
@@ -330,9 +349,11 @@ def pull_apart(
     first, second = contacts
     if isinstance(first, Elastic) and isinstance(second, Elastic):
         return _both_elastic(first, second)
-    end = 1 + first.start().size
     soft = 0.0 if stiffness is None else 1 / stiffness
     scale = max(abs(preload), first.scales.force, second.scales.force)
+    natural = scale * (soft + first.softness + second.softness) / speed
+    contacts = first, second = first.over(natural), second.over(natural)
+    end = 1 + first.start().size
 
     def parts(y: Array) -> tuple[float, list[Array]]:
         return scale * float(y[0]), [y[1:end], y[end:]]
@@ -345,7 +366,7 @@ def pull_apart(
         return np.concatenate([[change / scale], *(flow.rates for flow in flows)])
 
     begin = np.concatenate([[preload / scale], first.start(), second.start()])
-    longest = _LONGEST * scale * (soft + sum(x.softness for x in contacts)) / speed
+    longest = _LONGEST * natural
     first_step = _FIRST / abs(rates(0.0, begin)[0])
     for method in _METHODS:
         solver = method(
