@@ -11,6 +11,7 @@ from viscotack import (
     Dwell,
     Elastic,
     FlatPunch,
+    GentSchultz,
     Layer,
     LennardJones,
     Problem,
@@ -143,6 +144,20 @@ def test_a_slow_stamp_opens_and_a_fast_one_picks_from_an_elastic_donor(speed, op
     assert cheap.method == "steady cracks"
 
 
+@pytest.mark.slow
+def test_a_soft_machine_and_a_fast_pull_are_no_jump_at_the_start():
+    # glassy, the first contact is seven times as stiff as relaxed
+    first = contact(
+        replace(RUBBER, glassy_modulus=10e6, tau0=0.27), work=0.49, radius=0.75e-3, gap=2.8e-7
+    )
+    second = contact(replace(ELASTIC, rubbery_modulus=1.7e6), work=0.2, radius=1.15e-3, gap=1.3e-7)
+    protocol = Retraction(start=AtForce(4.5e-4), speed=3.6e-4, stiffness=135.0)
+    pair = [replace(each, protocol=protocol) for each in (first, second)]
+    result = simulate_in_series(*pair, accuracy=0.01)
+    assert result.opened == 1
+    assert result.tension == pytest.approx(which_opens(*pair).tension, rel=0.02)
+
+
 def test_the_order_of_the_contacts_does_not_matter():
     donor, stamp = contact(ELASTIC, work=0.4, speed=1e-5), contact(speed=1e-5)
     one, other = which_opens(donor, stamp), which_opens(stamp, donor)
@@ -160,6 +175,17 @@ def test_a_contact_on_a_layer_is_undecided_without_a_simulation():
     simulated = which_opens(donor, stamp, simulate=True)
     assert simulated.opened == 0
     assert simulated.method == "simulation"
+
+
+def test_an_interface_that_grows_with_speed_is_simulated_only():
+    law = GentSchultz(0.15, 6e-7, reference_speed=1e-5, exponent=0.4)
+    donor, at_rest = contact(ELASTIC, work=0.4, speed=1e-5), contact(speed=1e-5)
+    grown = replace(at_rest, traction=law)
+    found = which_opens(donor, grown)
+    assert found.opened is None
+    assert "grow with the opening speed" in found.why
+    results = [simulate_in_series(donor, stamp, accuracy=0.01) for stamp in (at_rest, grown)]
+    assert [result.opened for result in results] == [1, 0]
 
 
 @pytest.mark.parametrize(

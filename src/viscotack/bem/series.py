@@ -58,6 +58,8 @@ _CUT, _AIM, _LEAST_CUT, _MOST_CUT = 0.4, 0.8, 0.7, 0.2
 _CLEARLY = 5.0
 # Largest speed of a contact over that of the drive; a faster opening counts as a jump.
 _RUNNING = 1e4
+# Shortest step over the first one.
+_SHORTER = 0.05
 # Number of steps at the end of a run over which the recession of the edges is compared.
 _LAST = 5
 # Both contacts open together if their recessions differ by less than this fraction.
@@ -293,7 +295,7 @@ class _Pair:
     def is_shortest(self, dt: float) -> bool:
         """Whether a shorter step [s] would not change the result."""
         fastest = max(1.0, *(abs(side.speed) / self.speed for side in self.sides))
-        least = min(side.least_step for side in self.sides) / min(fastest, _RUNNING)
+        least = _SHORTER * min(side.least_step for side in self.sides) / min(fastest, _RUNNING)
         return dt <= least * (1 + 1e-9) and all(side.is_instant(dt) for side in self.sides)
 
     def split(self, dt: float) -> _Split | None:
@@ -359,7 +361,13 @@ def _begun(part: Part, settings: Settings, speed: float) -> _Side:
     run.keep(at)
     at = replace(at, state=body.at_rest(state))
     stiffness = units.force / (contact.travel * units.depth)
-    return _Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
+    side = _Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
+    # the stiffness of a fast solid is larger by up to the ratio of its moduli
+    moved = side.moved(side.least_step, side.depth - speed / 2 * side.least_step)
+    if moved is None:
+        return side
+    known = (moved.force - side.force) / (moved.depth - side.depth)
+    return replace(side, stiffness=known) if known > 0 else side
 
 
 def _stepped(pair: _Pair) -> tuple[_Pair, str]:
