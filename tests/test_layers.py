@@ -38,6 +38,7 @@ ROOMS = (
     "datasets",
     "surrogate",
     "forecast",
+    "series",
     "identify",
     "pictures",
     "operations",

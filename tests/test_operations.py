@@ -39,6 +39,7 @@ ROOT = Path(__file__).parents[1]
 FILES = [
     *(ROOT / "examples").glob("from_*/*.csv"),
     *(ROOT / "examples").glob("from_toml/*.toml"),
+    *(ROOT / "examples").glob("window/*.toml"),
     ROOT / "examples/own/plan.toml",
 ]
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
@@ -89,6 +90,7 @@ NOT_DRAWN = {
     "show": [{"file": "lens.npz"}],
     "simulate": [{"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"}],
     "sweep": [SWEEP],
+    "window": [{"file": "kinetic_stamp.toml", "simulate": True}],
 }
 
 

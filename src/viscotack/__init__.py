@@ -109,6 +109,13 @@ if TYPE_CHECKING:
     from .result.observables import summary as summary
     from .result.observables import work_of_separation as work_of_separation
     from .result.observables import work_to_pull_off as work_to_pull_off
+    from .series import CriticalSpeed as CriticalSpeed
+    from .series import SeriesOpening as SeriesOpening
+    from .series import SeriesResult as SeriesResult
+    from .series import Window as Window
+    from .series import simulate_in_series as simulate_in_series
+    from .series import which_opens as which_opens
+    from .series import window as window
     from .traction import Dugdale as Dugdale
     from .traction import Exponential as Exponential
     from .traction import Eyring as Eyring
@@ -202,6 +209,15 @@ _NAMES = {
         "save_figure",
     ),
     "pictures.lab": ("draw_fit",),
+    "series": (
+        "which_opens",
+        "SeriesOpening",
+        "simulate_in_series",
+        "SeriesResult",
+        "window",
+        "Window",
+        "CriticalSpeed",
+    ),
     "pictures.forecast": ("draw_prediction",),
     "operations": ("ask",),
 }

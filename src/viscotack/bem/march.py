@@ -177,12 +177,12 @@ def _judged(run: Run, at: Place, until: str) -> Place:
         if not last:
             return _begun(run, at, at.number + 1)
         history.outcome = "end"
-    elif at.mesh.left_by(at.seen.edge, at.seen.inner) or _narrowed(run, at):
+    elif at.mesh.left_by(at.seen.edge, at.seen.inner) or narrowed(run, at):
         return followed(run, at)
     return at
 
 
-def _narrowed(run: Run, at: Place) -> bool:
+def narrowed(run: Run, at: Place) -> bool:
     """Return whether the cohesive zone has become too short for the present nodes."""
     if not (at.mesh.narrows and at.seen.edge > 2 * at.mesh.grading.spacing):
         return False

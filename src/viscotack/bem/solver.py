@@ -148,7 +148,7 @@ def _run(
     k = groups.material.modulus_ratio
     spring = spring_travel(start, depths, groups.moves, groups.stiffness, k, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact, spring)
-    modes = _modes(groups.material, legs, longest, settings)
+    modes = modes_of_run(groups.material, legs, longest, settings)
     grading = contact.grading(settings, max(depths))
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
@@ -228,7 +228,9 @@ def _at_rest(law: Any) -> Any:
     return law.base
 
 
-def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
+def modes_of_run(
+    material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings
+) -> Modes:
     """Return the retardation modes with times inside the time range of this run."""
     shortest = _FASTEST * min(leg.least_step for leg in legs)
     # Relative to the compliance at the shortest time, which is small where k is small.

@@ -199,7 +199,7 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
             tabor=groups.tabor,
             largest=_MARGIN * largest,
             stiffness=None if spring is None else spring * LOAD * groups.tabor,
-            tension=lambda speed: _tension(groups, crack, crack.amplification(speed), speed),
+            tension=lambda speed: tension_left(groups, crack, crack.amplification(speed), speed),
         )
         if isinstance(groups.start, Apart):
             state = contact.apart(-groups.start.gap / groups.tabor)
@@ -278,7 +278,7 @@ def _rests(groups: Groups) -> bool:
 def _receded(groups: Groups, crack: SteadyCrack, found: Curves, case: int) -> dict[str, Any]:
     """Series of a retraction from rest, in the format of a result, after its initial dwells."""
     time, radius, depth, force, speed, energy = (column[:, case] for column in found)
-    force = np.where(force < 0, _tension(groups, crack, energy, speed), 1.0) * force
+    force = np.where(force < 0, tension_left(groups, crack, energy, speed), 1.0) * force
     # the start and the end of each dwell
     waits = [move.duration for move in groups.moves if isinstance(move, Dwell)]
     ends = np.append(0.0, np.cumsum(waits)) / groups.material.time_unit
@@ -306,9 +306,9 @@ def _series(groups: Groups, run: Curve) -> dict[str, Any]:
     }
 
 
-def _tension(groups: Groups, crack: SteadyCrack, energy: Any, speed: Any) -> Array:
+def tension_left(groups: Groups, crack: SteadyCrack, energy: Any, speed: Any) -> Array:
     """Elastic pull-off ratio: tension of the law over that of the short-range limit."""
-    effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
+    effective = effective_tabor(groups, energy, np.asarray(crack.interface_work(speed)))
     return np.asarray(lennard_jones.pull_off_ratio(effective))
 
 
@@ -331,7 +331,7 @@ def _answer(
             f"of this interface are computed only up to {crack.largest:.4g} times; reduce the "
             "retraction speed, or simulate the problem"
         )
-    effective = float(_effective(groups, energy, interface))
+    effective = float(effective_tabor(groups, energy, interface))
     if effective < LEAST_TABOR:
         raise OutOfRange(
             "the cohesive zone is too large compared with the contact: at a Tabor number of "
@@ -362,7 +362,7 @@ def _answer(
     )
 
 
-def _effective(groups: Groups, energy: Any, interface: Any) -> Any:
+def effective_tabor(groups: Groups, energy: Any, interface: Any) -> Any:
     """Tabor number of an elastic contact with the same ratio of zone length to contact radius."""
     # a user-defined shape is treated as a paraboloid
     q = getattr(groups.geometry, "exponent", 2.0)

@@ -106,23 +106,29 @@ def read_case(
 
 
 def case_of_tables(
-    tables: Mapping[str, Any], *, where: str = "the case", also: Iterable[Any] = ()
+    tables: Mapping[str, Any],
+    *,
+    where: str = "the case",
+    also: Iterable[Any] = (),
+    beside: Callable[[str], Path] | None = None,
 ) -> Problem:
     """Return the problem stated by the tables of a case file, without a file.
 
     Parameters
     ----------
     tables : mapping
-        Tables as in :func:`read_case`, without names of files.
+        Tables as in :func:`read_case`.
     where : str
         Name of the case in error messages.
     also : iterable of classes
         User-defined laws, materials, shapes and bodies that it may name by their words.
+    beside : callable, optional
+        Returns the path of a file named in a table; without it tables may not name files.
 
     Raises
     ------
     ValueError
-        As :func:`read_case`; and if a table names a file.
+        As :func:`read_case`; and if a table names a file and may not.
 
     Examples
     --------
@@ -143,7 +149,7 @@ def case_of_tables(
     >>> problem.geometry
     Sphere(radius=0.001)
     """
-    return _stated(where, tables, known(also), None)
+    return _stated(where, tables, known(also), None, beside)
 
 
 def _stated(

@@ -11,12 +11,15 @@ if TYPE_CHECKING:
 Writer = Callable[["Target"], None]
 
 
-def rows_as_csv(rows: Sequence[dict[str, Any]]) -> Writer:
-    """Return a function that writes rows with the same keys as a CSV table with a header."""
+def rows_as_csv(rows: Sequence[dict[str, Any]], columns: Sequence[str] = ()) -> Writer:
+    """Return a function that writes rows with the same keys as a CSV table with a header.
+
+    The columns are the keys of the first row; a table that may be empty needs them.
+    """
 
     def text() -> str:
         stream = io.StringIO(newline="")
-        writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
+        writer = csv.DictWriter(stream, columns or list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
         return stream.getvalue()

@@ -4,7 +4,7 @@ Lengths along the surface are in beta, heights in beta^2/R, forces in R dg, time
 unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
-from . import growing, history, recession
+from . import growing, history, recession, series
 from ._profile import (
     Profile,
     SpheresOnLayers,
@@ -16,23 +16,30 @@ from ._profile import (
 from .growing import GrowingCracks, GrowingEdges, NeighbourEdges
 from .history import Contact, Curve, Drive
 from .recession import Curves, recede
+from .series import Elastic, Pulled, Receding, Scales, pull_apart
 
 __all__ = [
     "Contact",
     "Curve",
     "Curves",
     "Drive",
+    "Elastic",
     "GrowingCracks",
     "GrowingEdges",
     "NeighbourEdges",
     "Profile",
+    "Pulled",
+    "Receding",
+    "Scales",
     "SpheresOnLayers",
     "growing",
     "history",
     "profile_of",
     "profile_on",
+    "pull_apart",
     "radius_at_depth",
     "radius_at_force",
     "recede",
     "recession",
+    "series",
 ]

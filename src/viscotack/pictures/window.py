@@ -1,0 +1,128 @@
+"""Figure of a window: what a stamp does, by speed and preload."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.arrays import Array
+from viscotack.series import CriticalSpeed, Window
+
+from .plot import axis_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+# Colours of the words, distinguishable without colour vision.
+_COLOURS = {
+    "pick": "#6baed6",
+    "pick and print": "#a1d99b",
+    "print": "#fdae6b",
+    "neither": "#969696",
+    "undecided": "#f0f0f0",
+}
+_LINES = {"donor": "-", "receiver": "--"}
+# Ratio of the ends of a map with a single speed or preload.
+_SINGLE = 2.0
+
+
+def draw_window(found: Window) -> "Figure":
+    """Draw a map of speed and preload: pick, print, neither, undecided, and critical speeds.
+
+    Parameters
+    ----------
+    found : Window
+        Result of :func:`viscotack.window`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Both axes are logarithmic if all preloads are in compression. A shaded strip around a line
+        of critical speeds is their interval.
+
+    Examples
+    --------
+    >>> from viscotack import AtForce, Elastic, LennardJones, Problem, Retraction, Sphere, window
+    >>> contact = Problem(
+    ...     material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+    ...     traction=LennardJones(work_of_adhesion=0.1, equilibrium_gap=1e-7),
+    ...     geometry=Sphere(radius=1e-3),
+    ...     protocol=Retraction(start=AtForce(1e-3), speed=1e-5),
+    ... )
+    >>> found = window(contact, donor=contact, speeds=[1e-6, 1e-3], preloads=[1e-3, 1e-2])
+    >>> draw_window(found).axes[0].get_xlabel()
+    'speed of the drive [mm/s]'
+    """
+    import matplotlib.style
+    from matplotlib.colors import ListedColormap
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    speed, speed_unit = axis_unit(found.speeds[-1], "m/s")
+    load, load_unit = axis_unit(max(map(abs, found.preloads)), "N")
+    words = list(_COLOURS)
+    number = np.array([words.index(cell.word) for cell in found.cells])
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(9.0, 5.6), layout="constrained")
+        axes = figure.subplots()
+        axes.pcolormesh(
+            _edges(found.speeds) / speed,
+            _edges(found.preloads) / load,
+            number.reshape(len(found.preloads), len(found.speeds)),
+            cmap=ListedColormap(list(_COLOURS.values())),
+            vmin=-0.5,
+            vmax=len(words) - 0.5,
+        )
+        axes.set_xscale("log")
+        if found.preloads[0] > 0:
+            axes.set_yscale("log")
+        present = {cell.word for cell in found.cells}
+        handles: list[Patch | Line2D] = [
+            Patch(fc=colour, ec="0.3", label=word)
+            for word, colour in _COLOURS.items()
+            if word in present
+        ]
+        for base, style in _LINES.items():
+            known = [each for each in found.critical_speeds if each.base == base]
+            if known:
+                _draw_critical(axes, known, style, speed, load)
+                label = f"critical speed, {base}"
+                handles.append(Line2D([], [], color="0.1", ls=style, marker="o", label=label))
+        axes.set_xlabel(f"speed of the drive [{speed_unit}]")
+        axes.set_ylabel(f"preload [{load_unit}]")
+        axes.grid(False)
+        figure.legend(handles=handles, loc="outside right upper", frameon=False)
+    return figure
+
+
+def _edges(values: Sequence[float]) -> Array:
+    """Return the edges of cells around numbers, by ratios where all are positive."""
+    x = np.array(values, dtype=float)
+    positive = bool(np.all(x > 0))
+    at = np.log(x) if positive else x
+    half = (
+        np.diff(at) / 2 if x.size > 1 else np.array([np.log(_SINGLE) if positive else abs(at[0])])
+    )
+    half = np.where(half > 0, half, 1.0)
+    edges = np.concatenate([[at[0] - half[0]], at[:-1] + half[: at.size - 1], [at[-1] + half[-1]]])
+    return np.exp(edges) if positive else edges
+
+
+def _draw_critical(
+    axes: "Axes", known: list[CriticalSpeed], style: str, speed: float, load: float
+) -> None:
+    """Draw critical speeds with their intervals, one line for each change of what opens."""
+    for change in {(each.below, each.above) for each in known}:
+        line = [each for each in known if (each.below, each.above) == change]
+        x = np.array([each.speed for each in line])
+        y = np.array([each.preload for each in line])
+        axes.plot(x / speed, y / load, style, marker="o", ms=5, color="0.1")
+        low, high = (
+            np.array([each.speed if (end := each.interval[k]) is None else end for each in line])
+            for k in (0, 1)
+        )
+        axes.fill_betweenx(y / load, low / speed, high / speed, color="0.1", alpha=0.18, lw=0)

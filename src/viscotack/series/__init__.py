@@ -1,0 +1,24 @@
+"""A rigid object between two contacts: which opens first, by speed and preload.
+
+In transfer printing a soft stamp picks an object (ink) from a donor and prints it on a receiver.
+The object has two contacts that carry the same force, and the one that opens decides. The
+derivation is in docs/pick_and_print.md.
+"""
+
+from .opening import SeriesOpening, which_opens
+from .picking import Cell, CriticalSpeed, Window, window
+from .simulated import SeriesResult, simulate_in_series
+from .window_file import WindowFile, read_window
+
+__all__ = [
+    "Cell",
+    "CriticalSpeed",
+    "SeriesOpening",
+    "SeriesResult",
+    "Window",
+    "WindowFile",
+    "read_window",
+    "simulate_in_series",
+    "which_opens",
+    "window",
+]

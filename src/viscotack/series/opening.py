@@ -1,0 +1,189 @@
+"""Which of two contacts in series opens: by steady cracks, and by simulation where undecided."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from viscotack.errors import InputError, OutOfRange
+from viscotack.methods.in_series import Opening, opening_by_cracks
+from viscotack.problem import Problem
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.protocol import AtForce, Retraction
+
+from .simulated import simulate_in_series
+
+CRACKS, SIMULATION = "steady cracks", "simulation"
+
+
+@dataclass(frozen=True)
+class SeriesOpening:
+    """Answer to which of two contacts in series opens.
+
+    Attributes
+    ----------
+    opened : int or None
+        The contact that opens, 0 or 1; None if it is undecided.
+    tension : float or None
+        Largest common tension [N], the pull-off force of the pair; None if unknown.
+    held : float or None
+        Radius of the contact that holds after the largest tension, over that at the start; None if
+        unknown.
+    method : str
+        "steady cracks" or "simulation".
+    bands : tuple of float, or None
+        Relative half widths of the intervals of the strengths of both contacts; None for a
+        simulation and where steady cracks do not apply.
+    nominal : int or None
+        The contact that opens without regard to bands.
+    corners : tuple of (int or None)
+        The contact that opens if the first is weaker and the second stronger by their bands, and
+        the reverse.
+    why : str
+        Reason for an undecided answer, and for a simulation.
+    """
+
+    opened: int | None
+    tension: float | None
+    held: float | None
+    method: str
+    bands: tuple[float, float] | None
+    nominal: int | None
+    corners: tuple[int | None, int | None]
+    why: str
+
+
+def which_opens(
+    first: Problem,
+    second: Problem,
+    *,
+    simulate: bool = False,
+    accuracy: float = DEFAULT_ACCURACY,
+    time_limit: float | None = None,
+) -> SeriesOpening:
+    """Return which of two contacts in series opens first when one machine pulls them apart.
+
+    Parameters
+    ----------
+    first, second : Problem
+        Both contacts of the rigid object, in SI, with equal protocols: a relaxed start at a force
+        (:class:`viscotack.AtForce`), a speed of the drive, and perhaps the stiffness of the
+        machine. Each has its own shape, body, material and law.
+    simulate : bool
+        Simulate both contacts in one march if steady cracks do not decide.
+    accuracy, time_limit : float
+        Of the simulation, as for :func:`viscotack.solve`.
+
+    Returns
+    -------
+    SeriesOpening
+        The contact that opens, or None with the reason.
+
+    Raises
+    ------
+    ValueError
+        If the protocols differ or are of another kind, a shape is not one of revolution, or a
+        contact has no relaxed start under the common force.
+
+    Examples
+    --------
+    An elastic donor against an elastic stamp: the smaller pull-off force decides.
+
+    >>> from viscotack import AtForce, Elastic, LennardJones, Problem, Retraction, Sphere
+    >>> from dataclasses import replace
+    >>> donor = Problem(
+    ...     material=Elastic(rubbery_modulus=2e6, poisson_ratio=0.5),
+    ...     traction=LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-7),
+    ...     geometry=Sphere(radius=1e-3),
+    ...     protocol=Retraction(start=AtForce(1e-4), speed=1e-5),
+    ... )
+    >>> stamp = replace(donor, geometry=Sphere(radius=2e-3))
+    >>> found = which_opens(donor, stamp)
+    >>> found.opened, f"{found.tension * 1e6:.0f} uN"
+    (0, '237 uN')
+    """
+    check_pair(first, second)
+    try:
+        found = opening_by_cracks(first, second)
+    except OutOfRange as reason:
+        if not simulate:
+            return SeriesOpening(None, None, None, CRACKS, None, None, (None, None), str(reason))
+        why = str(reason)
+    else:
+        if found.opened is not None or not simulate:
+            return _by_cracks(found)
+        why = _OVERLAP
+    try:
+        result = simulate_in_series(first, second, accuracy=accuracy, time_limit=time_limit)
+    except OutOfRange as reason:
+        words = f"{why}; {reason}"
+        return SeriesOpening(None, None, None, SIMULATION, None, None, (None, None), words)
+    opened = result.opened
+    if opened is None:
+        why = f"both contacts open together, or the run stopped: {result.status}"
+    return SeriesOpening(
+        opened, result.tension, _known(result.held), SIMULATION, None, opened, (opened, opened), why
+    )
+
+
+_OVERLAP = "the intervals of both strengths overlap"
+
+
+def _by_cracks(found: Opening) -> SeriesOpening:
+    """Return the answer of steady cracks."""
+    return SeriesOpening(
+        found.opened,
+        found.tension,
+        _known(found.held),
+        CRACKS,
+        found.bands,
+        found.nominal,
+        found.corners,
+        "" if found.opened is not None else _OVERLAP,
+    )
+
+
+def _known(number: float) -> float | None:
+    return float(number) if number == number else None
+
+
+def posed(
+    problem: Problem, *, preload: float, speed: float, stiffness: float | None = None
+) -> Problem:
+    """Return a contact with the protocol of a pair; its own protocol is not used.
+
+    Parameters
+    ----------
+    problem : Problem
+        A contact in SI.
+    preload : float
+        Common force of the relaxed start [N], positive in compression.
+    speed : float
+        Speed of the drive [m/s].
+    stiffness : float or None
+        Of the machine [N/m]; None for a rigid one.
+    """
+    protocol = Retraction(start=AtForce(preload), speed=speed, stiffness=stiffness)
+    return replace(problem, protocol=protocol)
+
+
+def check_pair(first: Problem, second: Problem) -> None:
+    """Raise an InputError unless two problems are contacts of one object in a machine."""
+    for problem in (first, second):
+        if not isinstance(problem, Problem):
+            raise TypeError(f"two contacts in series are Problems in SI, got {problem!r}")
+        if problem.geometry.symmetry != "revolution":
+            raise InputError(
+                f"two contacts in series need shapes of revolution, got a {problem.geometry.word} "
+                "in plane strain, whose force is per length; take a disc"
+            )
+        test = problem.protocol
+        if not isinstance(test.start, AtForce) or test.moves or test.speed is None:
+            raise InputError(
+                "two contacts in series start relaxed at a common force and are pulled apart at a "
+                "speed, without other moves; take Retraction(start=AtForce(force), speed=speed)"
+            )
+    if first.protocol != second.protocol:
+        raise InputError(
+            "both contacts of an object need the same protocol, got "
+            f"{first.protocol} and {second.protocol}"
+        )

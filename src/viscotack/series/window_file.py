@@ -1,0 +1,133 @@
+"""Read a window from a TOML file: the contacts of an object, speeds and preloads.
+
+The tables [stamp], [donor] and [receiver] each have the tables of a case file, without its
+protocol: [stamp.material], [stamp.interface], [stamp.sphere] or another shape of revolution, and
+perhaps a body such as [stamp.layer]. The table [pull] has speeds, preloads and the stiffness.
+"""
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from viscotack.cards import cards
+from viscotack.errors import InputError
+from viscotack.files.toml import read_toml
+from viscotack.problem import Problem
+from viscotack.problem.case_file import case_of_tables
+from viscotack.problem.case_table import Table, refuse_unknown
+from viscotack.protocol import Retraction
+from viscotack.units import parse
+
+STAMP, DONOR, RECEIVER, PULL = "stamp", "donor", "receiver", "pull"
+# Between the ends of a range of numbers.
+_TO = ".."
+_PER_DECADE, _MOST = 3, 1000
+# Tables of what is not computed.
+_ALONG = ("shear", "peel", "tilt")
+
+
+@dataclass(frozen=True)
+class WindowFile:
+    """Contents of a file: contacts, speeds [m/s], preloads [N] and stiffness [N/m] or None."""
+
+    stamp: Problem
+    donor: Problem | None
+    receiver: Problem | None
+    speeds: tuple[float, ...]
+    preloads: tuple[float, ...]
+    stiffness: float | None
+
+
+def read_window(
+    path: str | os.PathLike[str],
+    *,
+    also: Iterable[Any] = (),
+    beside: Callable[[str], Path] | None = None,
+) -> WindowFile:
+    """Read a window from a TOML file.
+
+    Parameters
+    ----------
+    path : path
+        The file; docs/pick_and_print.md describes its tables.
+    also : iterable of classes
+        User-defined laws, materials, shapes and bodies that the file may name by their words.
+    beside : callable, optional
+        Returns the path of a file named in a table; by default relative to the folder of the file.
+
+    Raises
+    ------
+    ValueError
+        If it is not TOML, or a table or key is missing, unknown or invalid.
+    """
+    path = Path(path)
+    tables = read_toml(path)
+    along = [name for name in _names(tables) if any(word in name for word in _ALONG)]
+    if along:
+        raise InputError(
+            f"{path}: {along[0]!r} is not computed; both contacts of a window are pulled along "
+            "their axis, without shear, peeling and tilt"
+        )
+    refuse_unknown(f"{path}", tables, (STAMP, DONOR, RECEIVER, PULL), "table")
+    pull = Table(path, PULL, tables)
+    speeds = _numbers(pull, "speeds", "m/s", '"1 um/s..10 mm/s"')
+    preloads = _numbers(pull, "preloads", "N", '["1 mN", "5 mN"]')
+    pull.known.add("stiffness")
+    is_soft = "stiffness" in pull.values
+    stiffness = pull.number(cards(Retraction)["stiffness"]) if is_soft else None
+    pull.finish()
+    # speed and preload of the map replace these
+    protocol = {"preload_force": f"{preloads[0]!r} N", "speed": f"{speeds[0]!r} m/s"}
+
+    def contact(name: str) -> Problem:
+        if not isinstance(tables[name], Mapping):
+            raise InputError(f"{path}: {name} must be a table, such as [{name}.material]")
+        if "protocol" in tables[name]:
+            raise InputError(f"{path}: [{name}.protocol] is stated by [pull]; remove it")
+        return case_of_tables(
+            {**tables[name], "protocol": protocol},
+            where=f"{path}, [{name}]",
+            also=also,
+            beside=beside or path.parent.joinpath,
+        )
+
+    if STAMP not in tables or not {DONOR, RECEIVER} & tables.keys():
+        raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
+    known = {name: contact(name) for name in (STAMP, DONOR, RECEIVER) if name in tables}
+    bases = known.get(DONOR), known.get(RECEIVER)
+    return WindowFile(known[STAMP], *bases, speeds, preloads, stiffness)
+
+
+def _names(tables: Mapping[str, Any]) -> Iterable[str]:
+    """Yield the keys of tables and of the tables inside them."""
+    for name, value in tables.items():
+        yield name
+        if isinstance(value, Mapping):
+            yield from _names(value)
+
+
+def _numbers(table: Table, key: str, unit: str, example: str) -> tuple[float, ...]:
+    """Return a quantity, a list of them, or the numbers of a range "1 um/s..1 mm/s"."""
+    given = table.get(key, example)
+    if isinstance(given, str) and _TO in given:
+        low, high = (_number(table, key, end.strip(), unit) for end in given.split(_TO, 1))
+        if not 0 < low < high:
+            raise InputError(f"{table.name} {key}: a range begins above 0, got {given!r:.60}")
+        count = min(1 + round(_PER_DECADE * np.log10(high / low)), _MOST)
+        return tuple(float(x) for x in np.geomspace(low, high, max(count, 2)))
+    several = given if isinstance(given, list) else [given]
+    if not several:
+        raise InputError(f"{table.name} {key} is empty; write for example {key} = {example}")
+    return tuple(_number(table, key, each, unit) for each in several)
+
+
+def _number(table: Table, key: str, given: Any, unit: str) -> float:
+    """Return a quantity in SI; the error names table and key."""
+    try:
+        return float(parse(given, unit))
+    except ValueError as error:
+        raise InputError(f"{table.name} {key}: {error}") from None

@@ -1,0 +1,135 @@
+"""Tests of the operation ``window``: its file, command, tables and picture."""
+
+import csv
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from front_ends import Http, Question, through_all
+from viscotack.app.cli import application
+from viscotack.errors import InputError
+from viscotack.operations import ask
+from viscotack.pictures.window import draw_window
+from viscotack.series import read_window
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "window" / "kinetic_stamp.toml"
+CONTACT = """
+[{name}.material]
+model = "elastic"
+rubbery_modulus = "2 MPa"
+poisson_ratio = 0.5
+[{name}.interface]
+law = "lennard-jones"
+work_of_adhesion = "{work}"
+equilibrium_gap = "100 nm"
+[{name}.sphere]
+radius = "1 mm"
+"""
+PULL = """
+[pull]
+speeds = "1 um/s..100 um/s"
+preloads = ["1 mN", "100 uN"]
+stiffness = "1 kN/m"
+"""
+SMALL = "".join(
+    [
+        PULL,
+        CONTACT.format(name="stamp", work="50 mJ/m^2"),
+        CONTACT.format(name="donor", work="20 mJ/m^2"),
+        CONTACT.format(name="receiver", work="80 mJ/m^2"),
+    ]
+)
+
+
+@pytest.fixture
+def small(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("small.toml").write_text(SMALL)
+    return Path("small.toml")
+
+
+def test_a_file_states_contacts_speeds_and_preloads(small):
+    found = read_window(small)
+    assert found.speeds == pytest.approx(
+        [1e-6, 2.154e-6, 4.642e-6, 1e-5, 2.154e-5, 4.642e-5, 1e-4], rel=1e-3
+    )
+    assert found.preloads == (1e-3, 1e-4)
+    assert found.stiffness == 1e3
+    assert found.stamp.traction.work_of_adhesion == 0.05
+    assert found.donor is not None and found.receiver is not None
+
+
+def test_the_example_is_read():
+    found = read_window(EXAMPLE)
+    assert found.stamp.tabor > found.donor.tabor > 1
+
+
+@pytest.mark.slow
+def test_the_example_picks_fast_and_prints_slowly():
+    record = ask("window", file=str(EXAMPLE)).record()
+    words = {cell["word"] for cell in record["cells"]}
+    assert words == {"print", "pick and print", "pick", "undecided"}
+    donor = [x["critical_speed_m_per_s"] for x in record["critical_speeds"] if x["base"] == "donor"]
+    # docs/pick_and_print.md
+    assert donor == pytest.approx([15.4e-6, 15.3e-6, 15.3e-6], rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "old, new, words",
+    [
+        ("[stamp.sphere]", "[stamp.spere]", "unknown table 'stamp.spere'|unknown table 'spere'"),
+        ("[pull]", "[pul]", "did you mean pull"),
+        ('stiffness = "1 kN/m"', 'peel_angle = "90"', "without shear, peeling and tilt"),
+        ('stiffness = "1 kN/m"', 'stifness = "1 kN/m"', "did you mean stiffness"),
+        ('"1 um/s..100 um/s"', '"100 um/s..1 um/s"', "a range begins above 0"),
+        ('["1 mN", "100 uN"]', "[]", "preloads is empty"),
+        ('["1 mN", "100 uN"]', '"1 mm"', "preloads"),
+        ("[stamp.sphere]", "[stamp.protocol]\n[stamp.sphere]", "is stated by"),
+        ("donor.", "stamp_2.", "unknown table"),
+    ],
+)
+def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
+    assert old in SMALL
+    small.write_text(SMALL.replace(old, new))
+    with pytest.raises(InputError, match=words):
+        read_window(small)
+
+
+def test_a_stamp_alone_is_refused(small):
+    small.write_text(PULL + CONTACT.format(name="stamp", work="50 mJ/m^2"))
+    with pytest.raises(InputError, match="a window needs"):
+        read_window(small)
+
+
+def test_all_front_ends_answer_alike(small):
+    client = Http()
+    try:
+        found = through_all(Question("window", {"file": "small.toml"}), client)
+    finally:
+        client.close()
+    record = found["Python"].record
+    assert {cell["word"] for cell in record["cells"]} == {"pick and print"}
+    assert record["critical_speeds"] == []
+    for other in found.values():
+        assert other.record == record
+
+
+def test_the_command_writes_tables_and_a_picture(small):
+    line = ["window", "small.toml", "--csv", "map.csv", "--critical", "c.csv", "--plot", "map.svg"]
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 0, done.output
+    assert "pick and print" in done.output
+    rows = list(csv.DictReader(Path("map.csv").read_text().splitlines()))
+    assert len(rows) == 14
+    assert {row["donor_opens"] for row in rows} == {"donor"}
+    assert {row["receiver_opens"] for row in rows} == {"stamp"}
+    assert Path("c.csv").read_text().startswith("base,preload_N,critical_speed_m_per_s")
+    assert Path("map.svg").stat().st_size > 5000
+
+
+def test_a_map_of_one_speed_and_tensile_preloads_is_drawn(small):
+    small.write_text(SMALL.replace('["1 mN", "100 uN"]', '["-10 uN", "1 mN"]'))
+    found = ask("window", file="small.toml").found
+    axes = draw_window(found).axes[0]
+    assert axes.get_yscale() == "linear"
