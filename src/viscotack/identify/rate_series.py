@@ -11,6 +11,7 @@ An interface that grows with speed (:mod:`.growth`) has two additional unknowns.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,8 +22,8 @@ from viscotack.geometry import HalfSpace, Layer
 from viscotack.materials import Material, Passport
 from viscotack.units import readable
 
-from .covariances import allowed, covariance, log_forces, theory_covariance
-from .forward import Forward
+from .covariances import ModelError, allowed, covariance, log_forces, theory_covariance
+from .forward import Changed, Forward
 from .growth import FoundGrowth, found_growth
 from .interpolated_forces import Table
 from .machine_compliance import Yielding, yielding_near
@@ -38,7 +39,11 @@ from .search import (
     settled,
     widely,
 )
+from .simulations import Simulations
+from .smooth_ratio import Mixed
 from .solutions import solution_words, solutions
+from .tiers import LEAST_TABOR as SIMULATED_TABOR
+from .tiers import Conditions, answered
 
 # Relative standard uncertainty of the forward model, without and with growth, and on a layer
 # much thicker than the contact.
@@ -95,7 +100,12 @@ class RateSeriesFit:
     stiffness : float or None
         Stiffness of the machine [N/m].
     yielding : ndarray, shape (S,)
-        Ratio of forces with the machine's stiffness to those of a rigid machine.
+        Ratio of forces with the machine's stiffness, or simulated, to those of a rigid machine by
+        theory, for this interface.
+    ratio : Yielding or Mixed
+        The same as a function of the interface.
+    model_error : ModelError
+        Relative error of the forces, included in the covariance.
     growth : FoundGrowth, optional
         Growth of the interface with speed, if fitted.
     """
@@ -120,6 +130,8 @@ class RateSeriesFit:
     level: float
     stiffness: float | None
     yielding: Array
+    ratio: Yielding | Mixed
+    model_error: ModelError
     growth: FoundGrowth | None = None
 
     @property
@@ -213,9 +225,9 @@ def identify_rates(
     def data_of(some: Sequence[PullOff]) -> Data:
         return Data(some, work_of_adhesion, curves, scatter, theory)
 
-    forward, plain, search, dropped = _near(
-        forward, data_of, series, passport, gaps, stiffness, growth
-    )
+    with Simulations() as runs:
+        near = _near(forward, data_of, series, passport, gaps, stiffness, growth, runs)
+    forward, plain, search, dropped = near.forward, near.plain, near.search, near.dropped
     if growth:
         fit, intervals = closely(forward, search, level)
     else:
@@ -236,6 +248,7 @@ def identify_rates(
         *_between_words(fit.between),
         *solution_words(several, forward, search.opening, data.speed, data.load, theory),
         *_layer_words(forward, search, best),
+        *near.words,
         *_left_out(dropped),
         *(remark for one in series for remark in one.remarks),
     ]
@@ -260,8 +273,34 @@ def identify_rates(
         level=level,
         stiffness=stiffness,
         yielding=search.yielding(best.values),
+        ratio=search.yielding,
+        model_error=search.model,
         growth=found,
     )
+
+
+class _Near(NamedTuple):
+    """Search near the likely interface.
+
+    Attributes
+    ----------
+    forward : Forward
+        Theory, with growth if fitted.
+    plain : Table
+        Forces of interfaces without growth.
+    search : Search
+        Search over the speeds that are left.
+    dropped : dict
+        Excluded speed -> reason.
+    words : list of str
+        Sentences on simulated forces.
+    """
+
+    forward: Forward
+    plain: Table
+    search: Search
+    dropped: dict[float, str]
+    words: list[str]
 
 
 def _near(
@@ -272,16 +311,16 @@ def _near(
     gaps: tuple[float, float],
     stiffness: float | None,
     growth: bool,
-) -> tuple[Forward, Table, Search, dict[float, str]]:
-    """Return the search over the speeds for which the theory holds near the likely interface.
-
-    Also return the table of interfaces without growth, and the excluded speeds with their reasons.
-    """
-    opening, dropped = None, {}
+    runs: Simulations,
+) -> _Near:
+    """Return the search over the speeds for which theory or simulation hold near its best fit."""
+    opening, dropped, words = None, {}, []
     for _ in range(_ROUNDS):
         data = data_of(series)
-        plain = plain_table(forward, data, gaps)
-        search = Search(data, plain, data.spread, Yielding.of_a_rigid_machine(data.speed.size))
+        simulable = not (growth or data.curves or isinstance(forward.body, Layer))
+        plain = plain_table(forward, data, gaps, SIMULATED_TABOR if simulable else LEAST_TABOR)
+        rigid = Yielding.of_a_rigid_machine(data.speed.size)
+        search = Search(data, plain, data.spread, rigid, data.model)
         best = search.best()
         if growth:
             if opening is None:
@@ -291,14 +330,18 @@ def _near(
                 gaps = gaps[0], float(plain.axes["equilibrium_gap"][-1])
             search = widely(forward, search, opening)
             best = search.best()
-        known, refused = _disturbed(search, best, forward, passport, stiffness)
-        if known.yielding.much:
+        known, changed = _disturbed(search, best, forward, passport, stiffness)
+        if isinstance(known.yielding, Yielding) and known.yielding.much:
             # repeat for this machine, because the interface was that of a rigid one
-            known, refused = _disturbed(search, known.best(), forward, passport, stiffness)
+            known, changed = _disturbed(search, known.best(), forward, passport, stiffness)
+        refused = changed.refused
+        if simulable:
+            tests = Conditions(data.speed, data.load, stiffness)
+            known, refused, words = answered(known, changed, forward, tests, runs)
         if not refused:
             most = _largest_gap(known, forward)
             if most is None:
-                return forward, plain, known, dropped
+                return _Near(forward, plain, known, dropped, words)
             gaps = gaps[0], most
             continue
         dropped |= {series[i].speed: why for i, why in refused.items()}
@@ -312,24 +355,22 @@ def _near(
 
 def _disturbed(
     search: Search, best: Best, forward: Forward, passport: Passport, stiffness: float | None
-) -> tuple[Search, dict[int, str]]:
+) -> tuple[Search, Changed]:
     """Return a search that includes the uncertainty of the material and a compliant machine.
 
-    Also return the speeds for which the theory does not hold, with the reason.
+    Also return the ratios of the forces at the interface.
     """
     solids, data = allowed(passport), search.data
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
     grown = None if search.opening is None else search.opening.of(best.values)
-    yielding, refused = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
-    if refused:
-        return search, refused
+    yielding, changed = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
     more = forward.layer_error(w, gap, data.speed, data.load)
     spread = data.own + theory_covariance(data.speed, data.theory + more)
     if solids:
         # hardly depends on the interface
         rows = log_forces(forward, solids, w, gap, data.speed, data.load, grown)
         spread = spread + covariance(rows)
-    return replace(search, spread=spread, yielding=yielding), {}
+    return replace(search, spread=spread, yielding=yielding), changed
 
 
 def _largest_gap(search: Search, forward: Forward) -> float | None:
@@ -388,14 +429,22 @@ def _left_out(dropped: Mapping[float, str]) -> list[str]:
 
 
 def _check_place(forward: Forward, search: Search, best: Best, stiffness: float | None) -> None:
-    """Raise an error if the theory does not hold for the fitted interface."""
-    if search.table.effective(best.values) < LEAST_TABOR:
+    """Raise an error if the theory does not hold for the fitted interface.
+
+    Conditions whose forces are simulated need no theory.
+    """
+    by_theory = np.ones(search.data.speed.size, dtype=bool)
+    if isinstance(search.yielding, Mixed):
+        by_theory[search.yielding.mixed] = False
+    elif search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {readable(best.values['equilibrium_gap'], 'm', digits=3)}, "
             "has a cohesive zone as large as the contact, so the theory does not hold: simulate"
         )
     # speeds were excluded for a nearby interface; check the fastest one again for this interface
     fastest = [int(np.argmax(search.data.speed))]
+    if not by_theory[fastest]:
+        return
     grown = None if search.opening is None else search.opening.of(best.values)
     found = forward.changed(
         best.values["work_of_adhesion"],
