@@ -1,18 +1,21 @@
 """The interface where the theory of a steady crack does not hold: its forces are simulated."""
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.identify import PullOff, forecast_rates, identify_rates
+from viscotack.errors import InputError
+from viscotack.identify import PullOff, forecast_rates, identify_rates, pull_offs
 from viscotack.identify import simulations as simulating
 from viscotack.identify.forward import Forward
+from viscotack.identify.pull_off import History
 from viscotack.identify.simulations import Simulations
 from viscotack.identify.smooth_ratio import LENGTHS, SmoothRatio
 from viscotack.identify.tiers import Conditions, Tiers
-from viscotack.lab.tack import Measured
+from viscotack.lab.tack import Measured, survey
 from viscotack.protocol import Approach, Dwell
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
@@ -101,7 +104,7 @@ def test_a_finite_dwell_is_simulated():
     moves = (Approach(1e-4, to=vt.AtForce(PRELOAD)), Dwell(0.2, hold="force"))
     speed = np.array([1e-4])
     with Simulations() as runs:
-        tests = Conditions(speed, np.array([PRELOAD]), None, moves)
+        tests = Conditions(speed, np.array([PRELOAD]), None, (moves,))
         tiers = Tiers.none(FORWARD, tests, runs).at(np.log([[WORK, LENGTH / 3]]) / LENGTHS)
         assert runs.count == 1
     ratio = float(np.exp(tiers.log_ratio[0, 0]))
@@ -119,3 +122,48 @@ def test_worker_processes_give_the_forces_of_this_one_and_no_problem_is_simulate
     with Simulations() as runs:
         assert runs.forces(problems) == pytest.approx(here, rel=1e-12)
         assert runs.forces([*problems, *problems[:1]]).size == 3 and runs.count == 2
+
+
+@pytest.mark.slow
+def test_a_series_after_short_dwells_gives_back_its_interface_by_the_history_of_each_test():
+    relaxing = History(1e-4, PRELOAD, 0.05)
+
+    def force(speed):
+        moves = (Approach(1e-4, to=vt.AtForce(PRELOAD)), Dwell(0.05, hold="force"))
+        problem = FORWARD.problem(WORK, LENGTH / 3, PRELOAD, speed, moves=moves)
+        found = vt.solve(problem, until="pull-off", accuracy=2e-3, estimate_error=False)
+        return vt.pull_off_force(found) * problem.scales().force
+
+    forces = [force(float(v)) for v in SPEEDS[1:]]
+    tests = [
+        PullOff(float(v), Measured(f, 0.005 * f), PRELOAD, history=relaxing)
+        for v, f in zip(SPEEDS[1:], forces, strict=True)
+    ]
+    case = {"material": SOLID, "radius": RADIUS, "gaps": (LENGTH / 5, LENGTH / 2)}
+    found = identify_rates(tests, history=True, **case)
+    assert found.work_of_adhesion == pytest.approx(WORK, rel=0.01)
+    assert found.equilibrium_gap == pytest.approx(LENGTH / 3, rel=0.03)
+    relaxed = identify_rates(tests, **case)
+    assert relaxed.work_of_adhesion < 0.97 * found.work_of_adhesion
+    assert "taken as relaxed, but after a dwell of 50 ms" in " ".join(relaxed.words)
+
+
+def test_histories_that_cannot_be_taken_into_account_are_refused():
+    case = {"material": SOLID, "radius": RADIUS, "history": True}
+    some = [PullOff(v, Measured(1e-3, 1e-5), PRELOAD) for v in (1e-5, 1e-4)]
+    with pytest.raises(InputError, match="no speed of their approach"):
+        identify_rates(some, **case)
+    with pytest.raises(InputError, match="thick samples without growth only"):
+        identify_rates(some, curves=True, **case)
+
+
+def test_the_history_of_a_test_is_that_of_its_file():
+    rig = Path(__file__).parents[1] / "examples" / "from_rig" / "lens_30_um_s.csv"
+    (one,) = pull_offs(survey([rig]).cycles)
+    approach, *rest = one.history.moves(one.preload)
+    assert approach.to.force == pytest.approx(1.5e-3, rel=0.05)
+    assert approach.speed == pytest.approx(one.history.approach_speed) and one.history.dwell > 0
+    assert [move.duration for move in rest] == [one.history.dwell]
+    # the force has relaxed where the drive was held
+    assert History(1e-6, 2e-3, 1.0).moves(1.5e-3)[1].hold == "drive"
+    assert History(1e-6, 1.5e-3, 1.0).moves(1.5e-3)[1].hold == "force"

@@ -22,11 +22,11 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Layer
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
-from viscotack.protocol import Approach, AtForce, Dwell, Move
+from viscotack.protocol import Move
 from viscotack.units import readable
 
 from .covariances import ModelError, allowed, covariance, log_forces
-from .pull_off import SAME
+from .pull_off import SAME, History
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
@@ -131,9 +131,9 @@ def forecast_rates(
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     law = None if fit.growth is None else fit.growth.law
     middle = known.pulled(w, gap, v, load, growth=law)
-    pressed: tuple[Move, ...] = ()
+    pressed: tuple[tuple[Move, ...], ...] = ()
     if dwell is not None and approach_speed is not None:
-        pressed = Approach(approach_speed, to=AtForce(load)), Dwell(dwell, hold="force")
+        pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
     spring = None if spring == np.inf else spring
     loaded = np.full(v.size, load)
     changed = known.changed(w, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)

@@ -151,7 +151,7 @@ class Forward:
         self,
         *,
         stiffness: float | None = None,
-        moves: tuple[Move, ...] = (),
+        moves: Sequence[tuple[Move, ...]] = (),
         curves: bool = False,
         growth: bool = False,
     ) -> None:
@@ -219,7 +219,7 @@ class Forward:
         preload: Array,
         *,
         stiffness: float | None = None,
-        moves: tuple[Move, ...] = (),
+        moves: Sequence[tuple[Move, ...]] = (),
         growth: Growth | None = None,
     ) -> "Changed":
         """Compute the effect of a spring, or of approach and dwell, on the pull-offs.
@@ -232,8 +232,8 @@ class Forward:
             Speed of the drive [m/s] and preload [N].
         stiffness : float, optional
             Stiffness of the machine [N/m]; None for a rigid one.
-        moves : tuple
-            Moves before the retraction; empty for a relaxed contact.
+        moves : sequence of tuple, length S
+            Moves of each test before the retraction; empty if all contacts are relaxed.
         growth : Growth, optional
             Growth of the interface.
         """
@@ -243,8 +243,8 @@ class Forward:
             refused = _outside_layer(self.pulled(work, gap, speed, loads))
             return Changed(np.ones(speed.size), refused, np.zeros(speed.size))
         problems = [
-            self.problem(work, gap, float(load), float(v), growth, stiffness=stiffness, moves=moves)
-            for v, load in zip(speed, loads, strict=True)
+            self.problem(work, gap, float(load), float(v), growth, stiffness=stiffness, moves=some)
+            for v, load, some in zip(speed, loads, moves or [()] * speed.size, strict=True)
         ]
         if not moves and stiffness is None:
             # no effect; retractions from rest are computed together

@@ -20,6 +20,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast.other_contacts import ERROR_BY_ZONE, MOST_ZONE
 from viscotack.geometry import HalfSpace, Layer
 from viscotack.materials import Material, Passport
+from viscotack.protocol import Move
 from viscotack.units import readable
 
 from .covariances import ModelError, allowed, covariance, log_forces, theory_covariance
@@ -52,6 +53,7 @@ _LOUD = 2.0  # residuals over their uncertainty above which no such interface fi
 _MOST = 40  # largest number of speeds
 _OVER = 1.2  # overshoot of the limit on a layer that is left
 _THICK = HalfSpace()
+_LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 
@@ -156,6 +158,7 @@ def identify_rates(
     stiffness: float | None = None,
     curves: bool = False,
     growth: bool = False,
+    history: bool = False,
     scatter: float = 0.0,
     theory: float | None = None,
     level: float = 0.9,
@@ -189,6 +192,9 @@ def identify_rates(
     growth : bool
         Whether to fit an interface that grows with the opening speed (Gent and Schultz), and test
         whether the data need growth. Its four unknowns need at least four speeds.
+    history : bool
+        Whether to compute the forces with approach and dwell of each test, mostly by simulation;
+        by default contacts have relaxed under the preload. Not with `curves`, `growth` or a layer.
     scatter : float
         Relative standard deviation between tests, if repeated tests do not show it.
     theory : float, optional
@@ -220,13 +226,15 @@ def identify_rates(
         theory = _GROWING_THEORY if growth else _LAYER_THEORY if thin else _THEORY
     forward = Forward(passport.material, radius, body=body)
     forward.check(stiffness=stiffness, curves=curves, growth=growth)
+    if history:
+        _check_history(series, curves or growth or thin)
     _check(series, radius, gaps, stiffness, curves, scatter, theory, level)
 
     def data_of(some: Sequence[PullOff]) -> Data:
         return Data(some, work_of_adhesion, curves, scatter, theory)
 
     with Simulations() as runs:
-        near = _near(forward, data_of, series, passport, gaps, stiffness, growth, runs)
+        near = _near(forward, data_of, series, passport, gaps, stiffness, growth, history, runs)
     forward, plain, search, dropped = near.forward, near.plain, near.search, near.dropped
     if growth:
         fit, intervals = closely(forward, search, level)
@@ -249,6 +257,7 @@ def identify_rates(
         *solution_words(several, forward, search.opening, data.speed, data.load, theory),
         *_layer_words(forward, search, best),
         *near.words,
+        *([] if history else _relaxed_words(series, forward.material)),
         *_left_out(dropped),
         *(remark for one in series for remark in one.remarks),
     ]
@@ -311,6 +320,7 @@ def _near(
     gaps: tuple[float, float],
     stiffness: float | None,
     growth: bool,
+    history: bool,
     runs: Simulations,
 ) -> _Near:
     """Return the search over the speeds for which theory or simulation hold near its best fit."""
@@ -336,7 +346,8 @@ def _near(
             known, changed = _disturbed(search, known.best(), forward, passport, stiffness)
         refused = changed.refused
         if simulable:
-            tests = Conditions(data.speed, data.load, stiffness)
+            moves = tuple(_moves(one) for one in series) if history else ()
+            tests = Conditions(data.speed, data.load, stiffness, moves)
             known, refused, words = answered(known, changed, forward, tests, runs)
         if not refused:
             most = _largest_gap(known, forward)
@@ -467,6 +478,45 @@ def _growth(forward: Forward, search: Search, plain: Search, best: Best) -> Foun
     pulled = forward.pulled(w, gap, data.speed, data.load, growth=grown)
     better = plain.best().misfit - best.misfit
     return found_growth(best.values, search.opening, better, data.speed, pulled)
+
+
+def _moves(one: PullOff) -> tuple[Move, ...]:
+    assert one.history is not None and one.preload is not None, "checked by the caller"
+    return one.history.moves(one.preload)
+
+
+def _check_history(series: Sequence[PullOff], other: bool) -> None:
+    """Raise an error if histories cannot be taken into account."""
+    if other:
+        raise InputError(
+            "approach and dwell are taken into account for pull-off forces on thick samples "
+            "without growth only; omit history, or curves, growth and thickness"
+        )
+    for one in series:
+        if one.history is None:
+            raise InputError(
+                f"the tests at {_speed(one.speed)} have no speed of their approach; omit history"
+            )
+
+
+def _relaxed_words(series: Sequence[PullOff], material: Material) -> list[str]:
+    """Return a caution if contacts had not relaxed in their dwell."""
+    dwells = [
+        (one.history.dwell, one.speed)
+        for one in series
+        if one.history is not None and one.history.dwell > 0
+    ]
+    if not dwells:
+        return []
+    dwell, speed = min(dwells)
+    left = float(material.relaxation(dwell)) / material.rubbery_modulus - 1
+    if left < _LEFT:
+        return []
+    return [
+        f"the contacts are taken as relaxed, but after a dwell of {readable(dwell, 's', digits=2)} "
+        f"at {_speed(speed)} the modulus is {left:.0%} above the relaxed one; with --history the "
+        "forces include approach and dwell"
+    ]
 
 
 def _loaded(one: PullOff, preload: float | None) -> PullOff:

@@ -43,7 +43,7 @@ _APART, _CLOSER, _WANTED, _MOST_POINTS = 0.6, 0.6, 0.01, 10
 _RADII = 40  # points of a curve for Tabor numbers
 _NAMED = 4  # largest number of speeds named one by one
 _NODES = 8  # largest number of speeds of a forecast that are simulated each
-_THINNED = 4  # every so many samples of a posterior serve for Tabor numbers
+_THINNED = 4  # one of this many samples of a posterior serves for Tabor numbers
 _NEAR = 1.0  # distance of an interface from the likely ones up to which its error counts
 
 _NO_TIER = "the theory does not hold, and the Tabor number is too large to simulate"
@@ -58,22 +58,28 @@ class Conditions(NamedTuple):
         Speed of the drive [m/s] and preload [N].
     stiffness : float or None
         Stiffness of the machine [N/m]; None for a rigid one.
-    moves : tuple of Move
-        Moves before the retraction; empty for relaxed contacts.
+    moves : tuple of tuple of Move
+        Moves of each test before the retraction; empty if all contacts are relaxed.
     """
 
     speed: Array
     load: Array
     stiffness: float | None
-    moves: tuple[Move, ...] = ()
+    moves: tuple[tuple[Move, ...], ...] = ()
 
     def some(self, at: npt.NDArray[Any]) -> "Conditions":
         """Select tests."""
-        return self._replace(speed=self.speed[at], load=self.load[at])
+        moves = tuple(self.moves[i] for i in np.arange(self.speed.size)[at]) if self.moves else ()
+        return self._replace(speed=self.speed[at], load=self.load[at], moves=moves)
 
     def at(self, speed: Array) -> "Conditions":
-        """Return tests at other speeds, under the load of the first."""
-        return self._replace(speed=speed, load=np.full(speed.size, self.load[0]))
+        """Return tests at other speeds, with load and moves of the first."""
+        load = np.full(speed.size, self.load[0])
+        return self._replace(speed=speed, load=load, moves=self.moves[:1] * speed.size)
+
+    def moved(self, test: int) -> tuple[Move, ...]:
+        """Return the moves of a test."""
+        return self.moves[test] if self.moves else ()
 
 
 def beyond(changed: Changed) -> npt.NDArray[np.bool_]:
@@ -177,7 +183,7 @@ class Tiers:
                 tests.speed[which],
                 tests.load[which],
                 stiffness=tests.stiffness,
-                moves=tests.moves,
+                moves=tests.some(which).moves,
             )
         except InputError:  # strains too large
             return none, which
@@ -194,7 +200,7 @@ class Tiers:
             for test in map(int, which):
                 load, speed = float(tests.load[test]), float(tests.speed[test])
                 problem = self.forward.problem(
-                    work, gap, load, speed, stiffness=tests.stiffness, moves=tests.moves
+                    work, gap, load, speed, stiffness=tests.stiffness, moves=tests.moved(test)
                 )
                 if problem.groups().tabor <= most:
                     found[test] = problem
