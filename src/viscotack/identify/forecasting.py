@@ -115,7 +115,8 @@ def forecast_rates(
     Raises
     ------
     OutOfRange
-        If the theory does not hold at a speed, or the temperature is outside the passport's range.
+        If neither theory nor simulation holds at a speed, or the temperature is outside the
+        passport's range.
     ValueError
         If an argument is invalid.
     """

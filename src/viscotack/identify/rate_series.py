@@ -1,10 +1,10 @@
 r"""Identify the interface from a rate series: pull-off forces at several speeds, and a material.
 
-The forward model is the contact whose edge is a steady crack (:mod:`.forward`). Pull-off forces are
-computed on a grid of works of adhesion and ranges and interpolated in logarithms
-(:mod:`.interpolated_forces`), so that the search (:mod:`.search`) and its intervals are fast. Noise
-of the forces, error of the theory and uncertainty of the material (:mod:`.doubt`) form one
-covariance of the relative forces.
+The forward model is the contact whose edge is a steady crack (:mod:`.forward`), and simulation
+where that does not hold (:mod:`.tiers`). Pull-off forces are computed on a grid of works of
+adhesion and ranges and interpolated in logarithms (:mod:`.interpolated_forces`), so that the search
+(:mod:`.search`) and its intervals are fast. Noise of the forces, error of the forward model and
+uncertainty of the material (:mod:`.covariances`) form one covariance of the relative forces.
 
 An interface that grows with speed (:mod:`.growth`) has two additional unknowns.
 """
@@ -86,7 +86,7 @@ class RateSeriesFit:
     series : tuple of PullOff
         Fitted pull-offs, each with its preload.
     excluded : tuple of PullOff
-        Pull-offs at speeds for which the theory does not hold.
+        Pull-offs at speeds for which neither theory nor simulation has an answer.
     passport : Passport
         Passport of the material.
     forward : Forward
@@ -198,16 +198,17 @@ def identify_rates(
     scatter : float
         Relative standard deviation between tests, if repeated tests do not show it.
     theory : float, optional
-        Relative standard uncertainty of the forward model, correlated between near speeds; by
-        default 2 %, or 3 % with growth or on a layer. Where the forces reach through a layer,
-        7 % times the zone length times the contact radius over the squared thickness is added.
+        Relative standard uncertainty of the theory, correlated between near speeds; by default
+        2 %, or 3 % with growth or on a layer. Where the forces reach through a layer, 7 % times
+        the zone length times the contact radius over the squared thickness is added. Simulated
+        forces have the error of their interpolation.
     level : float
         Confidence level of the intervals.
 
     Raises
     ------
     OutOfRange
-        If the most likely interface is outside the range of the theory.
+        If the most likely interface is outside the range of theory and simulation.
     ValueError
         If an option is not available for a layer, there are fewer than two speeds (without curves),
         a pull-off has no travels (with curves), or the theory holds for none of the searched
@@ -217,7 +218,8 @@ def identify_rates(
     -----
     The bulk is linear, and the interface rate-independent unless `growth` is set. Forces that rise
     more steeply than any range allows give large residuals. Takes 1 to 20 s, mostly for the cracks
-    of the material; with growth 1 to 2 minutes, mostly for the lattice.
+    of the material, and up to a minute where tests are simulated; with growth 1 to 2 minutes,
+    mostly for the lattice.
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
