@@ -43,6 +43,8 @@ SCATTER, NOISE, LEVEL = 0.03, 0.004, 0.9
 # Largest Tabor numbers of a simulated truth, without growth: always, and where no crack is steady.
 SIMULATED, SIMULABLE = 25.0, 100.0
 GROWING, DISTURBED = 20, 30  # of the seed of a lab
+USUAL = argparse.Namespace(growing=False, disturbed=False, tabor=(10.0, 1e4))
+SHORT = 10.0  # Tabor number beyond which attraction out of contact is left out
 KINDS = ("none", "drift", "dropped", "compliance", "temperature", "law", "few points")
 WARMER = 10 ** (-5 * 2 / 152)  # factor of the times of a solid 2 K warmer
 WANDER = 0.02  # of the zero, in pull-off forces
@@ -118,6 +120,7 @@ def lab_of(seed, given):
         "reference_speed": None,
         "rng": rng,
         "disturbance": kind,
+        "keeps_speeds": tabor <= SIMULABLE and (given.disturbed or given.tabor[1] <= SIMULABLE),
         "solid": solid,
         "true_solid": slowed(solid, WARMER) if kind == "temperature" else solid,
         "model": model,
@@ -147,10 +150,10 @@ def with_growth(lab):
 def slow_enough(lab):
     """Return a lab with speeds at which edges have a way to go; a lab is told when they have not.
 
-    Twice the fastest speed, that the edge has more than it needs. A lab whose tests can be
-    simulated keeps its speeds.
+    Twice the fastest speed, that the edge has more than it needs. A lab that is disturbed or of a
+    low Tabor number, and whose tests can be simulated, keeps its speeds.
     """
-    if lab["tabor"] <= SIMULABLE and lab["exponent"] is None:
+    if lab["keeps_speeds"]:
         return lab
     for _ in range(8):
         try:
@@ -188,6 +191,16 @@ def curve_of(lab, speed):
     return (drive[0] - drive) / speed, drive, pressed, force * scales.force
 
 
+def attraction(lab, apart):
+    """Return the van der Waals force [N] of a sphere so far above the equilibrium gap [m].
+
+    It is left out where it is short.
+    """
+    if lab["tabor"] > SHORT:
+        return np.zeros_like(apart)
+    return -8 / 3 * np.pi * lab["radius"] * lab["work"] * (1 + apart / lab["gap"]) ** -2.0
+
+
 def record_of(lab, speed):
     """Return what the rig writes: approach, dwell, retraction; zero, drift and noise."""
     rng = lab["rng"]
@@ -201,9 +214,13 @@ def record_of(lab, speed):
     away = drive[-1] - np.linspace(1 / 150, 1, 150) * far
     down = np.linspace(away[-1], top, 300)
     height = np.maximum(down, 0) / top if top > 0 else np.zeros(down.size)
-    pressed = force[0] * height**1.5
+    pressed = force[0] * height**1.5 + attraction(lab, -down) * (down < 0)
     way = np.concatenate([down, np.full(30, top), drive, away])
-    push = np.concatenate([pressed, np.full(30, force[0]), force, np.zeros(150)])
+    # on from the gap at which the attraction is that of the end
+    most, last = -attraction(lab, 0.0), max(-force[-1], 1e-6 * pull_off)
+    gap = lab["gap"] * (np.sqrt(most / last) - 1)
+    free = attraction(lab, gap + drive[-1] - away)
+    push = np.concatenate([pressed, np.full(30, force[0]), force, free])
     step = far / 150 / speed
     clock = np.concatenate(
         [np.linspace(-1.3, -0.3, 300), np.linspace(-0.29, -1e-3, 30)]
@@ -309,7 +326,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--growing", action="store_true")
     parser.add_argument("--disturbed", action="store_true")
-    parser.add_argument("--tabor", type=float, nargs=2, default=(10.0, 1e4))
+    parser.add_argument("--tabor", type=float, nargs=2, default=USUAL.tabor)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--out", type=Path, default=Path("labs.jsonl"))
