@@ -308,7 +308,8 @@ def answered(
         more = simulated | _low(forward, tests, points)
         if not more.any():
             return Answered(search, {}, [])
-        if np.any(more != simulated) or not len(tiers.points):
+        begins = bool(np.any(more != simulated)) or not len(tiers.points)
+        if begins:
             simulated = more
             model = _model(simulated, data.theory, error)
             spread = data.own + model.covariance(data.speed) + material
@@ -318,7 +319,7 @@ def answered(
             tiers = tiers.at(known)
         likely, count = points / LENGTHS, len(tiers.points)
         tiers = tiers.over(likely, apart)
-        if len(tiers.points) == count:
+        if len(tiers.points) == count and not begins:
             break
         if tiers.unanswered.any():
             lost = np.flatnonzero(simulated)[tiers.unanswered].tolist()
