@@ -286,7 +286,7 @@ def lab_curves(count, first):
 
     curves = []
     for seed in range(first, first + count):
-        lab = labs.slow_enough(labs.lab_of(seed, False))
+        lab = labs.slow_enough(labs.lab_of(seed, labs.USUAL))
         for speed in lab["speeds"][::2]:
             past, drive, pressed, pull_off = labs.curve_of(lab, speed)
             curves.append((past, drive, pressed, pull_off, 1 / lab["stiffness"]))

@@ -227,6 +227,7 @@ def test_a_chosen_column_settles_two_columns_of_one_quantity(file):
         ("storage=G1 [Pa]", "no column 'G1'"),
         ("storage=G' [kPa]", 'the file states Pa for "G\'", but --columns kPa'),
         ("storage=9", "no column '9'"),
+        ("storage=2; loss=2", '--columns has "G\'" as storage and as loss'),
     ],
 )
 def test_a_wrong_choice_of_columns_is_refused(file, columns, words):

@@ -141,6 +141,15 @@ def bad():
     }
 
 
+@pytest.mark.parametrize(("digit", "place"), [(1e-4, 0.4), (1.5e-4, 0.0), (2e-4, 0.6)])
+def test_whole_digits_around_a_flat_extreme_are_no_saturation(digit, place):
+    test = tack_files.made()
+    force = digit * (np.round(test.force / digit + place) - place)
+    assert np.count_nonzero(force == force.min()) >= 8
+    pull_off = only(replace(test, force=force)).pull_off_force
+    assert pull_off.value == pytest.approx(-test.force.min(), abs=digit)
+
+
 @pytest.mark.parametrize("what", bad())
 def test_a_bad_curve_is_refused_with_the_reason(what):
     test, words = bad()[what]

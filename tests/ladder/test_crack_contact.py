@@ -342,3 +342,11 @@ def test_an_edge_that_moves_at_once_is_refused_in_words_where_the_zone_is_large(
     groups = Groups(0.5165909518906818, solid, start, 6.546616974638198, law.reduced())
     with pytest.raises(OutOfRange, match="cohesive zone is too large"):
         crack_contact(replace(groups, geometry=Cone(1.0)))
+
+
+def test_steps_at_one_time_before_the_pull_off_do_not_stop_a_fast_retraction():
+    solid = StandardSolid(rubbery_modulus=1.0, glassy_modulus=300.0, tau0=1.0, poisson_ratio=0.0)
+    common = {"tabor": 815.192, "material": solid, "start": AtForce(0.402701)}
+    # warnings are errors: a slope between steps at one time was a division by zero
+    forces = [crack_contact(Groups(**common, rate=v)).pull_off_force for v in (1e6, 2e6, 4e6)]
+    assert forces == pytest.approx([forces[0]] * 3, rel=1e-3)

@@ -7,7 +7,7 @@ one, because it hardly depends on the interface, and is added to the noise in fi
 """
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from math import inf, log
 from statistics import NormalDist
 from typing import Any
@@ -95,3 +95,28 @@ def theory_covariance(speed: Array, theory: float | Array) -> Array:
     apart = np.abs(np.subtract.outer(np.log(speed), np.log(speed)))
     error = np.broadcast_to(theory, speed.shape)
     return np.multiply.outer(error, error) * np.exp(-apart / _TOGETHER)
+
+
+@dataclass(frozen=True, eq=False)
+class ModelError:
+    """Relative standard errors of the forces of tests, by theory or by simulation.
+
+    Parameters
+    ----------
+    theory, simulation : ndarray, shape (S,)
+        Error by the tier that gives the force of a test; 0 for the other.
+    """
+
+    theory: Array
+    simulation: Array
+
+    def covariance(self, speed: Array) -> Array:
+        """Return the covariance of the errors; theory and simulation are independent."""
+        return theory_covariance(speed, self.theory) + theory_covariance(speed, self.simulation)
+
+    def joined(self, other: "ModelError") -> "ModelError":
+        """Return the errors of these tests and of others."""
+        return ModelError(
+            np.concatenate([self.theory, other.theory]),
+            np.concatenate([self.simulation, other.simulation]),
+        )

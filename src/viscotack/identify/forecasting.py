@@ -12,23 +12,26 @@ them the model.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
+from viscotack.geometry import Layer
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
-from viscotack.protocol import Approach, AtForce, Dwell, Move
+from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import allowed, covariance, log_forces, theory_covariance
-from .pull_off import SAME
+from .covariances import ModelError, allowed, covariance, log_forces
+from .pull_off import SAME, History
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
+from .smooth_ratio import Mixed
+from .tiers import Conditions, by_theory, tested
 
 _MOST = 200  # largest number of speeds
 _SURELY = 2.0  # standard deviations of a measured force
@@ -112,7 +115,8 @@ def forecast_rates(
     Raises
     ------
     OutOfRange
-        If the theory does not hold at a speed, or the temperature is outside the passport's range.
+        If neither theory nor simulation holds at a speed, or the temperature is outside the
+        passport's range.
     ValueError
         If an argument is invalid.
     """
@@ -128,38 +132,46 @@ def forecast_rates(
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     law = None if fit.growth is None else fit.growth.law
     middle = known.pulled(w, gap, v, load, growth=law)
-    _refuse(v, middle.effective_tabor)
-    pressed: tuple[Move, ...] = ()
+    pressed: tuple[tuple[Move, ...], ...] = ()
     if dwell is not None and approach_speed is not None:
-        pressed = Approach(approach_speed, to=AtForce(load)), Dwell(dwell, hold="force")
+        pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
     spring = None if spring == np.inf else spring
     loaded = np.full(v.size, load)
-    changed, refused = known.changed(w, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)
-    for i, why in refused.items():
+    changed = known.changed(w, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)
+    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
+    draws = chain.thinned(_DRAWS)
+    theory = fit.theory if theory is None else theory
+    if law is not None or isinstance(known.body, Layer):
+        _refuse(v, middle.effective_tabor)
+        found = by_theory(changed, theory)
+    else:
+        interfaces = np.log(np.vstack([(w, gap), draws]))
+        found = tested(interfaces, changed, known, Conditions(v, loaded, spring, pressed), theory)
+    for i, why in found.refused.items():
         raise OutOfRange(f"at {readable(v[i], 'm/s', digits=3)}: {why}")
 
     measured = np.array([one.speed for one in fit.series])
-    theory = fit.theory if theory is None else theory
-    spread = _together(fit, passport, (measured, loads), (v, load), theory)
-    m = measured.size
+    m, both = measured.size, _model(fit, theory).joined(found.model)
+    spread = _together(fit, passport, (measured, loads), (v, load), both)
     # covariance of the fit: noise, theory and material of the measured forces
     gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
     left = spread[m:, m:] - gain @ spread[:m, m:]
     root = _root(left)
 
-    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
-    draws = chain.thinned(_DRAWS)
     works, gaps = draws[:, :1], draws[:, 1:2]
     laws = None
     if fit.growth is not None:
         laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
     forecast = np.log(known.pulled(works, gaps, v, load, growth=laws).force)
     at = fit.forward.pulled(works, gaps, measured, loads, growth=laws).force
-    force = np.array([one.force.value for one in fit.series]) / fit.yielding
-    moved = forecast + np.log(force / at) @ gain.T
+    ratio = fit.yielding
+    if isinstance(fit.ratio, Mixed):
+        ratio = fit.ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
+    force = np.array([one.force.value for one in fit.series])
+    moved = forecast + np.log(force / (at * ratio)) @ gain.T
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
-    sample = np.exp(moved + noise).reshape(-1, v.size) * changed
+    sample = (np.exp(moved + noise) * found.ratio).reshape(-1, v.size)
     slower, uncertain = _slower(fit, v, load, passport, spring, dwell)
     part = (1 - level) / 2
     # only where noise does not explain the larger force, the band rises, too
@@ -179,7 +191,13 @@ def forecast_rates(
         passport.temperature,
         dwell,
         chain,
-        tuple([*_words(fit, v, middle.crack_speed, chain), *_raised_words(v[raised])]),
+        tuple(
+            [
+                *_words(fit, v, middle.crack_speed, chain),
+                *found.words,
+                *_raised_words(v[raised]),
+            ]
+        ),
     )
 
 
@@ -262,21 +280,27 @@ def _refuse(speed: Array, effective: Array) -> None:
         )
 
 
+def _model(fit: RateSeriesFit, theory: float) -> ModelError:
+    """Return the errors of the measured forces, for this error of the theory."""
+    simulation = fit.model_error.simulation
+    return ModelError(np.where(simulation > 0, 0.0, theory), simulation)
+
+
 def _together(
     fit: RateSeriesFit,
     passport: Passport,
     measured: tuple[Array, Array],
     wanted: tuple[Array, float],
-    theory: float,
+    model: ModelError,
 ) -> Array:
-    """Return the joint covariance of theory and material over measured and predicted speeds."""
+    """Return the joint covariance of model and material over measured and predicted speeds."""
     speed = np.concatenate([measured[0], wanted[0]])
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     load = np.full(wanted[0].size, wanted[1])
     known = fit.forward.beside(passport.material)
     both = ((fit.forward, *measured), (known, wanted[0], load))
     more = [forward.layer_error(w, gap, v, preload) for forward, v, preload in both]
-    spread = theory_covariance(speed, theory + np.concatenate(more))
+    spread = replace(model, theory=model.theory + np.concatenate(more)).covariance(speed)
     solids = allowed(fit.passport)
     if not solids:
         return spread

@@ -6,7 +6,7 @@ Lennard-Jones forces. For an interface whose strength grows with the opening spe
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -117,10 +117,13 @@ class Changed(NamedTuple):
         Pull-off force over that of a relaxed contact and a rigid machine; 1 for refused speeds.
     refused : dict
         Index of a speed -> reason why the theory does not apply.
+    band : ndarray, shape (S,)
+        Relative half width of the theory's 90 % interval; 0 where it is not known.
     """
 
     ratio: Array
     refused: dict[int, str]
+    band: Array
 
 
 @dataclass(frozen=True)
@@ -148,7 +151,7 @@ class Forward:
         self,
         *,
         stiffness: float | None = None,
-        moves: tuple[Move, ...] = (),
+        moves: Sequence[tuple[Move, ...]] = (),
         curves: bool = False,
         growth: bool = False,
     ) -> None:
@@ -173,10 +176,14 @@ class Forward:
         preload: float,
         speed: float = _SPEED,
         growth: Growth | None = None,
+        *,
+        stiffness: float | None = None,
+        moves: tuple[Move, ...] = (),
     ) -> Problem:
         """Return the problem of a test on a half-space.
 
-        In work [J/m2], h0 [m], preload [N] and speed [m/s].
+        In work [J/m2], h0 [m], preload [N], speed [m/s] and stiffness of the machine [N/m]. With
+        moves before the retraction it starts apart.
         """
         law: Any = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
         if growth is not None:
@@ -186,7 +193,12 @@ class Forward:
             material=self.material,
             traction=law,
             geometry=Sphere(radius=self.radius),
-            protocol=Retraction(start=AtForce(preload), speed=speed),
+            protocol=Retraction(
+                start=Apart(_APART * gap) if moves else AtForce(preload),
+                speed=speed,
+                moves=moves,
+                stiffness=stiffness,
+            ),
         )
 
     @cached_property
@@ -207,7 +219,7 @@ class Forward:
         preload: Array,
         *,
         stiffness: float | None = None,
-        moves: tuple[Move, ...] = (),
+        moves: Sequence[tuple[Move, ...]] = (),
         growth: Growth | None = None,
     ) -> "Changed":
         """Compute the effect of a spring, or of approach and dwell, on the pull-offs.
@@ -220,8 +232,8 @@ class Forward:
             Speed of the drive [m/s] and preload [N].
         stiffness : float, optional
             Stiffness of the machine [N/m]; None for a rigid one.
-        moves : tuple
-            Moves before the retraction; empty for a relaxed contact.
+        moves : sequence of tuple, length S
+            Moves of each test before the retraction; empty if all contacts are relaxed.
         growth : Growth, optional
             Growth of the interface.
         """
@@ -229,15 +241,16 @@ class Forward:
         loads = np.broadcast_to(preload, speed.shape)
         if isinstance(self.body, Layer):
             refused = _outside_layer(self.pulled(work, gap, speed, loads))
-            return Changed(np.ones(speed.size), refused)
+            return Changed(np.ones(speed.size), refused, np.zeros(speed.size))
         problems = [
-            self.problem(work, gap, float(load), float(v), growth)
-            for v, load in zip(speed, loads, strict=True)
+            self.problem(work, gap, float(load), float(v), growth, stiffness=stiffness, moves=some)
+            for v, load, some in zip(speed, loads, moves or [()] * speed.size, strict=True)
         ]
         if not moves and stiffness is None:
             # no effect; retractions from rest are computed together
-            return Changed(np.ones(speed.size), _refused(_rested(problems), speed))
-        answers = [_pressed(problem, _APART * gap, moves, stiffness) for problem in problems]
+            rested = _rested(problems)
+            return Changed(np.ones(speed.size), _refused(rested, speed), _bands(rested))
+        answers = [_pressed(problem) for problem in problems]
         refused = _refused(answers, speed)
         rigid = self.pulled(work, gap, speed, preload, growth=growth).force
         unit = 1.5 * np.pi * self.radius * work
@@ -245,7 +258,7 @@ class Forward:
         for i, answer in enumerate(answers):
             if i not in refused:
                 ratio[i] = answer.pull_off_force * unit / rigid[i]  # type: ignore
-        return Changed(ratio, refused)
+        return Changed(ratio, refused, _bands(answers))
 
     def layer_error(self, work: float, gap: float, speed: Array, preload: Array) -> Array:
         """Return the part of the theory's relative error by which it grows on thin layers."""
@@ -393,16 +406,17 @@ def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
         return [error] * len(problems)
 
 
-def _pressed(
-    problem: Problem, apart: float, moves: tuple[Move, ...], stiffness: float | None
-) -> CrackContact | InputError:
+def _pressed(problem: Problem) -> CrackContact | InputError:
     """Return the crack contact of a test with history or spring, or its error."""
-    drive = replace(problem.protocol, moves=moves, stiffness=stiffness)
     try:
-        drive = replace(drive, start=Apart(apart)) if moves else drive
-        return crack_contact(replace(problem, protocol=drive))
+        return crack_contact(problem)
     except InputError as error:
         return error
+
+
+def _bands(answers: Sequence[CrackContact | InputError]) -> Array:
+    """Return the band of each test, 0 without an answer."""
+    return np.array([one.band if isinstance(one, CrackContact) else 0.0 for one in answers])
 
 
 def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict[int, str]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-from .forward import Forward, Growth
+from .forward import Changed, Forward, Growth
 
 # |ln ratio| above which derivatives are computed, and steps in ln of work and range.
 _FAR, _WORK, _GAP = 0.1, 0.1, -0.3
@@ -68,21 +68,21 @@ def yielding_near(
     preload: Array,
     stiffness: float | None,
     growth: Growth | None,
-) -> tuple[Yielding, dict[int, str]]:
-    """Compute the ratios near an interface, and the refused speeds with the reason."""
+) -> tuple[Yielding, Changed]:
+    """Compute the ratios near an interface, and those at the interface."""
 
-    def log_ratio(w: float, h0: float) -> tuple[Array, dict[int, str]]:
+    def log_ratio(w: float, h0: float) -> tuple[Array, Changed]:
         found = forward.changed(w, h0, speed, preload, stiffness=stiffness, growth=growth)
-        return np.log(found.ratio), found.refused
+        return np.log(found.ratio), found
 
-    middle, refused = log_ratio(work, gap)
+    middle, changed = log_ratio(work, gap)
     slopes = np.zeros((2, speed.size))
-    if not refused and np.max(np.abs(middle)) > _FAR:
+    if np.max(np.abs(middle)) > _FAR:
         beside = (
             (log_ratio(work * np.exp(_WORK), gap), _WORK),
             (log_ratio(work, gap * np.exp(_GAP)), _GAP),
         )
-        for row, ((other, without), step) in zip(slopes, beside, strict=True):
-            known = [i for i in range(speed.size) if i not in without]
+        for row, ((other, there), step) in zip(slopes, beside, strict=True):
+            known = [i for i in range(speed.size) if i not in there.refused]
             row[known] = (other - middle)[known] / step
-    return Yielding(middle, slopes, work, gap), refused
+    return Yielding(middle, slopes, work, gap), changed

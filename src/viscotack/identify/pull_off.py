@@ -6,12 +6,42 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscotack.lab.tack import Cycle, Measured
+from viscotack.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
 
 from .repeats import Repeats, pooled
 from .travel import travels
 
 SAME = 0.03  # relative difference below which speeds, and preloads, are equal
+_HELD = 0.95  # of the peak: a smaller force at the start of the retraction was not held
+
+
+@dataclass(frozen=True)
+class History:
+    """Loading of a test before its retraction.
+
+    Parameters
+    ----------
+    approach_speed : float
+        Speed of the approach [m/s].
+    peak : float
+        Largest force, at its end [N].
+    dwell : float
+        Time from there to the retraction [s].
+    """
+
+    approach_speed: float
+    peak: float
+    dwell: float
+
+    def moves(self, preload: float) -> tuple[Move, ...]:
+        """Return the moves to the force at which the retraction begins [N].
+
+        A force well below the peak has relaxed at a held drive; otherwise the force was held.
+        """
+        approach = Approach(self.approach_speed, to=AtForce(self.peak))
+        hold = "drive" if preload < _HELD * self.peak else "force"
+        return (approach, Dwell(self.dwell, hold=hold)) if self.dwell > 0 else (approach,)
 
 
 @dataclass(frozen=True)
@@ -30,6 +60,8 @@ class PullOff:
         Travels along the curve [m], from :func:`.travel.travels`.
     remarks : tuple of str
         Sentences on the tests at this speed.
+    history : History, optional
+        Approach and dwell.
     """
 
     speed: float
@@ -37,6 +69,7 @@ class PullOff:
     preload: float | None = None
     travels: tuple[Measured, ...] | None = None
     remarks: tuple[str, ...] = ()
+    history: History | None = None
 
 
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
@@ -83,7 +116,18 @@ def _of_one_speed(
         float(np.mean(begins)) if min(begins) > 0 else None,
         _mean([travels(cycle) for cycle in same]),
         remarks,
+        _history(same),
     )
+
+
+def _history(same: Sequence[Cycle]) -> History | None:
+    """Return the mean history; None if the speed of an approach is not known."""
+    speeds = [one.approach_speed for one in same if one.approach_speed]
+    if len(speeds) < len(same):
+        return None
+    peak = float(np.mean([one.preload.value for one in same]))
+    dwell = float(np.mean([one.dwell_time for one in same]))
+    return History(float(np.mean(speeds)), peak, dwell) if peak > 0 else None
 
 
 def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:

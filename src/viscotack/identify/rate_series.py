@@ -1,16 +1,17 @@
 r"""Identify the interface from a rate series: pull-off forces at several speeds, and a material.
 
-The forward model is the contact whose edge is a steady crack (:mod:`.forward`). Pull-off forces are
-computed on a grid of works of adhesion and ranges and interpolated in logarithms
-(:mod:`.interpolated_forces`), so that the search (:mod:`.search`) and its intervals are fast. Noise
-of the forces, error of the theory and uncertainty of the material (:mod:`.doubt`) form one
-covariance of the relative forces.
+The forward model is the contact whose edge is a steady crack (:mod:`.forward`), and simulation
+where that does not hold (:mod:`.tiers`). Pull-off forces are computed on a grid of works of
+adhesion and ranges and interpolated in logarithms (:mod:`.interpolated_forces`), so that the search
+(:mod:`.search`) and its intervals are fast. Noise of the forces, error of the forward model and
+uncertainty of the material (:mod:`.covariances`) form one covariance of the relative forces.
 
 An interface that grows with speed (:mod:`.growth`) has two additional unknowns.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,10 +20,11 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast.other_contacts import ERROR_BY_ZONE, MOST_ZONE
 from viscotack.geometry import HalfSpace, Layer
 from viscotack.materials import Material, Passport
+from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import allowed, covariance, log_forces, theory_covariance
-from .forward import Forward
+from .covariances import ModelError, allowed, covariance, log_forces, theory_covariance
+from .forward import Changed, Forward
 from .growth import FoundGrowth, found_growth
 from .interpolated_forces import Table
 from .machine_compliance import Yielding, yielding_near
@@ -38,7 +40,11 @@ from .search import (
     settled,
     widely,
 )
+from .simulations import Simulations
+from .smooth_ratio import Mixed
 from .solutions import solution_words, solutions
+from .tiers import LEAST_TABOR as SIMULATED_TABOR
+from .tiers import Conditions, answered
 
 # Relative standard uncertainty of the forward model, without and with growth, and on a layer
 # much thicker than the contact.
@@ -47,6 +53,7 @@ _LOUD = 2.0  # residuals over their uncertainty above which no such interface fi
 _MOST = 40  # largest number of speeds
 _OVER = 1.2  # overshoot of the limit on a layer that is left
 _THICK = HalfSpace()
+_LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 
@@ -79,7 +86,7 @@ class RateSeriesFit:
     series : tuple of PullOff
         Fitted pull-offs, each with its preload.
     excluded : tuple of PullOff
-        Pull-offs at speeds for which the theory does not hold.
+        Pull-offs at speeds for which neither theory nor simulation has an answer.
     passport : Passport
         Passport of the material.
     forward : Forward
@@ -95,7 +102,12 @@ class RateSeriesFit:
     stiffness : float or None
         Stiffness of the machine [N/m].
     yielding : ndarray, shape (S,)
-        Ratio of forces with the machine's stiffness to those of a rigid machine.
+        Ratio of forces with the machine's stiffness, or simulated, to those of a rigid machine by
+        theory, for this interface.
+    ratio : Yielding or Mixed
+        The same as a function of the interface.
+    model_error : ModelError
+        Relative error of the forces, included in the covariance.
     growth : FoundGrowth, optional
         Growth of the interface with speed, if fitted.
     """
@@ -120,6 +132,8 @@ class RateSeriesFit:
     level: float
     stiffness: float | None
     yielding: Array
+    ratio: Yielding | Mixed
+    model_error: ModelError
     growth: FoundGrowth | None = None
 
     @property
@@ -144,6 +158,7 @@ def identify_rates(
     stiffness: float | None = None,
     curves: bool = False,
     growth: bool = False,
+    history: bool = False,
     scatter: float = 0.0,
     theory: float | None = None,
     level: float = 0.9,
@@ -177,19 +192,23 @@ def identify_rates(
     growth : bool
         Whether to fit an interface that grows with the opening speed (Gent and Schultz), and test
         whether the data need growth. Its four unknowns need at least four speeds.
+    history : bool
+        Whether to compute the forces with approach and dwell of each test, mostly by simulation;
+        by default contacts have relaxed under the preload. Not with `curves`, `growth` or a layer.
     scatter : float
         Relative standard deviation between tests, if repeated tests do not show it.
     theory : float, optional
-        Relative standard uncertainty of the forward model, correlated between near speeds; by
-        default 2 %, or 3 % with growth or on a layer. Where the forces reach through a layer,
-        7 % times the zone length times the contact radius over the squared thickness is added.
+        Relative standard uncertainty of the theory, correlated between near speeds; by default
+        2 %, or 3 % with growth or on a layer. Where the forces reach through a layer, 7 % times
+        the zone length times the contact radius over the squared thickness is added. Simulated
+        forces have the error of their interpolation.
     level : float
         Confidence level of the intervals.
 
     Raises
     ------
     OutOfRange
-        If the most likely interface is outside the range of the theory.
+        If the most likely interface is outside the range of theory and simulation.
     ValueError
         If an option is not available for a layer, there are fewer than two speeds (without curves),
         a pull-off has no travels (with curves), or the theory holds for none of the searched
@@ -199,7 +218,8 @@ def identify_rates(
     -----
     The bulk is linear, and the interface rate-independent unless `growth` is set. Forces that rise
     more steeply than any range allows give large residuals. Takes 1 to 20 s, mostly for the cracks
-    of the material; with growth 1 to 2 minutes, mostly for the lattice.
+    of the material, and up to a minute where tests are simulated; with growth 1 to 2 minutes,
+    mostly for the lattice.
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
@@ -208,14 +228,16 @@ def identify_rates(
         theory = _GROWING_THEORY if growth else _LAYER_THEORY if thin else _THEORY
     forward = Forward(passport.material, radius, body=body)
     forward.check(stiffness=stiffness, curves=curves, growth=growth)
+    if history:
+        _check_history(series, curves or growth or thin)
     _check(series, radius, gaps, stiffness, curves, scatter, theory, level)
 
     def data_of(some: Sequence[PullOff]) -> Data:
         return Data(some, work_of_adhesion, curves, scatter, theory)
 
-    forward, plain, search, dropped = _near(
-        forward, data_of, series, passport, gaps, stiffness, growth
-    )
+    with Simulations() as runs:
+        near = _near(forward, data_of, series, passport, gaps, stiffness, growth, history, runs)
+    forward, plain, search, dropped = near.forward, near.plain, near.search, near.dropped
     if growth:
         fit, intervals = closely(forward, search, level)
     else:
@@ -236,6 +258,8 @@ def identify_rates(
         *_between_words(fit.between),
         *solution_words(several, forward, search.opening, data.speed, data.load, theory),
         *_layer_words(forward, search, best),
+        *near.words,
+        *([] if history else _relaxed_words(series, forward.material)),
         *_left_out(dropped),
         *(remark for one in series for remark in one.remarks),
     ]
@@ -260,8 +284,34 @@ def identify_rates(
         level=level,
         stiffness=stiffness,
         yielding=search.yielding(best.values),
+        ratio=search.yielding,
+        model_error=search.model,
         growth=found,
     )
+
+
+class _Near(NamedTuple):
+    """Search near the likely interface.
+
+    Attributes
+    ----------
+    forward : Forward
+        Theory, with growth if fitted.
+    plain : Table
+        Forces of interfaces without growth.
+    search : Search
+        Search over the speeds that are left.
+    dropped : dict
+        Excluded speed -> reason.
+    words : list of str
+        Sentences on simulated forces.
+    """
+
+    forward: Forward
+    plain: Table
+    search: Search
+    dropped: dict[float, str]
+    words: list[str]
 
 
 def _near(
@@ -272,16 +322,17 @@ def _near(
     gaps: tuple[float, float],
     stiffness: float | None,
     growth: bool,
-) -> tuple[Forward, Table, Search, dict[float, str]]:
-    """Return the search over the speeds for which the theory holds near the likely interface.
-
-    Also return the table of interfaces without growth, and the excluded speeds with their reasons.
-    """
-    opening, dropped = None, {}
+    history: bool,
+    runs: Simulations,
+) -> _Near:
+    """Return the search over the speeds for which theory or simulation hold near its best fit."""
+    opening, dropped, words = None, {}, []
     for _ in range(_ROUNDS):
         data = data_of(series)
-        plain = plain_table(forward, data, gaps)
-        search = Search(data, plain, data.spread, Yielding.of_a_rigid_machine(data.speed.size))
+        simulable = not (growth or data.curves or isinstance(forward.body, Layer))
+        plain = plain_table(forward, data, gaps, SIMULATED_TABOR if simulable else LEAST_TABOR)
+        rigid = Yielding.of_a_rigid_machine(data.speed.size)
+        search = Search(data, plain, data.spread, rigid, data.model)
         best = search.best()
         if growth:
             if opening is None:
@@ -291,14 +342,19 @@ def _near(
                 gaps = gaps[0], float(plain.axes["equilibrium_gap"][-1])
             search = widely(forward, search, opening)
             best = search.best()
-        known, refused = _disturbed(search, best, forward, passport, stiffness)
-        if known.yielding.much:
+        known, changed = _disturbed(search, best, forward, passport, stiffness)
+        if isinstance(known.yielding, Yielding) and known.yielding.much:
             # repeat for this machine, because the interface was that of a rigid one
-            known, refused = _disturbed(search, known.best(), forward, passport, stiffness)
+            known, changed = _disturbed(search, known.best(), forward, passport, stiffness)
+        refused = changed.refused
+        if simulable:
+            moves = tuple(_moves(one) for one in series) if history else ()
+            tests = Conditions(data.speed, data.load, stiffness, moves)
+            known, refused, words = answered(known, changed, forward, tests, runs)
         if not refused:
             most = _largest_gap(known, forward)
             if most is None:
-                return forward, plain, known, dropped
+                return _Near(forward, plain, known, dropped, words)
             gaps = gaps[0], most
             continue
         dropped |= {series[i].speed: why for i, why in refused.items()}
@@ -312,24 +368,22 @@ def _near(
 
 def _disturbed(
     search: Search, best: Best, forward: Forward, passport: Passport, stiffness: float | None
-) -> tuple[Search, dict[int, str]]:
+) -> tuple[Search, Changed]:
     """Return a search that includes the uncertainty of the material and a compliant machine.
 
-    Also return the speeds for which the theory does not hold, with the reason.
+    Also return the ratios of the forces at the interface.
     """
     solids, data = allowed(passport), search.data
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
     grown = None if search.opening is None else search.opening.of(best.values)
-    yielding, refused = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
-    if refused:
-        return search, refused
+    yielding, changed = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
     more = forward.layer_error(w, gap, data.speed, data.load)
     spread = data.own + theory_covariance(data.speed, data.theory + more)
     if solids:
         # hardly depends on the interface
         rows = log_forces(forward, solids, w, gap, data.speed, data.load, grown)
         spread = spread + covariance(rows)
-    return replace(search, spread=spread, yielding=yielding), {}
+    return replace(search, spread=spread, yielding=yielding), changed
 
 
 def _largest_gap(search: Search, forward: Forward) -> float | None:
@@ -388,14 +442,22 @@ def _left_out(dropped: Mapping[float, str]) -> list[str]:
 
 
 def _check_place(forward: Forward, search: Search, best: Best, stiffness: float | None) -> None:
-    """Raise an error if the theory does not hold for the fitted interface."""
-    if search.table.effective(best.values) < LEAST_TABOR:
+    """Raise an error if the theory does not hold for the fitted interface.
+
+    Conditions whose forces are simulated need no theory.
+    """
+    by_theory = np.ones(search.data.speed.size, dtype=bool)
+    if isinstance(search.yielding, Mixed):
+        by_theory[search.yielding.mixed] = False
+    elif search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {readable(best.values['equilibrium_gap'], 'm', digits=3)}, "
             "has a cohesive zone as large as the contact, so the theory does not hold: simulate"
         )
     # speeds were excluded for a nearby interface; check the fastest one again for this interface
     fastest = [int(np.argmax(search.data.speed))]
+    if not by_theory[fastest]:
+        return
     grown = None if search.opening is None else search.opening.of(best.values)
     found = forward.changed(
         best.values["work_of_adhesion"],
@@ -418,6 +480,45 @@ def _growth(forward: Forward, search: Search, plain: Search, best: Best) -> Foun
     pulled = forward.pulled(w, gap, data.speed, data.load, growth=grown)
     better = plain.best().misfit - best.misfit
     return found_growth(best.values, search.opening, better, data.speed, pulled)
+
+
+def _moves(one: PullOff) -> tuple[Move, ...]:
+    assert one.history is not None and one.preload is not None, "checked by the caller"
+    return one.history.moves(one.preload)
+
+
+def _check_history(series: Sequence[PullOff], other: bool) -> None:
+    """Raise an error if histories cannot be taken into account."""
+    if other:
+        raise InputError(
+            "approach and dwell are taken into account for pull-off forces on thick samples "
+            "without growth only; omit history, or curves, growth and thickness"
+        )
+    for one in series:
+        if one.history is None:
+            raise InputError(
+                f"the tests at {_speed(one.speed)} have no speed of their approach; omit history"
+            )
+
+
+def _relaxed_words(series: Sequence[PullOff], material: Material) -> list[str]:
+    """Return a caution if contacts had not relaxed in their dwell."""
+    dwells = [
+        (one.history.dwell, one.speed)
+        for one in series
+        if one.history is not None and one.history.dwell > 0
+    ]
+    if not dwells:
+        return []
+    dwell, speed = min(dwells)
+    left = float(material.relaxation(dwell)) / material.rubbery_modulus - 1
+    if left < _LEFT:
+        return []
+    return [
+        f"the contacts are taken as relaxed, but after a dwell of {readable(dwell, 's', digits=2)} "
+        f"at {_speed(speed)} the modulus is {left:.0%} above the relaxed one; with --history the "
+        "forces include approach and dwell"
+    ]
 
 
 def _loaded(one: PullOff, preload: float | None) -> PullOff:

@@ -15,16 +15,17 @@ from scipy.optimize import root_scalar
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .covariances import theory_covariance
+from .covariances import ModelError
 from .forward import Forward
 from .growth import Opening, growing, growth_parameters
 from .interpolated_forces import Table
 from .machine_compliance import Yielding
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff
+from .smooth_ratio import Mixed
 
 _WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth
-LEAST_TABOR = 2.0  # effective: below it the theory does not hold
+LEAST_TABOR = 2.0  # effective: below it the theory does not hold, and ratios to it are simulated
 # Steps of work, range, strengthening and exponent of the coarse table, in search
 # coordinates; points of a curve, and number of pull-offs used.
 _COARSE, _COARSE_RADII, _COARSE_SPEEDS = (0.57, 0.57, 0.5, 0.2), 40, 6
@@ -35,6 +36,8 @@ _FEWEST = 5  # smallest number of values of an unknown
 # Refinement of the coarse table for the search, and misfits above the minimum that are kept
 # at first, and where an interval needs more.
 _DENSE, _KEPT = 3, (30.0, 150.0)
+# Refinement of the table without growth for a list of likely interfaces.
+_LIKELY = 4
 
 
 class Data:
@@ -55,7 +58,8 @@ class Data:
         self.force = np.array([one.force.value for one in series])
         noise = np.array([one.force.uncertainty for one in series]) / self.force
         self.own = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2)
-        self.spread = self.own + theory_covariance(self.speed, theory)
+        self.model = ModelError(np.full(self.speed.size, theory), np.zeros(self.speed.size))
+        self.spread = self.own + self.model.covariance(self.speed)
 
     def some(self, count: int) -> npt.NDArray[np.intp]:
         """Select evenly a number of pull-offs from the slowest to the fastest."""
@@ -65,12 +69,31 @@ class Data:
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """A table of pull-offs and the data it is compared with."""
+    """A table of pull-offs and the data it is compared with.
+
+    Parameters
+    ----------
+    data : Data
+        Measured pull-offs.
+    table : Table
+        Forces of relaxed contacts with a rigid machine, by theory.
+    spread : ndarray, shape (S, S)
+        Covariance of the relative forces.
+    yielding : Yielding or Mixed
+        Ratios of the forces to those of the table.
+    model : ModelError
+        Error of the forces, included in the covariance.
+    opening : Opening, optional
+        Opening speed at which a strengthening is defined.
+    some : ndarray of int, optional
+        Pull-offs in the table; by default all.
+    """
 
     data: Data
     table: Table
     spread: Array
-    yielding: Yielding
+    yielding: Yielding | Mixed
+    model: ModelError
     opening: Opening | None = None
     some: npt.NDArray[np.intp] | None = None
 
@@ -137,6 +160,16 @@ class Search:
         objective = self.objective
         return {one.name: objective.interval(one.name, best, level) for one in self.parameters}
 
+    def likely(self, above: float, most: int = 300) -> Array:
+        """Return interfaces with a misfit up to `above` the least, as ln of work and range.
+
+        The most likely is first, and there are `most` at most.
+        """
+        points, misfits = self.scanned(_LIKELY)
+        order = np.argsort(misfits)
+        near = order[: np.count_nonzero(misfits <= misfits[order[0]] + above)]
+        return points[near[np.unique(np.linspace(0, near.size - 1, most).astype(int))]]
+
     def scanned(self, times: int) -> tuple[Array, Array]:
         """Return points of a refined lattice, in search coordinates, and their misfits."""
         points = self.table.dense(times)
@@ -151,12 +184,14 @@ class Search:
         return points, misfits
 
 
-def plain_table(forward: Forward, data: Data, gaps: tuple[float, float]) -> Table:
-    """Return the table of interfaces without growth, for the ranges at which the theory holds."""
+def plain_table(
+    forward: Forward, data: Data, gaps: tuple[float, float], least: float = LEAST_TABOR
+) -> Table:
+    """Return the table of interfaces without growth, down to an effective Tabor number."""
     works, ranges = _works(forward, data, 1.0, _WORKS), np.geomspace(*gaps, _GAPS)
     # ranges valid for the largest work of adhesion; smaller ones are checked after the fit
     at = forward.pulled(works[-1], ranges[:, None], data.speed, data.load).effective_tabor
-    holds = np.all(at >= LEAST_TABOR, axis=-1)
+    holds = np.all(at >= least, axis=-1)
     count = int(np.argmin(holds)) if not holds.all() else holds.size
     if count < _FEWEST:
         raise InputError(

@@ -40,6 +40,8 @@ class Study:
         Whether to fit whole curves, not only pull-offs.
     growth : bool
         Whether to fit an interface that grows with the opening speed.
+    history : bool
+        Whether to compute the forces with approach and dwell of each test.
     scatter : float
         Relative standard deviation between tests, if repeated tests do not show it.
     level : float
@@ -60,6 +62,7 @@ class Study:
     work_of_adhesion: tuple[float, float] | None = None
     curves: bool = False
     growth: bool = False
+    history: bool = False
     scatter: float = 0.0
     level: float = 0.9
     reading: Mapping[str, Any] = field(default_factory=dict)
@@ -120,6 +123,7 @@ def answer(study: Study) -> Answer:
         stiffness=1 / compliance if compliance > 0 else None,
         curves=study.curves,
         growth=study.growth,
+        history=study.history,
         scatter=study.scatter,
         level=study.level,
     )

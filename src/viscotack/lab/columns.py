@@ -99,6 +99,9 @@ class Columns:
             else:
                 continue
             text = self.table.headings[index]
+            taken = [other for other, (at, _) in found.items() if at == index]
+            if taken:
+                raise self.error(f'--columns has "{text}" as {taken[0]} and as {quantity}')
             heading = recognise(text)
             own = (heading and heading.unit) or self.table.units[index] or unit_within(text)
             if unit and own and bare(own) != unit:

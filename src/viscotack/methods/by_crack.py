@@ -445,6 +445,8 @@ def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
     # at the first step the edge is at rest: the parabola must not include it
     x = series["time"][low - 1 : low + 2]
     inside = run[0] + 1 < low < last and series["contact_radius"][low + 1] > 0
+    # steps at one time have no slope between them
+    inside = inside and series["time"][low - 1] > series["time"][low - 2]
     if inside and float(np.min(np.diff(x))) > _NEAR * (x[2] - x[0]):
         y = force[low - 1 : low + 2]
         u = (x - x[1]) / (x[2] - x[0])

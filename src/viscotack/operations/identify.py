@@ -100,7 +100,8 @@ class IdentifySlow(Operation):
 class IdentifyRates(Operation):
     """Identify work of adhesion and range of attraction from pull-offs at several speeds.
 
-    The steady-crack contact model is fitted to the true speed and pull-off force of every cycle.
+    The steady-crack contact model is fitted to the true speed and pull-off force of every cycle;
+    forces of tests for which it does not hold are simulated.
     The intervals include the uncertainty of the material in the passport. The answer states which
     parameters the data do not determine, and at which speeds the model does not fit. With --growth
     an interface that grows with speed is fitted. A sample of known thickness is given by
@@ -164,6 +165,13 @@ class IdentifyRates(Operation):
             "Takes 1 to 2 minutes."
         ),
     ] = False
+    history: Annotated[
+        bool,
+        Switch(
+            "Compute the forces with approach and dwell of each test, mostly by simulation; "
+            "default: contacts relaxed under the preload."
+        ),
+    ] = False
     scatter: Annotated[
         float,
         Number(
@@ -193,6 +201,7 @@ class IdentifyRates(Operation):
             work_of_adhesion=self.work_of_adhesion,
             curves=self.curves,
             growth=self.growth,
+            history=self.history,
             scatter=self.scatter,
             level=self.level,
             reading=self.rig.reading,

@@ -27,6 +27,7 @@ _ABOVE = 5.0  # pull-off over standard deviation of the noise, at least
 _ZERO = 0.25  # relative to the pull-off: largest uncertainty of the zero
 _LONE = 0.5  # relative to the pull-off: a point this far beyond both neighbours is a spike
 _CLIPPED = 8  # equal extreme values in a row while the drive moves ...
+_ROUNDED = 8.0  # digits by which a rounded extreme changes as far again from it
 _MOVED = 0.002  # ... by more than this fraction of its travel
 _OUT = 5.0  # standard deviations of the noise that it may reverse in addition
 _NEAR = 4  # points before the pull-off that give its depth
@@ -235,14 +236,23 @@ def _cycle(
 
 
 def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
-    """Raise an error if the force stays at an extreme while the drive moves."""
+    """Raise an error if the force stays at an extreme while the drive moves.
+
+    A few digits around a flat extreme are no saturation: as far again from it, the force of a
+    parabola that is rounded by a digit at most has changed by eight of them.
+    """
+    digit = rounding(raw) * np.sqrt(12)
     for word, value in (("tension", raw.min()), ("compression", raw.max())):
         equal = np.flatnonzero(raw == value)
         runs = np.split(equal, np.flatnonzero(np.diff(equal) > 1) + 1)
         longest = max(runs, key=len)
         moved = abs(way[longest[-1]] - way[longest[0]])
         away = abs(force[longest[0]]) > _ABOVE * noise
-        if len(longest) >= _CLIPPED and moved > _MOVED * np.ptp(way) and away:
+        ends = longest[0] - len(longest), longest[-1] + len(longest)
+        beside = raw[np.clip(ends, 0, raw.size - 1)]
+        rounded = np.min(np.abs(beside - value)) <= _ROUNDED * digit
+        clipped = len(longest) >= _CLIPPED and not rounded
+        if clipped and moved > _MOVED * np.ptp(way) and away:
             raise InputError(
                 f"the force stays at {readable(value, 'N', digits=6)}, its largest {word}, for "
                 f"{len(longest)} points while the drive moves: "
