@@ -1,6 +1,7 @@
 """Arrays in NumPy archives (.npz), checked before they are unpacked."""
 
 import math
+import os
 import zipfile
 from collections.abc import Callable
 from typing import IO, Any
@@ -9,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+
+from .bounded import check_unpacked
 
 # The header of a small file can declare terabytes. Files of this package are far smaller [bytes].
 MOST = 1e9
@@ -28,7 +31,8 @@ def read_arrays(
     expected : callable
         Called with the name of an array; returns whether the archive may contain it.
     most : float
-        Largest total size of the unpacked arrays [bytes].
+        Largest total size of the unpacked arrays [bytes]; at most 50 MB and 50 times the size of
+        the file.
 
     Returns
     -------
@@ -51,6 +55,7 @@ def read_arrays(
         if strange or len(set(names)) < len(names):
             raise InputError(f"it contains an unexpected array: {strange[:1] or names}")
         size = sum(member.file_size for member in members)
+        check_unpacked(size, file.seek(0, os.SEEK_END))
         if size > most:
             raise InputError(
                 f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of "
