@@ -10,7 +10,7 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-outside test-processors lint types bench mutants fuzz verification clean
+.PHONY: demo test test-slow test-outside test-processors lint types bench mutants fuzz fuzz-files verification clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -73,6 +73,11 @@ MINUTES ?= 45
 CHECKS ?= 3000
 fuzz: $(VENV)/.installed
 	$(BIN)/python -m fuzz --seed $(SEED) --minutes $(MINUTES) --checks $(CHECKS) --log out/fuzz-$(SEED).jsonl
+
+# FILES mutated files for each reader, in some minutes; ends with 1 where one is neither read nor refused.
+FILES ?= 1000
+fuzz-files: $(VENV)/.installed
+	$(BIN)/python -m fuzz.files --seed $(SEED) --files $(FILES)
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

@@ -256,6 +256,16 @@ def test_zeros_that_unpack_to_gigabytes_are_not_unpacked(tmp_path):
     assert read_arrays(packed, lambda name: True)["header"].size == 6_500_000
 
 
+def test_a_damaged_header_of_an_array_is_refused():
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        header = b"{'descr': '<f8', 'shape': (1,"
+        size = len(header).to_bytes(2, "little")
+        archive.writestr("header.npy", b"\x93NUMPY\x01\x00" + size + header + bytes(8))
+    with pytest.raises(InputError, match=r"the header of header.npy is damaged: EOF in multi-line"):
+        read_arrays(packed, lambda name: True)
+
+
 def test_a_record_nested_without_end_is_refused(tmp_path):
     file = tmp_path / "deep.json"
     file.write_text('{"parameters": ' + "[" * 100_000)

@@ -4,6 +4,7 @@ import math
 import os
 import zipfile
 from collections.abc import Callable
+from tokenize import TokenError
 from typing import IO, Any
 
 import numpy as np
@@ -78,7 +79,12 @@ def _check_shape(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> None:
         }.get(version)
         if read is None:
             raise InputError(f"{member.filename} has the unknown format version {version}")
-        shape, _, kind = read(file)
+        try:
+            shape, _, kind = read(file)
+        except TokenError as error:
+            raise InputError(
+                f"the header of {member.filename} is damaged: {error.args[0]}"
+            ) from None
         stated = math.prod(shape) * kind.itemsize
         there = member.file_size - file.tell()
         if any(n < 0 for n in shape) or stated != there or file.tell() > _HEADER:
