@@ -33,6 +33,8 @@ if sys.platform == "win32":
             msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
         except PermissionError:
             return False
+        except OSError:  # the file system has no locks
+            pass
         return True
 
     @contextmanager

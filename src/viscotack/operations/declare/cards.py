@@ -11,7 +11,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
-from viscotack.cards import Quantity
+from viscotack.cards import Quantity, plausible
 from viscotack.errors import InputError
 from viscotack.units import parse
 
@@ -129,7 +129,7 @@ class Number(Card):
             value = float(value)
         number = parse(value, self.unit)
         range_ = Quantity(self.unit, "", "", above=self.above, least=self.least, most=self.most)
-        return range_.checked("it", number)
+        return plausible("it", range_.checked("it", number), self.unit)
 
     def written(self, value: Any) -> Any:
         """Return the number with its unit and all its digits."""
