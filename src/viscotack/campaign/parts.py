@@ -301,7 +301,8 @@ def _parsed(path: Path, content: bytes, columns: Sequence[str] | None) -> Any:
         known = file.schema_arrow.names
         wanted = None if columns is None else [name for name in columns if name in known]
         check_unpacked(_LEAST * _numbers(file.metadata), len(content))
-        return file.read(columns=wanted)
+        # threads of Arrow that still run when Python ends may abort the process
+        return file.read(columns=wanted, use_threads=False)
     except (OSError, pa.ArrowException, InputError) as error:
         raise InputError(
             f"{path} is damaged: {error}; move it away, and run the campaign again for its cases"
