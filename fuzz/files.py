@@ -129,15 +129,16 @@ def _beside(path: Path, name: str) -> bytes:
 
 
 def _exports() -> Corpus:
-    arms = [(2e6, 0.1), (1e6, 1.0)]
+    arms = ((2e6, 0.1), (1e6, 1.0))
     material = Prony(rubbery_modulus=1e6, branches=arms, poisson_ratio=0.47)
     return {code: exported(material, code).encode() for code in CODES}
 
 
 def _imported(path: Path) -> Any:
     text = path.read_text(encoding="utf-8", errors="replace")
-    stated = {"pyvisco": {"poisson_ratio": 0.47}}
-    return imported(text, path.name, **stated.get(path.name, {}))
+    if path.name == "pyvisco":
+        return imported(text, path.name, poisson_ratio=0.47)
+    return imported(text, path.name)
 
 
 def wrong(read: Callable[[Path], Any], path: Path) -> tuple[str, str]:
