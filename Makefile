@@ -10,7 +10,7 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-outside test-processors lint types bench mutants fuzz verification clean
+.PHONY: demo test test-slow test-outside test-processors lint types bench mutants fuzz fuzz-files farm verification clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -73,6 +73,17 @@ MINUTES ?= 45
 CHECKS ?= 3000
 fuzz: $(VENV)/.installed
 	$(BIN)/python -m fuzz --seed $(SEED) --minutes $(MINUTES) --checks $(CHECKS) --log out/fuzz-$(SEED).jsonl
+
+# FILES mutated files for each reader, in some minutes; ends with 1 where one is neither read nor refused.
+FILES ?= 1000
+fuzz-files: $(VENV)/.installed
+	$(BIN)/python -m fuzz.files --seed $(SEED) --files $(FILES)
+
+# Rounds of kills, exits, mutated files, relations and damage until HOURS are over, in out/farm; SHORT=1
+# draws less, for a round of some minutes.
+HOURS ?= 1
+farm: $(VENV)/.installed
+	$(BIN)/python benchmarks/farm.py --hours $(HOURS) --seed $(SEED) $(if $(SHORT),--short)
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import httpx
 import pytest
+from uvicorn import Config
+from uvicorn.server import ServerState
 
-from viscotack.app.api import application
+from viscotack.app.api import application, heads
 from viscotack.app.api.guard import Guard, Rules
 from viscotack.app.engine.crew import Defect, Refused
 from viscotack.app.engine.jobs import Engine, Limits, harmless_name
@@ -494,3 +496,30 @@ def test_requests_together_are_bounded_in_number_and_size():
         assert await all_of(guard, [900]) == [200]
 
     asyncio.run(main())
+
+
+@pytest.mark.parametrize("first", [b"", b"GET / HTTP/1.1\r\nhost: localhost\r\n\r\n"])
+def test_a_connection_whose_head_does_not_arrive_is_closed(first, monkeypatch):
+    monkeypatch.setattr(heads, "PATIENCE", 0.05)
+    config = Config(_plain, http=heads.Prompt, timeout_keep_alive=3600)
+    config.load()
+
+    async def answered():
+        loop = asyncio.get_running_loop()
+        server = await loop.create_server(
+            lambda: heads.Prompt(config, ServerState(), {}, loop), "127.0.0.1", 0
+        )
+        async with server:
+            reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())
+            writer.write(first + b"GET / HTTP/1.1\r\nslow: ")
+            # waits for the end of the connection
+            said = await reader.read()
+            writer.close()
+            return said
+
+    assert asyncio.run(answered()).count(b"200 OK") == bool(first)
+
+
+async def _plain(scope, receive, send):
+    await send({"type": "http.response.start", "status": 200, "headers": []})
+    await send({"type": "http.response.body", "body": b""})

@@ -4,16 +4,26 @@ import io
 import os
 import tracemalloc
 import zipfile
+from hashlib import sha256
 
+import numpy as np
 import pytest
 
+import tack_files
+from pool_tasks import misread, process_of
 from viscotack import load as load_result
+from viscotack.campaign.parts import parquet, read_proven
 from viscotack.errors import InputError
+from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import read_bytes
-from viscotack.files.text import read_text
+from viscotack.files.text import read_rows, read_text
 from viscotack.files.toml import parse_toml, read_toml
+from viscotack.lab import apart as apart_module
+from viscotack.lab.apart import SMALL, limited
 from viscotack.lab.lab_file import load
+from viscotack.lab.tack import survey
 from viscotack.lab.workbook_layout import sheets
+from viscotack.operations import ask
 
 BOOK = {
     "[Content_Types].xml": (
@@ -141,6 +151,133 @@ def test_more_than_is_taken_is_not_read(tmp_path):
     long = tmp_path / "long.toml"
     with long.open("wb") as file:
         file.truncate(3_000_000_000)  # a hole: nothing on the disk
-    for read, most in ((read_text, "300 MB"), (read_toml, "40 MB"), (load, "50 MB")):
+    for read, most in ((read_text, "100 MB"), (read_toml, "6 MB"), (load, "50 MB")):
         with pytest.raises(InputError, match=f"larger than {most}"):
             read(long)
+
+
+@pytest.mark.parametrize("read", [read_text, load])
+def test_a_line_without_end_is_refused(read, tmp_path):
+    file = tmp_path / "wide.csv"
+    file.write_text("f,E\n1,2\n" + "1," * 600_000 + "1\n")
+    with pytest.raises(InputError, match=r"wide.csv, line 3: a line of more than"):
+        read(file)
+    file.write_text("f,E\n1,2\n" + "1," * 40_000 + "1\n" + "3,4\n" * 100_000)
+    assert read(file)
+
+
+@pytest.mark.parametrize("cell", [",", ";", "\t", "\n"])
+def test_a_text_of_too_many_cells_is_refused_before_it_is_split(cell, tmp_path):
+    file = tmp_path / "long.csv"
+    file.write_text("f,E\n" + (cell * 50_000 + "\n") * 101)
+    with pytest.raises(InputError, match=r"cells, more than the limit of 5,000,000"):
+        load(file)
+
+
+def test_a_table_of_too_many_rows_is_refused_before_it_is_split(tmp_path):
+    file = tmp_path / "long.csv"
+    file.write_text("time_s,modulus_Pa\n" + "1\n" * 200_001)
+    with pytest.raises(InputError, match=r"has 200,002 lines, more than the limit of 200,000"):
+        read_rows(file)
+
+
+def test_a_sweep_of_too_many_rows_is_refused_while_they_are_read(tmp_path):
+    file = tmp_path / "long.csv"
+    # the last row is damaged, and is not read
+    file.write_text("rate\n" + "1\n" * 100_001 + "x\n")
+    with pytest.raises(InputError, match=r"has more than 100,000 rows; run a campaign"):
+        ask("sweep", problem={"indenter": "sphere"}, cases=file)
+
+
+def test_small_text_is_read_in_this_process_and_other_files_in_a_child(tmp_path):
+    contents = {"a.csv": b"1,2\n", "b.csv": "1,2\n".encode("utf-16"), "c.xlsx": b"PK\x03\x04\0\0"}
+    contents["d.csv"] = b"1,2\n" * (SMALL // 4 + 1)
+    found = {}
+    with limited() as call:
+        for name, content in contents.items():
+            file = tmp_path / name
+            file.write_bytes(content)
+            process, size = call(process_of, file)
+            assert size == len(content)
+            found[name] = process
+    here = os.getpid()
+    assert found["a.csv"] == found["b.csv"] == here
+    assert found["c.xlsx"] == found["d.csv"] != here
+
+
+def test_a_reader_that_exceeds_its_limits_is_ended_and_the_next_file_is_read(tmp_path, monkeypatch):
+    said = {
+        "fill": "reading takes more than 150 MB of memory",
+        "end": "the process that reads it ended with status 1",
+        "wait": "reading takes more than 0 s",
+        "damaged": "damaged",
+    }
+    file = tmp_path / "file.xlsx"
+    with limited() as call:
+        for order, words in said.items():
+            file.write_text(f"{order}\0")
+            monkeypatch.setattr(apart_module, "_SECONDS", 0.1 if order == "wait" else 600.0)
+            with pytest.raises(InputError) as error:
+                call(misread, file)
+            assert str(error.value) == f"{file}: {words}"
+        file.write_text("link\0")
+        with pytest.raises(FileNotFoundError) as missing:
+            call(misread, file)
+    assert missing.value.filename == "other.csv"
+
+
+def test_files_beside_a_bomb_are_evaluated(tmp_path):
+    test = tack_files.made()
+    for name in ("a.jpk-force", "c.jpk-force"):
+        (tmp_path / name).write_bytes(tack_files.jpk(test))
+    with zipfile.ZipFile(tmp_path / "b.jpk-force", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("segments/0/segment-header.properties", "a=1")
+        for number in range(190):
+            archive.writestr(f"segments/0/{number}", bytes(1_000_000))
+    found = survey([tmp_path])
+    assert [one.record.source.path[-11:] for one in found.evaluations] == [
+        "a.jpk-force",
+        "c.jpk-force",
+    ]
+    ((path, reason),) = found.reasons
+    assert path.endswith("b.jpk-force") and reason == "reading takes more than 154 MB of memory"
+
+
+def test_zeros_that_unpack_to_gigabytes_are_not_unpacked(tmp_path):
+    packed = io.BytesIO()
+    np.savez_compressed(packed, header=np.zeros(20_000_000))
+    with pytest.raises(
+        InputError, match=r"it has 160 MB when unpacked, more than the limit of 5\d MB"
+    ):
+        read_arrays(packed, lambda name: True)
+    # noise does not compress, and is read
+    packed = io.BytesIO()
+    np.savez_compressed(packed, header=np.random.default_rng(1).random(6_500_000))
+    assert read_arrays(packed, lambda name: True)["header"].size == 6_500_000
+
+
+def test_a_damaged_header_of_an_array_is_refused():
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        header = b"{'descr': '<f8', 'shape': (1,"
+        size = len(header).to_bytes(2, "little")
+        archive.writestr("header.npy", b"\x93NUMPY\x01\x00" + size + header + bytes(8))
+    with pytest.raises(InputError, match=r"the header of header.npy is damaged: EOF in multi-line"):
+        read_arrays(packed, lambda name: True)
+
+
+def test_a_record_nested_without_end_is_refused(tmp_path):
+    file = tmp_path / "deep.json"
+    file.write_text('{"parameters": ' + "[" * 100_000)
+    with pytest.raises(InputError, match="is not a record of a GeneralizedMaxwell"):
+        ask("material convert", source=file, code="rheojax")
+
+
+def test_a_table_that_repeats_a_row_a_million_times_is_not_unpacked(tmp_path):
+    import pyarrow as pa
+
+    ones = pa.table({name: pa.array(np.ones(1_000_000)) for name in "abcdefgh"})
+    file = tmp_path / "cases.parquet"
+    file.write_bytes(parquet(lambda: [ones]))
+    with pytest.raises(InputError, match=r"is damaged: it has 64 MB when unpacked"):
+        read_proven(file, sha256(file.read_bytes()).hexdigest())

@@ -1,6 +1,7 @@
 import csv
 import json
 import os
+import subprocess
 import sys
 
 import pytest
@@ -223,3 +224,37 @@ def test_the_commands_explain_themselves(capsys):
     for command in ("inputs", "plan", "run", "status", "verify", "merge", "export"):
         assert call(command, "--help") == 0
         assert "Example: viscotack campaign" in " ".join(capsys.readouterr().out.split())
+
+
+THREADS = """
+import sys
+import psutil
+from viscotack.app.cli import main
+from viscotack.files.arrow import arrow
+arrow()
+before = psutil.Process().num_threads()
+for words in sys.argv[1:]:
+    try:
+        main(["campaign", *words.split()])
+    except SystemExit as end:
+        assert not end.code, words
+    print(words, psutil.Process().num_threads() - before, file=sys.stderr)
+"""
+
+
+def test_commands_leave_no_threads_of_arrow_that_abort_the_process(cases, crew, tmp_path):
+    # under load one of seven processes ended with status 134
+    folder = tmp_path / "study"
+    assert call("run", cases, "--out", folder, "--accuracy", 0.02, "--until", "pull-off") == 0
+    asked = ["status study", "verify study", "export study --csv a.csv", "export study --csv -"]
+    asked += ["export study --parquet a.parquet", "merge study --out merged", "verify merged"]
+    done = subprocess.run(
+        [sys.executable, "-c", THREADS, *asked],
+        cwd=tmp_path,
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    counted = [line for line in done.stderr.splitlines() if line[:-2] in asked]
+    assert counted == [f"{words} 0" for words in asked], done.stderr

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from stated import case_text
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import (
@@ -305,3 +306,36 @@ def test_tables_that_were_sent_name_no_file(table, replaced):
     tables = tomllib.loads(POWER_LAW) | {table: replaced}
     with pytest.raises(InputError, match=r"the case, \[.*which is not allowed in a request"):
         case_of_tables(tables)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"radius": "1 km"}, r"\[sphere\] radius must lie between 1e-15 and 100 m, got 1000 m"),
+        (
+            {"protocol": 'preload_depth = "1 um"\nspeed = "1e30 m/s"'},
+            r"\[protocol\] speed must lie between 1e-21 and 100000 m/s, got 1e\+30 m/s",
+        ),
+        (
+            {"protocol": 'start = "force 1e20 N"\nmoves = ["retract 1 um/s to depth 0 um"]'},
+            r"force must lie between 1e-21 and 1e\+09 N, got 1e\+20 N; check its unit",
+        ),
+        (
+            {"protocol": 'start = "depth 0 um"\nmoves = ["retract 1e9 m/s to depth -1 mm"]'},
+            r"speed must lie between .* got 1e\+09 m/s",
+        ),
+    ],
+)
+def test_absurd_quantities_are_refused(more, words, tmp_path):
+    file = tmp_path / "case.toml"
+    file.write_text(case_text(**more))
+    with pytest.raises(InputError, match=words):
+        read_case(file)
+
+
+def test_tips_of_microscopes_and_creep_are_no_absurd_quantities(tmp_path):
+    file = tmp_path / "case.toml"
+    slow = 'preload_depth = "0.1 pm"\nspeed = "1e-3 pm/s"'
+    text = case_text(radius="5 nm", protocol=slow).replace('gap = "1 um"', 'gap = "0.2 nm"')
+    file.write_text(text.replace("50 mJ", "0.1 uJ"))
+    assert read_case(file).geometry.radius == 5e-9

@@ -408,4 +408,6 @@ def test_tables_side_by_side_may_be_headed_by_primes(tmp_path):
     path.write_text("\n".join(["f [Hz],E' [Pa],E'' [Pa],f [Hz],E' [Pa],E'' [Pa]", *rows, ""]))
     assert lab.read(path, temperature=293.15).ids == (0, 1)
     second = lab.read(path, temperature=293.15, table="2")
+    of_number = lab.read(path, temperature=293.15, table=2)
+    assert of_number.storage.tolist() == second.storage.tolist()
     assert second.storage.tolist() == [2e6 * f for f in (1, 2, 5, 10, 20)]

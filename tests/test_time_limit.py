@@ -158,3 +158,39 @@ def test_the_progress_line_forecasts_how_long_it_will_take(monkeypatch):
     shown = re.sub(r"\x1b\[[^A-Za-z]*[A-Za-z]", "", screen.getvalue())
     # a hundredth in a tenth of a second
     assert "0:00:00 gone, about 0:00:10 to go" in shown
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ("sphere --tabor 60 --modulus-ratio 1 --exponent 1 --preload 1 --rate 1",
+         r"\d+ % of the motion is simulated: the cohesive zone is small beside the contact "
+         r"\(effective Tabor number 60\), .* Cheaper: --accuracy 0.02, --until pull-off, "),
+        ("punch --size 100 --thickness 3 --cohesion 0.05 --modulus-ratio 1 --preload 1 --rate 10"
+         " --accuracy 0.001",
+         r"the punch is 100 a0 wide.*; the accuracy is 0.001\. Cheaper: --accuracy 0.02"),
+        ("sphere --tabor 1 --modulus-ratio 1 --exponent 1 --preload 1 --rate 1 --accuracy 0.02"
+         " --until pull-off",
+         r"simulated\. Cheaper: `viscotack predict`"),
+    ],
+)  # fmt: skip
+def test_a_simulation_that_takes_long_says_why_and_what_is_cheaper_once(
+    flags, words, monkeypatch, capsys
+):
+    from viscotack import methods
+    from viscotack.operations.parts import running
+
+    clocks = iter([0.0, *(5.0 * i for i in range(1, 100))])
+    monkeypatch.setattr(running, "process_time", lambda: next(clocks))
+    monkeypatch.setattr(running, "_EVERY", 0.0)
+
+    def slowly(problem, *, progress, **options):
+        for share in range(20):
+            progress(share / 20)
+        raise InputError("that is enough")
+
+    monkeypatch.setattr(methods, "solve", slowly)
+    assert exit_status(["simulate", *flags.split()]) == 2
+    said = capsys.readouterr().err
+    assert said.count("30 s of processor time so far") == 1
+    assert re.search(words, said), said

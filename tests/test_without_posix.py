@@ -43,6 +43,19 @@ def test_the_names_are_gone(tmp_path):
     assert told.stdout.startswith("False False") and "msvcrt" in told.stdout, told.stderr
 
 
+def test_a_file_system_without_locks_is_used_without_them(tmp_path):
+    program = """
+import os, viscotack.system as s
+def locking(*arguments):
+    raise OSError(22, "Invalid argument")
+s.msvcrt.locking = locking
+handle = s.open_itself(s.Path("lock"), os.O_CREAT)
+print(s.lock(handle))
+"""
+    told = bare(["-c", program], tmp_path)
+    assert told.stdout == "True\n", told.stderr
+
+
 def test_a_campaign_runs_and_goes_on(tmp_path):
     (tmp_path / "plan.toml").write_text(PLAN, encoding="utf-8")
     command = ["-m", "viscotack", "campaign", "run", "plan.toml", "--out", "c", "--workers", "2"]

@@ -9,6 +9,7 @@ Command-line options, keys of files, columns of campaigns, the JSON schema and t
 docs are generated from the cards. :func:`conform` checks the numbers of a noun against them.
 """
 
+import math
 import types
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
@@ -17,6 +18,39 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from viscotack.errors import InputError
 from viscotack.units import as_given, finite
+
+# Smallest and largest magnitude of a quantity in SI that a file or an option may state. Tips of
+# microscopes (1 nm, 0.1 nN), creep (1 pm/s for years), glasses and gels lie far inside.
+_PLAUSIBLE = {
+    "m": (1e-15, 1e2),
+    "m/s": (1e-21, 1e5),
+    "s": (1e-21, 1e18),
+    "N": (1e-21, 1e9),
+    "Pa": (1e-9, 1e14),
+    "J/m^2": (1e-12, 1e6),
+    "J/m2": (1e-12, 1e6),
+}
+
+
+def plausible(name: str, number: float, unit: str) -> float:
+    """Return a number in SI that a user states; InputError if its magnitude is absurd.
+
+    Numbers without dimensions, and objects made in Python, have no such range.
+
+    Examples
+    --------
+    >>> plausible("radius", 1e3, "m")
+    Traceback (most recent call last):
+    ...
+    viscotack.errors.InputError: radius must lie between 1e-15 and 100 m, got 1000 m; check its unit
+    """
+    smallest, largest = _PLAUSIBLE.get(unit, (0.0, math.inf))
+    if number and not smallest <= abs(number) <= largest:
+        raise InputError(
+            f"{name} must lie between {smallest:g} and {largest:g} {unit}, got {number:g} {unit}; "
+            "check its unit"
+        )
+    return number
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,8 @@ if sys.platform == "win32":
             msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
         except PermissionError:
             return False
+        except OSError:  # the file system has no locks
+            pass
         return True
 
     @contextmanager
@@ -158,6 +160,13 @@ def is_running(process: int) -> bool:
     import psutil
 
     return psutil.pid_exists(process)
+
+
+def address_space() -> float:
+    """Return the address space of this process [bytes]."""
+    import psutil
+
+    return float(psutil.Process().memory_info().vms)
 
 
 def resident_memory(process: int | None = None) -> float:

@@ -27,12 +27,14 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.files.arrow import arrow
-from viscotack.files.bounded import LARGEST_PART, read_bytes
+from viscotack.files.bounded import LARGEST_PART, check_unpacked, read_bytes
 from viscotack.files.whole import is_draft, remove_drafts, write_new
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
 _LARGEST = 30e6
+# Memory of a value in a table [bytes].
+_LEAST = 8
 _TRIES = 5
 _NAME = re.compile(r"(\d{6,18})-(\d{6,18})\.parquet")
 
@@ -298,11 +300,19 @@ def _parsed(path: Path, content: bytes, columns: Sequence[str] | None) -> Any:
         file = pa.parquet.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
         known = file.schema_arrow.names
         wanted = None if columns is None else [name for name in columns if name in known]
-        return file.read(columns=wanted)
-    except (OSError, pa.ArrowException) as error:
+        check_unpacked(_LEAST * _numbers(file.metadata), len(content))
+        # threads of Arrow that still run when Python ends may abort the process
+        return file.read(columns=wanted, use_threads=False)
+    except (OSError, pa.ArrowException, InputError) as error:
         raise InputError(
             f"{path} is damaged: {error}; move it away, and run the campaign again for its cases"
         ) from None
+
+
+def _numbers(metadata: Any) -> int:
+    """Count the values of a Parquet file, which may repeat one of them."""
+    groups = (metadata.row_group(i) for i in range(metadata.num_row_groups))
+    return sum(group.column(i).num_values for group in groups for i in range(group.num_columns))
 
 
 def parquet(tables: Callable[[], Iterable[Any]]) -> Any:

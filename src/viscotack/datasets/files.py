@@ -120,7 +120,7 @@ def load(name: str) -> Any:
     """
     content = _checked(name)
     pa = arrow("the datasets are stored")
-    table = pa.parquet.read_table(pa.BufferReader(content), partitioning=None)
+    table = pa.parquet.ParquetFile(pa.BufferReader(content)).read(use_threads=False)
     facts = json.dumps(_facts(table.schema))
     names = [upgraded_output(name) for name in table.column_names]
     return table.rename_columns(names).replace_schema_metadata({METADATA_KEY: facts})

@@ -1,14 +1,18 @@
 """Arrays in NumPy archives (.npz), checked before they are unpacked."""
 
 import math
+import os
 import zipfile
 from collections.abc import Callable
+from tokenize import TokenError
 from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+
+from .bounded import check_unpacked
 
 # The header of a small file can declare terabytes. Files of this package are far smaller [bytes].
 MOST = 1e9
@@ -28,7 +32,8 @@ def read_arrays(
     expected : callable
         Called with the name of an array; returns whether the archive may contain it.
     most : float
-        Largest total size of the unpacked arrays [bytes].
+        Largest total size of the unpacked arrays [bytes]; at most 50 MB and 50 times the size of
+        the file.
 
     Returns
     -------
@@ -51,6 +56,7 @@ def read_arrays(
         if strange or len(set(names)) < len(names):
             raise InputError(f"it contains an unexpected array: {strange[:1] or names}")
         size = sum(member.file_size for member in members)
+        check_unpacked(size, file.seek(0, os.SEEK_END))
         if size > most:
             raise InputError(
                 f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of "
@@ -73,7 +79,12 @@ def _check_shape(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> None:
         }.get(version)
         if read is None:
             raise InputError(f"{member.filename} has the unknown format version {version}")
-        shape, _, kind = read(file)
+        try:
+            shape, _, kind = read(file)
+        except TokenError as error:
+            raise InputError(
+                f"the header of {member.filename} is damaged: {error.args[0]}"
+            ) from None
         stated = math.prod(shape) * kind.itemsize
         there = member.file_size - file.tell()
         if any(n < 0 for n in shape) or stated != there or file.tell() > _HEADER:

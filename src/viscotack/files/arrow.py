@@ -21,7 +21,7 @@ def arrow(stored: str = "campaigns are stored") -> Any:
     try:
         import pyarrow
         import pyarrow.compute
-        import pyarrow.feather
+        import pyarrow.ipc
         import pyarrow.parquet
     except ImportError:
         raise NotInstalled(

@@ -7,9 +7,14 @@ from typing import IO
 from viscotack.errors import InputError
 
 # Largest text that a user gives, such as a table of a million cases [bytes].
-LARGEST_TEXT = 300_000_000
+LARGEST_TEXT = 100_000_000
 # Largest part of a campaign, which this package wrote [bytes].
 LARGEST_PART = 2_000_000_000
+# Longest line of a text [bytes]: a table of it has tens of thousands of columns.
+LONGEST_LINE = 1_000_000
+# Largest size that is unpacked of any file, and more per byte of the file [bytes]: numbers compress
+# less.
+_UNPACKED, _UNPACKED_PER_BYTE = 50e6, 50.0
 _AT_ONCE = 1 << 20
 
 
@@ -38,8 +43,8 @@ def read_bytes(path: str | os.PathLike[str], most: int) -> bytes:
     parts, size = [], 0
     with open_regular(path) as stream:
         stated = os.fstat(stream.fileno()).st_size
-        # a file may grow, and some of the system's state no size
-        while max(size, stated) <= most and (part := stream.read(_AT_ONCE)):
+        # one part, which is not copied; a file may grow, and some of the system's state no size
+        while max(size, stated) <= most and (part := stream.read(max(stated - size, _AT_ONCE))):
             parts.append(part)
             size += len(part)
     if max(size, stated) > most:
@@ -48,3 +53,28 @@ def read_bytes(path: str | os.PathLike[str], most: int) -> bytes:
             "file"
         )
     return b"".join(parts)
+
+
+def check_lines(path: str | os.PathLike[str], content: bytes, most: int = LONGEST_LINE) -> None:
+    """Refuse a text with a line of more bytes than `most`."""
+    begin = 0
+    while begin + most < len(content):
+        window = begin, begin + most + 1
+        end = max(content.rfind(b"\n", *window), content.rfind(b"\r", *window))
+        if end < 0:
+            line = content.count(b"\n", 0, begin) + 1
+            raise InputError(
+                f"{os.fspath(path)}, line {line}: a line of more than {most / 1e6:g} MB, the most "
+                "that is read; a table has a row in each line"
+            )
+        begin = end + 1
+
+
+def check_unpacked(size: float, packed: float) -> None:
+    """Refuse a file of `packed` bytes that would take far more memory than numbers do."""
+    most = _UNPACKED + _UNPACKED_PER_BYTE * packed
+    if size > most:
+        raise InputError(
+            f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of {most / 1e6:.0f} MB "
+            "of a file of its size"
+        )

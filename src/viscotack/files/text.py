@@ -7,10 +7,12 @@ import re
 
 from viscotack.errors import InputError
 
-from .bounded import LARGEST_TEXT, read_bytes
+from .bounded import LARGEST_TEXT, check_lines, read_bytes
 
 # Control characters except line ends and tabs, and those that change the writing direction.
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+# Longest table that is kept as rows: its bytes and its lines.
+_LARGEST_TABLE, _MOST_ROWS = 20_000_000, 200_000
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 # Byte-order mark -> encoding.
 _MARKS = {
@@ -35,9 +37,11 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
     FileNotFoundError
         If the file does not exist.
     InputError
-        If it is too large, has another encoding or is not text. The message contains the line.
+        If it or a line is too large, it has another encoding or is not text. The message contains
+        the line.
     """
     content = read_bytes(path, most)
+    check_lines(path, content)
     encoding = next((e for mark, e in _MARKS.items() if content.startswith(mark)), "utf-8")
     try:
         text = content.decode(encoding)
@@ -98,11 +102,17 @@ def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, 
     FileNotFoundError
         If the file does not exist.
     InputError
-        If it is not a text file.
+        If it is not a text file, or has more than 200,000 lines or 20 MB.
     """
+    whole = read_text(path, _LARGEST_TABLE)
+    if (count := whole.count("\n")) > _MOST_ROWS:
+        raise InputError(
+            f"{os.fspath(path)} has {count:,} lines, more than the limit of {_MOST_ROWS:,}; keep "
+            "fewer rows"
+        )
     rows = [
         (line, _split(path, line, text))
-        for line, text in enumerate(read_text(path).splitlines(), 1)
+        for line, text in enumerate(whole.split("\n"), 1)
         if text.strip() and not text.startswith("#")
     ]
     header = [name.strip() for name in rows[0][1]] if rows else []

@@ -15,7 +15,7 @@ from .text import read_text
 # Characters of a line that an error message shows.
 _SHOWN = 60
 # Longest file, and most parts of a dotted name: parsing takes time and memory quadratic in both.
-_MOST_TEXT, _MOST_PARTS = 10_000_000, 50
+_MOST_TEXT, _MOST_PARTS = 1_500_000, 50
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_NAME = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{_MOST_PARTS},}}")
 # Number of lines that are searched for a duplicate key.

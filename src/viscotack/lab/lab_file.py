@@ -12,11 +12,13 @@ from types import ModuleType
 from zipfile import ZipFile
 
 from viscotack.errors import InputError
-from viscotack.files.bounded import read_bytes
+from viscotack.files.bounded import check_lines, read_bytes
 
 from .quantities import recognise
 
 LARGEST = 50_000_000  # bytes; sweeps are thousands of times smaller
+# Most cells of a text, as many as of a workbook, and its longest line [bytes].
+MOST_CELLS, LONGEST_LINE = 5_000_000, 100_000
 
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 # of Chinese, Japanese, Korean and Russian computers; headings are in the first characters
@@ -90,7 +92,8 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     Raises
     ------
     ValueError
-        If the file is empty, larger than 50 MB, or neither text nor a workbook.
+        If the file is empty, larger than 50 MB, has more than 5 million cells or a line of more
+        than 100 kB, or is neither text nor a workbook.
     OSError
         If the file cannot be opened.
 
@@ -108,6 +111,7 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
         raise empty.error("a pointer of Git LFS, not the file itself; fetch it with git lfs pull")
     if empty.is_workbook or content.startswith(raw):
         return empty
+    _check_cells(empty)
     text, encoding = _decoded(empty)
     if "\0" in text:
         raise empty.error("the file is neither text nor an Excel workbook; export it as text")
@@ -115,6 +119,20 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     notes = () if encoding == "utf-8" else (f"text in {encoding}",)
     last = lines.pop()
     return LabFile(name, content, tuple(lines), notes, last)
+
+
+def _check_cells(file: LabFile) -> None:
+    """Refuse a text that is far larger as a table than as a file."""
+    start = file.content[:100].lstrip(b"\xef\xbb\xbf\xff\xfe\0 \t\r\n")
+    if not start.startswith(b"{"):  # JSON may have one line
+        check_lines(file.path, file.content, LONGEST_LINE)
+    # the brackets are those of JSON
+    count = sum(map(file.content.count, (b",", b";", b"\t", b"\n", b"\r", b"[", b"{")))
+    if count > MOST_CELLS:
+        raise file.error(
+            f"the file has {count:,} cells, more than the limit of {MOST_CELLS:,}; export the "
+            "relevant part"
+        )
 
 
 def _decoded(file: LabFile) -> tuple[str, str]:

@@ -428,7 +428,7 @@ def _selected(
     """Return the table chosen by the caller, or those of the sheet that has a test, and notes."""
     if given.table is not None:
         places = "; ".join(f"{table.number}: {table.place}" for table in tables)
-        tables = [each for each in tables if given.table in (each.sheet, str(each.number))]
+        tables = [each for each in tables if str(given.table) in (each.sheet, str(each.number))]
         if not tables:
             raise file.error(f"no table {given.table!r} (--table); the file has {places}")
     for name in given.names:

@@ -15,7 +15,7 @@ from viscotack.errors import InputError
 MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
 # Of one text, where spreadsheets allow 32,767; and of a part, per element
 # [characters].
-_LONGEST_TEXT, _MOST_TEXT, _ELEMENT = 40_000, 60_000_000, 16
+_LONGEST_TEXT, _MOST_TEXT, _ELEMENT = 40_000, 30_000_000, 16
 # Read at once, and most between two elements [bytes].
 _CHUNK, _LONGEST_ELEMENT = 1 << 16, 1 << 20
 _SHEET = "xl/worksheets/"
@@ -78,7 +78,10 @@ class _Scan:
         self.unknown = 0
         self._all_text += characters
         if self._all_text > _MOST_TEXT:
-            raise InputError(f"it holds more than {_MOST_TEXT / 1e6:g} million characters")
+            raise InputError(
+                f"it has more than {_MOST_TEXT / 1e6:g} million characters; export the relevant "
+                "sheet as CSV"
+            )
 
 
 def _scan(archive: zipfile.ZipFile, part: str) -> _Scan:

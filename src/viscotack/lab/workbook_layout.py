@@ -123,6 +123,8 @@ def sheets(file: LabFile) -> dict[str, Cells]:
         raise ImportError(
             f"workbooks need {error.name}, which is not installed: pip install viscotack[lab]"
         ) from None
+    except MemoryError:
+        raise
     except Exception as error:
         # The library raises many undocumented errors for damaged workbooks.
         raise file.error(

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from viscotack.cards import Field, Pairs, cards
+from viscotack.cards import Field, Pairs, cards, plausible
 from viscotack.errors import InputError
 from viscotack.units import parse
 
@@ -90,9 +90,10 @@ class Table:
                 f"write for example {key} = {example}"
             )
         try:
-            return parse(value, unit)
+            number = parse(value, unit)
         except ValueError as error:
             raise InputError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
+        return plausible(f"{self.name} {key}", number, unit)
 
     def number(self, field: Field, key: str = "", unit: str = "") -> float:
         """Return the number described by a card, from the key of its field or another key."""

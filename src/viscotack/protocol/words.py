@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.cards import cards
+from viscotack.cards import cards, plausible
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.units import parse
@@ -115,7 +115,7 @@ def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
         raise InputError(
             f"{words!r} is not a start; write apart, depth, force or radius and a quantity"
         )
-    return _STARTS[kind](parse(value, units["depth" if kind == "apart" else kind]))
+    return _STARTS[kind](_parsed(kind, value, units["depth" if kind == "apart" else kind]))
 
 
 def history_from_file(
@@ -161,7 +161,8 @@ def history_from_file(
 def _move(kind: str, said: Mapping[str, str], units: Mapping[str, str]) -> Move:
     def quantity(name: str, field: str = "") -> float:
         card = _CARDS[kind][field or name].card
-        return card.checked(field or name, parse(said[name], units[name]), units[name])
+        number = _parsed(field or name, said[name], units[name])
+        return card.checked(field or name, number, units[name])
 
     match kind:
         case "approach":
@@ -181,12 +182,17 @@ def _move(kind: str, said: Mapping[str, str], units: Mapping[str, str]) -> Move:
 def _where(words: str, units: Mapping[str, str]) -> Start:
     kind, _, value = words.partition(" ")
     if kind in ("depth", "force", "radius"):
-        return _STARTS[kind](parse(value, units[kind]))
+        return _STARTS[kind](_parsed(kind, value, units[kind]))
     if units["depth"] == units["force"]:
         raise InputError(
             f"state whether {words} is a depth, a force or a radius, for example 'depth {words}'"
         )
     try:
-        return AtForce(parse(words, units["force"]))
+        force = parse(words, units["force"])
     except ValueError:
-        return AtDepth(parse(words, units["depth"]))
+        return AtDepth(_parsed("depth", words, units["depth"]))
+    return AtForce(plausible("force", force, units["force"]))
+
+
+def _parsed(name: str, words: str, unit: str) -> float:
+    return plausible(name, parse(words, unit), unit)

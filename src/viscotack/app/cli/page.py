@@ -50,6 +50,7 @@ def app_command(
     with wrong_input():
         server = _uvicorn()
         from viscotack.app.api import guarded
+        from viscotack.app.api.heads import MOST_CONNECTIONS, Prompt
         from viscotack.app.engine.jobs import Engine, Limits
         from viscotack.problem.nouns import own_nouns
 
@@ -66,7 +67,13 @@ def app_command(
     typer.echo(f"viscotack app: {link}\nCtrl-C ends it.", err=True)
     if browser:
         webbrowser.open(link)
-    config = server.Config(behind, log_level="warning", timeout_graceful_shutdown=2)
+    config = server.Config(
+        behind,
+        http=Prompt,
+        limit_concurrency=MOST_CONNECTIONS,
+        log_level="warning",
+        timeout_graceful_shutdown=2,
+    )
     server.Server(config).run(sockets=[listening])
 
 

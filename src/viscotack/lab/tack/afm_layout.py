@@ -78,7 +78,7 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
         known = {key: value for key, value in stated.items() if value is not None}
         more = {"meta_override": known} if known else {}
         curves = list(library.load_data(file.path, **more))
-    except (KeyboardInterrupt, SystemExit):
+    except (KeyboardInterrupt, SystemExit, MemoryError):
         raise
     except BaseException as error:
         # its errors do not derive from Exception, and damaged files raise others

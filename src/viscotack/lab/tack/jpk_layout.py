@@ -52,6 +52,8 @@ def records(file: LabFile) -> list[TackRecord]:
             files = {part: parts.read(part) for part in parts.namelist()}
     except InputError as error:
         raise file.error(str(error)) from None
+    except MemoryError:
+        raise
     except Exception as error:
         # The library raises many undocumented errors for damaged archives.
         raise file.error(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.lab.apart import limited
 
 from .cycle import Cycle
 from .evaluation import Evaluation, Refusal, evaluate
@@ -75,17 +76,18 @@ def survey(
     """
     found: list[Evaluation] = []
     unread: list[Unread] = []
-    for group in groups([file for path in paths for file in _files(path)]):
-        try:
-            records = read(group, **(reading or {}))
-        except InputError as error:
-            unread.append(Unread(fspath(group[0]), str(error)))
-            continue
-        for record in records:
+    with limited() as call:
+        for group in groups([file for path in paths for file in _files(path)]):
             try:
-                found.append(evaluate(record, **(evaluation or {})))
+                records = call(read, group, **(reading or {}))
             except InputError as error:
-                unread.append(Unread(record.source.path, str(error)))
+                unread.append(Unread(fspath(group[0]), str(error)))
+                continue
+            for record in records:
+                try:
+                    found.append(evaluate(record, **(evaluation or {})))
+                except InputError as error:
+                    unread.append(Unread(record.source.path, str(error)))
     return Survey(tuple(found), tuple(unread))
 
 

@@ -52,7 +52,7 @@ def read(
         values = {name: float(each["value"]) for name, each in record["parameters"].items()}
         nu = record.get("poisson_ratio") if poisson_ratio is None else poisson_ratio
         nu = None if nu is None else float(nu)
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise InputError(f"the text is not a record of a GeneralizedMaxwell: {error}") from None
     if nu is None:
         raise InputError("a record of RheoJAX lacks the Poisson ratio; give poisson_ratio")

@@ -7,12 +7,16 @@ input of the user, text or number, in the same way for every front end.
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
-from viscotack.cards import Quantity
+from viscotack.cards import Quantity, plausible
 from viscotack.errors import InputError
 from viscotack.units import parse
+
+# Of a table that an operation keeps in memory.
+_MOST_ROWS = 100_000
 
 
 class Place(Protocol):
@@ -125,7 +129,7 @@ class Number(Card):
             value = float(value)
         number = parse(value, self.unit)
         range_ = Quantity(self.unit, "", "", above=self.above, least=self.least, most=self.most)
-        return range_.checked("it", number)
+        return plausible("it", range_.checked("it", number), self.unit)
 
     def written(self, value: Any) -> Any:
         """Return the number with its unit and all its digits."""
@@ -457,7 +461,12 @@ class Table(Card):
             from viscotack.files.text import read_text
 
             path = place.file(_name(value))
-            return tuple(row for _, row in Listed(path, read_text(path)))
+            rows = tuple(r for _, r in islice(Listed(path, read_text(path)), _MOST_ROWS + 1))
+            if len(rows) > _MOST_ROWS:
+                raise InputError(
+                    f"{path} has more than {_MOST_ROWS:,} rows; run a campaign with this table"
+                )
+            return rows
         if not isinstance(value, list | tuple) or not all(isinstance(r, Mapping) for r in value):
             raise InputError(f"expected rows, [{{'name': number}}, ...], got {value!r:.60}")
         return tuple({str(k): parse(v, "1") for k, v in row.items()} for row in value)

@@ -1,14 +1,15 @@
 """Simulations with progress reports, and their data for the page."""
 
 from collections.abc import Callable, Mapping
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import FlatPunch
+from viscotack.geometry import FlatPunch, Layer
 from viscotack.problem import Problem
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 from viscotack.problem.outputs import Kind
 from viscotack.result import Outcome, Result, columns
 
@@ -20,6 +21,9 @@ Tell = Callable[[Told], None]
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
 _PROFILES, _NODES = 60, 160
+# Processor time after which a run states why it takes long [s], and the effective Tabor number, the
+# width of a punch [a0] and the number of moves that count as a reason.
+_LONG, _SHARP, _WIDE, _MANY = 30.0, 5.0, 30.0, 2
 _NO_UNITS = (1.0, 1.0, 1.0, 1.0)
 # Of the largest contact, what is drawn of the surface.
 _SEEN = 2.5
@@ -29,14 +33,62 @@ def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: An
     """Simulate a problem, telling its curve as it grows.
 
     Tells ``share`` of the work, and the new ``points`` where they are wanted: time, depth, force,
-    contact radius, in SI where the problem is. Other keywords are those of :func:`viscotack.solve`.
+    contact radius, in SI where the problem is. After 30 s of processor time it tells once, as a
+    ``notice``, what takes long and what is cheaper. Other keywords are those of
+    :func:`viscotack.solve`.
     """
-    told = _Told(tell, _units_of(problem) if points else _NO_UNITS)
+    told = _Told(
+        tell,
+        _units_of(problem) if points else _NO_UNITS,
+        lambda share: slow_words(problem, share, options),
+    )
     options |= {"throw": False, "progress": told.progress}
     options |= {"watch": told.watch} if points else {}
     result = _solved(problem, options, profiles)
     told.flush()
     return result
+
+
+def slow_words(problem: Any, share: float, options: Mapping[str, Any]) -> str:
+    """Describe why a simulation takes long, and what is cheaper.
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        The problem.
+    share : float
+        Share of the work that is done, from 0 to 1.
+    options : mapping
+        Keywords of :func:`viscotack.solve`.
+    """
+    groups = problem.groups()
+    causes = []
+    if groups.in_plane_strain:
+        size = groups.geometry.half_width
+        if size > _WIDE:
+            causes.append(f"the punch is {size:.3g} a0 wide, which needs a fine mesh at its edges")
+    elif groups.effective_tabor > _SHARP:
+        causes.append(
+            f"the cohesive zone is small beside the contact (effective Tabor number "
+            f"{groups.effective_tabor:.3g}), which needs a fine mesh and many steps"
+        )
+    if isinstance(groups.body, Layer) and not groups.in_plane_strain:
+        causes.append("the sample is a layer")
+    if len(groups.moves) > _MANY:
+        causes.append(f"the test has {len(groups.moves)} moves")
+    if options.get("accuracy", DEFAULT_ACCURACY) < DEFAULT_ACCURACY:
+        causes.append(f"the accuracy is {options['accuracy']:g}")
+    cheaper = []
+    if options.get("accuracy", DEFAULT_ACCURACY) < LOOSEST_ACCURACY:
+        cheaper.append(f"--accuracy {LOOSEST_ACCURACY:g}")
+    if options.get("until") != "pull-off":
+        cheaper.append("--until pull-off")
+    cheaper.append("`viscotack predict` or `viscotack advise`, which take no simulation")
+    why = f": {'; '.join(causes)}" if causes else ""
+    return (
+        f"{_LONG:g} s of processor time so far, {100 * share:.0f} % of the motion is "
+        f"simulated{why}. Cheaper: {', '.join(cheaper)}. --time-limit ends a simulation."
+    )
 
 
 def drawn_of(result: Result) -> dict[str, Any]:
@@ -66,8 +118,15 @@ def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
 class _Told:
     """Progress reports of a run, about twenty times a second."""
 
-    def __init__(self, tell: Tell, units: tuple[float, float, float, float]) -> None:
+    def __init__(
+        self,
+        tell: Tell,
+        units: tuple[float, float, float, float],
+        notice: Callable[[float], str] = lambda share: "",
+    ) -> None:
         self._tell, self._units = tell, units
+        self._notice: Callable[[float], str] | None = notice
+        self._began = process_time()
         self._points: list[list[float | None]] = []
         self._share, self._last = 0.0, 0.0
 
@@ -88,6 +147,9 @@ class _Told:
         if now - self._last > _EVERY:
             self._last = now
             self.flush()
+            if self._notice is not None and process_time() - self._began > _LONG:
+                self._tell({"notice": self._notice(self._share)})
+                self._notice = None
 
 
 def _units_of(problem: Any) -> tuple[float, float, float, float]:

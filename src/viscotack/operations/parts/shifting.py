@@ -123,8 +123,10 @@ class Shifting(Part):
             return WLF(reference_temperature=self.reference_temperature, c1=c1, c2=c2)
         if self.shift_file is not None:
             from viscotack.lab import read_shifts
+            from viscotack.lab.apart import limited
 
-            return read_shifts(self.shift_file)
+            with limited() as call:
+                return call(read_shifts, self.shift_file)
         return None
 
     def swept(self, sweeps: Any) -> tuple[Any, Any, tuple[str, ...]]:
