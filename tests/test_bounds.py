@@ -190,9 +190,11 @@ def test_a_number_that_no_simulation_takes_is_named(problem, said):
 
 def test_in_si_the_number_is_said_as_it_was_given(tmp_path):
     path = tmp_path / "case.toml"
-    path.write_text(CASE + 'speed = "1e200 m/s"\n')
+    path.write_text(CASE + 'speed = "1 m/s"\n')
+    problem = read_case(path)
+    fast = replace(problem, protocol=replace(problem.protocol, speed=1e200))
     with pytest.raises(InputError, match="the rate of the retraction .* which is 1e.200 m/s"):
-        solve(read_case(path))
+        solve(fast)
 
 
 @pytest.mark.parametrize(

@@ -56,12 +56,12 @@ def read_arrays(
         if strange or len(set(names)) < len(names):
             raise InputError(f"it contains an unexpected array: {strange[:1] or names}")
         size = sum(member.file_size for member in members)
-        check_unpacked(size, file.seek(0, os.SEEK_END))
         if size > most:
             raise InputError(
                 f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of "
                 f"{most / 1e6:.0f} MB"
             )
+        check_unpacked(size, file.seek(0, os.SEEK_END))
         for member in members:
             _check_shape(archive, member)
     file.seek(0)

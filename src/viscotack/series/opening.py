@@ -99,7 +99,7 @@ def which_opens(
     >>> stamp = replace(donor, geometry=Sphere(radius=2e-3))
     >>> found = which_opens(donor, stamp)
     >>> found.opened, f"{found.tension * 1e6:.0f} uN"
-    (0, '237 uN')
+    (0, '238 uN')
     """
     check_pair(first, second)
     try:

@@ -60,7 +60,7 @@ _TOLERANCE, _MOST_STEPS, _ROUNDS = 1e-6, 20_000, 4
 _TOGETHER = 1e-3
 _TINY = 1e-300
 # LSODA is the faster of both methods, and fails more often.
-_METHODS = (scipy.integrate.LSODA, scipy.integrate.Radau)
+_METHODS = "LSODA", "Radau"
 # Retardation times below this fraction of the time in which the drive extends both contacts to a
 # unit of force count as instantaneous.
 _INSTANT = 1e-5
@@ -369,7 +369,7 @@ def pull_apart(
     longest = _LONGEST * natural
     first_step = _FIRST / abs(rates(0.0, begin)[0])
     for method in _METHODS:
-        solver = method(
+        solver = getattr(scipy.integrate, method)(
             rates, 0.0, begin, longest, first_step=first_step, rtol=_TOLERANCE, atol=_TOLERANCE
         )
         top, top_time, at_top = 0.0, 0.0, begin
