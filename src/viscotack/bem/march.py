@@ -73,7 +73,7 @@ def march(
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
     body = Body(contact, modes, np.asarray(modes.weights), growing)
     run = Run(body, settings, legs, profiles, history)
-    at = _first(run, start, grading)
+    at = first_place(run, start, grading)
     run.keep(at)
     try:
         at = _begun(run, at, 0)
@@ -92,7 +92,7 @@ def march(
     return history
 
 
-def _first(run: Run, start: Relaxed, grading: Grading) -> Place:
+def first_place(run: Run, start: Relaxed, grading: Grading) -> Place:
     """Return the initial solver state, before the machine is attached."""
     state, leg = run.body.first(start), run.legs[0]
     mesh = Mesh(

@@ -21,25 +21,33 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import inf, isfinite, log, sqrt
+from math import inf, log
 from typing import Any
 
 import numpy as np
 
 from viscotack.bem.body import Body
-from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest, Snapshot
+from viscotack.bem.books import SMALLEST_ENERGY, History, Snapshot
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed
 from viscotack.bem.machine import Leg
-from viscotack.bem.march import narrowed
+from viscotack.bem.march import first_place, narrowed
 from viscotack.bem.memory import step
-from viscotack.bem.mesh import Grading, Mesh
+from viscotack.bem.mesh import Grading
 from viscotack.bem.place import Place, Run
-from viscotack.bem.remesh import opening
 from viscotack.bem.settings import Settings
 from viscotack.bem.span import separated
-from viscotack.bem.steps import Attempt, arrived, clipped, instant, tried, weighed
+from viscotack.bem.steps import (
+    UNBALANCED_CUT,
+    Attempt,
+    arrived,
+    clipped,
+    cut,
+    instant,
+    tried,
+    weighed,
+)
 from viscotack.bem.travelling import ahead, travelled
 from viscotack.materials import Modes
 
@@ -50,9 +58,6 @@ _EQUAL, _MOST_TRIALS, _NEARLY = 1e-7, 12, 1e-5
 _LEAST_FORCE = 0.1
 # The run ends when the tension has fallen to this fraction of its maximum.
 _LEFT = 0.2
-# Factor by which a step without a common force is shortened; aim and limits of the cut of a step
-# that is too long, and the strain above which it is, as in :mod:`.steps`.
-_CUT, _AIM, _LEAST_CUT, _MOST_CUT = 0.4, 0.8, 0.7, 0.2
 # A step of the shortest length that misses more energy than this multiple of the tolerated one
 # contains a jump.
 _CLEARLY = 5.0
@@ -68,6 +73,7 @@ _TOGETHER = 1e-3
 _MOST_STEPS = 50_000
 
 
+# not the Scales of the theory: it shares nothing with the simulation, so that each judges the other
 @dataclass(frozen=True)
 class Units:
     """SI values of the units of a contact: depth [m], force [N], time [s]."""
@@ -347,19 +353,9 @@ def _begun(part: Part, settings: Settings, speed: float) -> _Side:
     weights = np.asarray(part.modes.weights)
     body = Body(contact, part.modes, weights, part.growing)
     run = Run(body, settings, (leg,), False, History(SMALLEST_ENERGY * contact.span))
-    state = body.first(part.start)
-    mesh = Mesh(
-        finest=part.grading,
-        opening=opening(state, contact),
-        lattice=part.start.lattice,
-        grading=part.grading,
-        edge=part.start.edge if isfinite(part.start.edge) else 0.0,
-        narrows=body.growing is not None,
-    )
-    books = Books(0.0, np.zeros(len(weights)))
-    at = Place(state, books, mesh, leg, 0, state.seen, leg.least_step, Lowest())
+    at = first_place(run, part.start, part.grading)
     run.keep(at)
-    at = replace(at, state=body.at_rest(state))
+    at = replace(at, state=body.at_rest(at.state))
     stiffness = units.force / (contact.travel * units.depth)
     side = _Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
     # the stiffness of a fast solid is larger by up to the ratio of its moduli
@@ -378,12 +374,11 @@ def _stepped(pair: _Pair) -> tuple[_Pair, str]:
         if split is None:
             if shortest:
                 return pair, "jump"
-            dt *= _CUT
+            dt *= UNBALANCED_CUT
         elif shortest and split.jumps:
             return pair, "jump"
         elif split.too_long and not shortest:
-            cut = min(_AIM / sqrt(split.strain), _LEAST_CUT)
-            dt *= max(_MOST_CUT, cut)
+            dt *= cut(split.strain)
         else:
             return pair.after(split, dt), ""
         for side in pair.sides:

@@ -175,12 +175,17 @@ def _run(
     return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
-def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed, tuple[Leg, ...]]:
-    """Return the relaxed start of a test and its legs; check that the first leg can hold it."""
+def relaxed_start(groups: Groups, contact: Contact, settings: Settings) -> Relaxed:
+    """Return the relaxed start of a test."""
     try:
-        start = contact.relaxed(groups.start, settings)
+        return contact.relaxed(groups.start, settings)
     except ArithmeticError as reason:
         raise InputError(f"the relaxed start was not found: {reason}") from reason
+
+
+def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed, tuple[Leg, ...]]:
+    """Return the relaxed start of a test and its legs; check that the first leg can hold it."""
+    start = relaxed_start(groups, contact, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     check_held(start, contact, legs[0])
     return start, legs

@@ -29,7 +29,7 @@ _LOOSER = 2.0
 # Factor on the step length in the frame of the crack.
 _FOLLOWING = 4.0
 # Factor by which a step without equilibrium at its end is shortened.
-_UNBALANCED_CUT = 0.4
+UNBALANCED_CUT = 0.4
 # A step that needs more iterations than this is too long.
 _MOST_ITERATIONS = 25
 # A step is repeated if its strain exceeds _TOO_LONG. The next one aims at the length ratio _AIM, so
@@ -172,15 +172,19 @@ def _interface_heat(before: State, after: State) -> float:
     return before.surface.unit * float(nodal @ (after.gap - before.gap)) + flank * lifted
 
 
+def cut(strain: float) -> float:
+    """Return the factor by which a step that is too long is shortened."""
+    return max(_MOST_CUT, min(_AIM / np.sqrt(strain), _LEAST_CUT))
+
+
 def shortened(run: Run, at: Place, attempt: Attempt | None) -> Place | None:
     """Return the solver state with a shorter next step, None if the attempt is accepted."""
     if attempt is None:
         run.history.rejected += 1
-        return replace(at, dt=at.dt * _UNBALANCED_CUT)
+        return replace(at, dt=at.dt * UNBALANCED_CUT)
     if attempt.too_long:
         run.history.rejected += 1
-        cut = min(_AIM / np.sqrt(attempt.strain), _LEAST_CUT)
-        return replace(at, dt=at.dt * max(_MOST_CUT, cut))
+        return replace(at, dt=at.dt * cut(attempt.strain))
     ahead, over = at.ahead, -at.leg.missing(attempt.after.seen)
     if 0 < ahead and over > _AT_END * (ahead + over):
         return replace(at, dt=at.dt * (ahead / (ahead + over)))

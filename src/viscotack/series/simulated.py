@@ -25,7 +25,7 @@ from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.machine import Leg
 from viscotack.bem.series import Part, SeriesHistory, Units, march_in_series
 from viscotack.bem.settings import Settings
-from viscotack.bem.solver import contact_of, modes_of_run
+from viscotack.bem.solver import contact_of, modes_of_run, relaxed_start
 from viscotack.errors import InputError, OutOfRange
 from viscotack.methods import handover
 from viscotack.problem import Groups, Problem
@@ -158,10 +158,7 @@ def _posed(problem: Problem, settings: Settings) -> _Posed:
         )
     contact = contact_of(groups)
     check_bounds(problem, groups, contact)
-    try:
-        start = contact.relaxed(groups.start, settings)
-    except ArithmeticError as reason:
-        raise InputError(f"the relaxed start was not found: {reason}") from reason
+    start = relaxed_start(groups, contact, settings)
     return _Posed(groups, contact, start, Units(si.length, si.force, si.time), si.radius)
 
 
