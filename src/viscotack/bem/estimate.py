@@ -25,6 +25,7 @@ from viscotack.result.observables import (
     fold_shift,
     peaks,
     pull_off,
+    step_shift,
     work_lost,
     work_to,
 )
@@ -121,9 +122,10 @@ def _of_pull_off(
     shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
     share = abs(found.force - alike.force) / found.force
     force = more * _from_difference("force", share, accuracy)
-    # under a growing load both end by chance near the largest force, and may end at one place
-    fold = fold_shift(result, force)
-    chance = {"work": fold * energy, "depth": fold}
+    # under a growing load both end by chance near the largest force, and may end at one place;
+    # where the force bends within a step, both may have their minimum at the same wrong place
+    place = hypot(fold_shift(result, force), step_shift(result))
+    chance = {"work": place * energy, "depth": place}
     error = {
         name: hypot(
             chance[name],

@@ -18,7 +18,15 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from . import Outcome, Result
 from .cycles import cycle_rows
 from .dead_load import time_held
-from .opening import PullOff, lost_beside, peaks_in, pull_off_in, reach_of_fold, tension_work
+from .opening import (
+    PullOff,
+    between_steps,
+    lost_beside,
+    peaks_in,
+    pull_off_in,
+    reach_of_fold,
+    tension_work,
+)
 from .parts import spans
 
 _HERE = "viscotack.result.observables"
@@ -373,6 +381,14 @@ def depth_shift(result: Result, force_error: float) -> float:
     """
     found = pull_off(result)
     return force_error * lost_beside(result, spans(result)[-1]) / found.force
+
+
+def step_shift(result: Result) -> float:
+    """Return how far the depth at pull-off is known between the steps [h_0].
+
+    The minima of polynomials through other steps next to it differ by so much.
+    """
+    return between_steps(result, spans(result)[-1])
 
 
 def fold_shift(result: Result, force_error: float) -> float:

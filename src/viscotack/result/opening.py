@@ -4,6 +4,7 @@ The curve between two steps is a cubic, interrupted at jumps. The force minimum 
 crossing are located between steps, and a jump adds no work.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -133,6 +134,27 @@ def lost_beside(result: Result, span: Span) -> float:
     if not 0 < i < len(x) - 1 or _smooth(move_numbers(result)[steps], i) is None:
         return 0.0
     return float(force[i] ** 2 / _curvature(x, force, i))
+
+
+def between_steps(result: Result, span: Span) -> float:
+    """Return how far the place of the force minimum is known between the steps [h0].
+
+    This is the largest distance between the minimum and those of the parabola through the lowest
+    three steps and of the cubics through one more on either side. They differ where the curve bends
+    within a step, as at the end of a table of a law; 0 unless the minimum is a smooth valley.
+    """
+    steps, lowest = _valley_of(result, span)
+    smooth = _smooth(move_numbers(result)[steps], lowest)
+    if smooth is None:
+        return 0.0
+    x, y, i = -result.depth[steps][smooth], result.force[steps][smooth], lowest - smooth.start
+    if not 0 < i < len(x) - 1:
+        return 0.0
+    place, _ = _minimum(x, y, i)
+    several = (slice(i - 1, i + 2), slice(i - 2, i + 2), slice(i - 1, i + 3))
+    others = [s for s in several if s.start >= 0 and s.stop <= len(x)]
+    found = [at for points in others for at, _ in _lowest(x, y, i, points)]
+    return max((abs(at - place) for at in found), default=0.0)
 
 
 def reach_of_fold(result: Result, span: Span) -> float:
@@ -375,17 +397,21 @@ def _nearest(x: Array, i: int) -> slice:
 def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
     """Return place and value of the minimum of the curve near its lowest point i."""
     if 0 < i < len(x) - 1:
-        scale = x[i + 1] - x[i - 1]
         for points in (_nearest(x, i), slice(i - 1, i + 2)):
-            u = (x[points] - x[i]) / scale
-            taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
-            at = _valley(*taylor[1:])
-            if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
-                value = float(np.polynomial.polynomial.polyval(at, taylor))
-                place = float(x[i] + scale * at)
+            for place, value in _lowest(x, y, i, points):
                 if value >= least_between(x, y, i, place):
                     return place, value
     return float(x[i]), float(y[i])
+
+
+def _lowest(x: Array, y: Array, i: int, points: slice) -> Iterator[tuple[float, float]]:
+    """Yield place and value of the minimum of the polynomial through points next to point i."""
+    scale = x[i + 1] - x[i - 1]
+    u = (x[points] - x[i]) / scale
+    taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
+    at = _valley(*taylor[1:])
+    if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
+        yield float(x[i] + scale * at), float(np.polynomial.polynomial.polyval(at, taylor))
 
 
 def _on_plateau(y: Array, i: int) -> bool:
