@@ -27,9 +27,10 @@ from viscotack import (
     Layer,
     LennardJones,
     PowerLawProfile,
+    SaturatingAgeing,
     Sphere,
 )
-from viscotack.traction import effective_range, grows
+from viscotack.traction import effective_range, has_rest
 
 sys.path.append(str(Path(__file__).parents[1] / "examples" / "own"))
 from cole_cole import ColeCole  # noqa: E402
@@ -63,7 +64,15 @@ def material(luck: Luck) -> Any:
 def law(luck: Luck) -> Any:
     """Return a reduced traction law; some are tables, grow with the speed or are a user's own."""
     match luck.one(
-        {"lj": 0.45, "exp": 0.2, "dugdale": 0.1, "table": 0.1, "grows": 0.06, "own": 0.05}
+        {
+            "lj": 0.45,
+            "exp": 0.2,
+            "dugdale": 0.1,
+            "table": 0.1,
+            "grows": 0.06,
+            "ages": 0.04,
+            "own": 0.05,
+        }
     ):
         case "exp":
             return Exponential(1.0, 1.0, decay=luck.decades(0.25, 3))
@@ -79,6 +88,12 @@ def law(luck: Luck) -> Any:
                 )
             return Eyring.of(
                 LennardJones(1.0, 1.0), reference_speed=speed, sensitivity=luck.within(0.05, 0.5)
+            )
+        case "ages":
+            return SaturatingAgeing.of(
+                LennardJones(1.0, 1.0),
+                reference_time=luck.decades(0.01, 1e2),
+                largest_growth=luck.decades(0.1, 3),
             )
         case "own":
             return Morse(1.0, 1.0, steepness=luck.within(1.5, 6.0))
@@ -122,7 +137,7 @@ def contact(luck: Luck) -> Case:
 def relaxed(luck: Luck) -> Groups:
     """Return a sphere that is pulled from a relaxed contact by a rigid machine."""
     traction = LennardJones(1.0, 1.0) if luck.happens(0.6) else law(luck)
-    while grows(traction):
+    while has_rest(traction):
         traction = law(luck)
     tabor = tabor_of(luck)
     scene = scene_of(luck, traction, tabor)
@@ -143,7 +158,7 @@ def tabor_of(luck: Luck) -> float:
 
 def scene_of(luck: Luck, traction: Any, tabor: float) -> Scene:
     """Return how far and how hard a machine moves that suits the contact of a tip."""
-    reach = effective_range(traction.base if grows(traction) else traction)
+    reach = effective_range(traction.base if has_rest(traction) else traction)
     travel = tabor + reach
 
     def press() -> Any:
@@ -187,7 +202,7 @@ def punch(luck: Luck) -> Groups:
             return AtDepth(pushed * luck.decades(0.03, 3))
         return AtForce(luck.decades(0.01, 1))
 
-    reach = effective_range(traction.base if grows(traction) else traction)
+    reach = effective_range(traction.base if has_rest(traction) else traction)
     scene = Scene(pushed + reach, 10 * reach + pushed, 0.1, press)
     solid = material(luck)
     stiffness, machine = driven(luck, solid, scene, with_history=luck.happens(0.4))

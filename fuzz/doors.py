@@ -46,7 +46,7 @@ from viscotack import (
 from viscotack.app.cli import main as command_line
 from viscotack.campaign import CaseSettings, measure
 from viscotack.cards import cards
-from viscotack.traction import grows
+from viscotack.traction import has_rest
 
 from . import cases
 from .answers import ACCURACY, Unjudged, by_simulation, solved
@@ -293,7 +293,7 @@ def in_words(problem: vt.Problem, where: Path) -> str:
         lines.append('file = "law.csv"')
     else:
         lines += _numbers(law)
-        if grows(law):
+        if has_rest(law):
             lines += [f'base = "{law.base.word}"']
             lines += [n for n in _numbers(law.base) if not n.startswith(("work_of", "equilibrium"))]
     if isinstance(shape, PowerLawProfile):
@@ -414,7 +414,7 @@ def _law_words(law: Any) -> str | None:
     """Return a law as a flag has it; None where it is in a table, or a user's own."""
     if isinstance(law, Tabulated) or isinstance(law, OWN):
         return None
-    base = f":{_law_words(law.base)}" if grows(law) else ""
+    base = f":{_law_words(law.base)}" if has_rest(law) else ""
     scales = ("work_of_adhesion", "equilibrium_gap", "base")
     values = [repr(v) for n, v in vars(law).items() if n not in scales]
     return law.word + (":" + ",".join(values) if values else "") + base

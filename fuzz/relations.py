@@ -39,8 +39,8 @@ from viscotack.materials import FractionalZener
 from viscotack.materials.conversion import slowed
 from viscotack.result.loops import Loop
 from viscotack.result.parts import Span, spans
-from viscotack.traction import grows
-from viscotack.traction.growing import scaled
+from viscotack.traction import has_rest
+from viscotack.traction.resting import scaled
 
 from . import cases
 from .answers import (
@@ -215,7 +215,7 @@ def slower_material(material: Any, luck: Luck) -> Found:
 
 def law_adds_up(law: Any, luck: Luck) -> Found:
     """Check that traction and stiffness are derivatives, and that a law scales."""
-    rest = law.base if grows(law) else law
+    rest = law.base if has_rest(law) else law
     end = rest.points[-1][0] if isinstance(rest, Tabulated) else 30.0
     # between kinks: of a law in pieces a difference over one is no derivative
     gap = np.sort(luck.within(0.75, min(end, 8.0), 400))
@@ -335,7 +335,7 @@ def in_time(case: Case, factor: float) -> Case:
         return replace(move, duration=move.duration * factor)
 
     law: Any = case.traction
-    if grows(law):
+    if has_rest(law):
         law = replace(law, reference_speed=law.reference_speed / factor)
     return replace(
         case,
@@ -369,7 +369,7 @@ def timed(answer: Answer, factor: float) -> Answer:
 def table_of_law(case: Case, luck: Luck) -> Found:
     """Check that a law in a fine table is its formula."""
     law: Any = case.traction
-    if grows(law) or isinstance(law, Tabulated):
+    if has_rest(law) or isinstance(law, Tabulated):
         return []
     near = float(law.edge_gap)
     # a law that repels softly presses surfaces closer
@@ -402,7 +402,9 @@ def stiff_spring(case: Case, luck: Luck, crack: bool = False) -> Found:
 
 def elastic_time(case: Case, luck: Luck) -> Found:
     """Check that an elastic solid has no time: speeds and waiting change nothing."""
-    if grows(case.traction) or any(isinstance(m, Dwell) and m.hold == "force" for m in case.moves):
+    if has_rest(case.traction) or any(
+        isinstance(m, Dwell) and m.hold == "force" for m in case.moves
+    ):
         return []
     elastic = replace(case, material=Elastic(rubbery_modulus=1.0, poisson_ratio=0.0))
     factor = luck.decades(1e-3, 1e3)
@@ -623,7 +625,7 @@ def hysteresis(case: Case, luck: Luck) -> Found:
                 f"gross work {gross:.4g}"
             )
         if np.isfinite(H) and isinstance(case.material, Elastic) and not result.events:
-            if abs(H) > 5 * ACCURACY * gross and not grows(case.traction):
+            if abs(H) > 5 * ACCURACY * gross and not has_rest(case.traction):
                 words.append(f"cycle {number} of an elastic solid has hysteresis {H:.4g}")
     return words
 

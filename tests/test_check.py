@@ -55,6 +55,12 @@ LAWS_CHECKED = {
     ),
     "gent-schultz": GentSchultz.of(LENNARD_JONES, reference_speed=1e-3, exponent=0.5),
     "eyring": Eyring.of(LENNARD_JONES, reference_speed=1e-3, sensitivity=0.1),
+    "logarithmic-ageing": vt.LogarithmicAgeing.of(
+        LENNARD_JONES, reference_time=1.0, sensitivity=0.1
+    ),
+    "saturating-ageing": vt.SaturatingAgeing.of(
+        LENNARD_JONES, reference_time=1.0, largest_growth=0.5
+    ),
     "morse": MORSE(WORK, GAP, 3.0),
 }
 SHAPES_CHECKED = {

@@ -121,6 +121,8 @@ if TYPE_CHECKING:
     from .traction import Eyring as Eyring
     from .traction import GentSchultz as GentSchultz
     from .traction import LennardJones as LennardJones
+    from .traction import LogarithmicAgeing as LogarithmicAgeing
+    from .traction import SaturatingAgeing as SaturatingAgeing
     from .traction import Tabulated as Tabulated
     from .units import parse as parse
 
@@ -129,7 +131,16 @@ _NAMES = {
     "units": ("parse",),
     "errors": ("InputError", "OutOfRange"),
     "cards": ("Quantity",),
-    "traction": ("Dugdale", "Exponential", "Eyring", "GentSchultz", "LennardJones", "Tabulated"),
+    "traction": (
+        "Dugdale",
+        "Exponential",
+        "Eyring",
+        "GentSchultz",
+        "LennardJones",
+        "LogarithmicAgeing",
+        "SaturatingAgeing",
+        "Tabulated",
+    ),
     "geometry": (
         "Sphere",
         "FlatPunch",

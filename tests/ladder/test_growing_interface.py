@@ -16,7 +16,7 @@ from viscotack.problem.law_table import law_from_words
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
 from viscotack.result.observables import pull_off_force
 from viscotack.traction import Dugdale, Exponential, Eyring, GentSchultz, LennardJones, grows
-from viscotack.traction.growing import reduced
+from viscotack.traction.resting import reduced
 
 REST = LennardJones(0.1523, 200e-9)
 POWER = GentSchultz.of(REST, reference_speed=1e-3, exponent=0.4)

@@ -24,7 +24,7 @@ from viscotack.traction import (
     Exponential,
     LennardJones,
     Tabulated,
-    grows,
+    has_rest,
     softening,
 )
 
@@ -231,7 +231,7 @@ def test_surfaces_cannot_pass_through_each_other(law):
 
 
 def test_every_law_has_a_word():
-    at_rest = {law for law in LAWS.values() if not grows(law)}
+    at_rest = {law for law in LAWS.values() if not has_rest(law)}
     assert at_rest == {LennardJones, Dugdale, Exponential, Tabulated}
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
+from viscotack.bem.ageing import Contacted
 from viscotack.bem.books import Snapshot
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance, descend
@@ -21,6 +22,7 @@ from viscotack.bem.memory import Memory, Step
 from viscotack.bem.span import least_gap, room
 from viscotack.bem.surface import Surface
 from viscotack.materials import Modes
+from viscotack.traction import grows
 
 # The iterations of a step end when one reduces the energy by less than this fraction. The force is
 # then accurate to 1e-7, and steps at large Tabor numbers take three times fewer iterations.
@@ -63,19 +65,19 @@ class Rates:
 
 @dataclass(frozen=True, eq=False)
 class Extra:
-    """Additional traction of a rate-dependent interface at one instant.
+    """Additional traction of an interface that exceeds its law at rest, at one instant.
 
     Attributes
     ----------
-    opening : Opening
-        Opening speed of the gap.
+    bonds : Opening or Contacted
+        Opening speed of the gap, or time in contact.
     nodal : ndarray, shape (N,)
         Nodal forces in excess of the quasi-static ones, tension positive.
     flank : float
         Force on the flank in excess of the quasi-static one [output unit], tension positive.
     """
 
-    opening: Opening
+    bonds: Opening | Contacted
     nodal: npt.NDArray
     flank: float
 
@@ -123,14 +125,19 @@ class Trial:
 class Body:
     """Constant data of a run: the contact and the retardation modes of the solid.
 
-    The traction law of the contact is the quasi-static one. `growing` is the rate-dependent law if
-    the traction grows with the opening speed, otherwise None.
+    The traction law of the contact is that at rest. `growing` is the law itself if its tension
+    grows with the opening speed or with the time in contact, otherwise None.
     """
 
     contact: Contact
     modes: Modes
     weights: npt.NDArray
     growing: Any = None
+
+    @property
+    def runs(self) -> bool:
+        """Whether a crack that is unstable runs at a finite speed instead of jumping."""
+        return grows(self.growing)
 
     @cached_property
     def times(self) -> npt.NDArray:
@@ -140,33 +147,45 @@ class Body:
     def first(self, start: Relaxed) -> State:
         """Return the relaxed state, in which every mode is in equilibrium."""
         gap, surface = start.gap, start.surface
+        bonds = self._bonds_of_rest(gap)
+        if isinstance(bonds, Contacted):
+            # the edge is where loading has left it; inside, old bonds hold the gap tighter
+            free, hold = surface.rigid_gap, Hold(np.inf, depth=start.depth)
+            gap = descend(surface, self.law(bonds), free, 1.0, gap, hold).gap
         e = gap - (surface.rigid_gap - start.depth)
-        faces = surface.interface.at(self.contact.law, gap)
+        faces = surface.interface.at(self.law(bonds), gap)
         many = (len(self.weights), 1)
         memory = Memory(np.tile(e, many), np.tile(-faces.tension, many))
-        opening = None if self.growing is None else Opening.none(gap)
         edge, rates = surface.edge(gap, self.contact.law.edge_gap), _at_rest(gap)
-        return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, opening)
+        return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, bonds)
+
+    def _bonds_of_rest(self, gap: npt.NDArray) -> Opening | Contacted | None:
+        """Return the bonds of a relaxed contact."""
+        if self.growing is None:
+            return None
+        if self.runs:
+            return Opening.none(gap)
+        return Contacted.relaxed(self.contact.law, self.growing, gap)
 
     def after(
         self, state: State, s: Step, hold: Hold, most_iterations: int, largest_gain: float
     ) -> Trial:
         """Advance the state by one trial time step; for `largest_gain` see `descend`."""
-        surface, stepped = state.surface, None
-        law: Any = self.contact.law
-        if state.extra is not None:
-            before = state.extra.opening
-            law = stepped = Stepped.of(law, self.growing, state.gap, before, s.length)
+        surface, base = state.surface, self.contact.law
+        bonds = None if state.extra is None else state.extra.bonds
+        law: Any = base
+        if bonds is not None:
+            law = bonds.stepped(base, self.growing, state.gap, s.length)
         free = surface.rigid_gap + state.memory.inherited(s, state.relaxed)
         guess = _shifted(state, state.rates.edge * s.length) + s.length * state.rates.gap
         guess = np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span))
         machine, balance, speed = self.net(hold, state), None, None
-        if stepped is not None:
-            balance, speed = driven(surface, stepped, free, s.compliance, guess, machine)
+        if isinstance(law, Stepped):
+            balance, speed = driven(surface, law, free, s.compliance, guess, machine)
         if balance is None:
             balance = descend(
                 surface,
-                law,
+                law,  # type: ignore[arg-type]
                 free,
                 s.compliance,
                 guess,
@@ -175,12 +194,14 @@ class Body:
                 largest_gain=largest_gain,
                 most_iterations=most_iterations,
             )
-        gap, opening, bent = balance.gap, None, 0.0
-        if stepped is not None:
-            speed = stepped.speed(gap) if speed is None else speed
-            opening = stepped.opening(state.gap, speed, s.length)
-            bent = bend(stepped, gap, opening, surface.area)
-        faces = self._faces(surface, balance, opening)
+        gap, bent = balance.gap, 0.0
+        if isinstance(law, Stepped):
+            speed = law.speed(gap) if speed is None else speed
+            bonds = law.opening(state.gap, speed, s.length)
+            bent = bend(law, gap, bonds, surface.area)
+        elif isinstance(bonds, Contacted):
+            bonds = bonds.after(base, state.gap, gap, s.length)
+        faces = self._faces(surface, balance, bonds)
         e = (gap - free + balance.depth) / s.compliance
         edge = surface.edge(gap, self.contact.law.edge_gap)
         moved = 0.0 if isnan(edge - state.seen.edge) else edge - state.seen.edge
@@ -193,9 +214,7 @@ class Body:
         )
         memory = state.memory.advanced(s, state.relaxed, e, state.nodal, -faces.tension)
         time, depth = state.seen.time + s.length, balance.depth
-        after = self.state(
-            time, depth, edge, surface, faces, e, memory, rates, opening, state.trail
-        )
+        after = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds, state.trail)
         error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released, bent)
 
@@ -225,40 +244,54 @@ class Body:
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
         guess = np.maximum(fields[many], least_gap(self.contact.span))
-        opening = None if state.extra is None else state.extra.opening.carried(carried)
+        bonds = None if state.extra is None else state.extra.bonds.carried(old, nodes)
         machine, balance, speed = self.net(hold, state), None, None
-        law: Any = self.law(opening)
-        if opening is not None and opening.length:
+        law: Any = self.law(bonds)
+        if isinstance(bonds, Opening) and bonds.length:
             # update speeds with the gaps: frozen speeds would give closing gaps the traction of
             # opening
-            law = Stepped.again(self.contact.law, self.growing, guess, opening)
+            law = Stepped.again(self.contact.law, self.growing, guess, bonds)
             balance, speed = driven(surface, law, free, c, guess, machine)
         if balance is None:
             balance = descend(surface, law, free, c, guess, machine)
         if not balance.stable:
             return balance
-        if opening is not None and opening.length:
+        if isinstance(bonds, Opening) and bonds.length:
             speed = law.speed(balance.gap) if speed is None else speed
-            opening = replace(opening, speed=speed)
+            bonds = replace(bonds, speed=speed)
         gap, depth = balance.gap, balance.depth
         e = (gap - free + depth) / c
         edge = surface.edge(gap, self.contact.law.edge_gap)
-        faces = self._faces(surface, balance, opening)
+        faces = self._faces(surface, balance, bonds)
         time = state.seen.time
-        moved = self.state(time, depth, edge, surface, faces, e, memory, rates, opening)
+        moved = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds)
         return replace(moved, trail=state.trail) if len(state.trail) > 1 else moved
 
-    def law(self, opening: Opening | None) -> Any:
-        """Return the law at opening speeds, frozen; None for the law at rest."""
-        if opening is None:
+    def law(self, bonds: Opening | Contacted | None) -> Any:
+        """Return the law with opening speeds or contact times frozen; None for the law at rest."""
+        if bonds is None:
             return self.contact.law
-        return Frozen(self.contact.law, 1 + self.growing.growth(opening.speed))
+        return Frozen(self.contact.law, bonds.factor(self.growing))
+
+    def friction(self, before: State, after: State) -> float:
+        """Return the heat in the interface over a step, 0 if the law depends on the gap alone."""
+        if before.extra is None or after.extra is None:
+            return 0.0
+        bonds, surface, gap = before.extra.bonds, before.surface, before.gap
+        if isinstance(bonds, Contacted):
+            length = after.seen.time - before.seen.time
+            heat = bonds.heat(self.contact.law, self.growing, gap, after.gap, length)
+            return surface.unit * float(surface.area @ heat)
+        nodal = 0.5 * (before.extra.nodal + after.extra.nodal)
+        flank = 0.5 * (before.extra.flank + after.extra.flank)
+        lifted = before.seen.depth - after.seen.depth
+        return surface.unit * float(nodal @ (after.gap - gap)) + flank * lifted
 
     def at_rest(self, state: State) -> State:
         """Return the state with rates reset, where the previous rates do not apply."""
         extra = state.extra
         if extra is not None:
-            extra = replace(extra, opening=extra.opening.forgotten())
+            extra = replace(extra, bonds=extra.bonds.forgotten())
         passed = self._passed(state.seen, state.surface, state.relaxed, state.nodal, state.memory)
         return replace(state, rates=_at_rest(state.gap), trail=(passed,), extra=extra)
 
@@ -268,17 +301,19 @@ class Body:
         each = np.einsum("ij,ij->i", e - memory.displacement, F - memory.force)
         return Passed(seen, surface.unit * (self.weights / self.times * each))
 
-    def _faces(self, surface: Surface, balance: Balance, opening: Opening | None) -> Faces:
-        """Return the interface of a balance with the law frozen at these opening speeds."""
-        if opening is None:
+    def _faces(
+        self, surface: Surface, balance: Balance, bonds: Opening | Contacted | None
+    ) -> Faces:
+        """Return the interface of a balance with the law frozen at these bonds."""
+        if bonds is None:
             return balance.faces
-        return surface.interface.at(self.law(opening), balance.gap)
+        return surface.interface.at(self.law(bonds), balance.gap)
 
     def net(self, hold: Hold, state: State) -> Hold:
         """Return the hold minus the flank force, which is not on any node and changes slowly."""
         if hold.rigid:
             return hold
-        law = self.law(None if state.extra is None else state.extra.opening)
+        law = self.law(None if state.extra is None else state.extra.bonds)
         flank = state.surface.flank_force(law, state.gap) / state.surface.unit
         return replace(hold, load=hold.load - flank)
 
@@ -292,16 +327,16 @@ class Body:
         relaxed: npt.NDArray,
         memory: Memory,
         rates: Rates,
-        opening: Opening | None,
+        bonds: Opening | Contacted | None,
         before: tuple[Passed, ...] = (),
     ) -> State:
         """Assemble the state at an instant with its recorded quantities and the earlier trail."""
-        law, gap, nodal = self.law(opening), faces.gap, -faces.tension
+        law, gap, nodal = self.law(bonds), faces.gap, -faces.tension
         resting, extra, at_rest = faces, None, self.contact.law
-        if opening is not None:
+        if bonds is not None:
             resting = surface.interface.at(at_rest, gap)
             flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
-            extra = Extra(opening, faces.tension - resting.tension, flank)
+            extra = Extra(bonds, faces.tension - resting.tension, flank)
         instant = 0.5 * self.modes.instantaneous * float(relaxed @ nodal)
         seen = Snapshot(
             time=time,

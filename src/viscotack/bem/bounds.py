@@ -32,7 +32,7 @@ from viscotack.protocol import (
     Retract,
     Start,
 )
-from viscotack.traction import effective_range
+from viscotack.traction import ages, effective_range
 
 # Range of the magnitudes of a test; their squares and cubes must not overflow.
 _SMALLEST, _LARGEST = 1e-100, 1e100
@@ -80,6 +80,17 @@ def check_bounds(problem: Case, groups: Groups, contact: Contact) -> None:
                     f"a punch, got {value:g}"
                 )
     _check_depths(groups, contact)
+    _check_age(groups)
+
+
+def _check_age(groups: Groups) -> None:
+    """Reject a relaxed contact, closed for ever, whose interface never stops to age."""
+    law: Any = groups.traction
+    if ages(law) and not isinstance(groups.start, Apart) and not np.isfinite(law.settled):
+        raise InputError(
+            f"a relaxed contact has been closed for ever, and {law.word} has no end; start apart, "
+            "approach and dwell for as long as the contact rests"
+        )
 
 
 def check_held(start: Relaxed, contact: Contact, leg: Leg) -> None:

@@ -50,12 +50,12 @@ quasi-static law. It does not check the speeds; the step control does (:func:`be
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.interpolate import CubicSpline
 
 from viscotack.bem.clock import look
 from viscotack.bem.equilibrium import Balance, elastic_energy, factored, solved
@@ -105,9 +105,18 @@ class Opening:
         """Return the speeds without the data of the previous step."""
         return Opening(self.speed, self.mean)
 
-    def carried(self, spline: Callable[[npt.NDArray], npt.NDArray]) -> Opening:
+    def carried(self, old: npt.NDArray, nodes: npt.NDArray) -> Opening:
         """Return the speeds on other nodes."""
-        return replace(self, speed=spline(self.speed), mean=spline(self.mean))
+        speed, mean = CubicSpline(old, np.vstack([self.speed, self.mean]), axis=-1)(nodes)
+        return replace(self, speed=speed, mean=mean)
+
+    def factor(self, growing: Any) -> npt.NDArray:
+        """Return the factor of the tension at the nodes."""
+        return 1 + growing.growth(self.speed)
+
+    def stepped(self, base: Traction, growing: Any, gap: npt.NDArray, length: float) -> Stepped:
+        """Return the law for a step of this length from these gaps."""
+        return Stepped.of(base, growing, gap, self, length)
 
 
 class _AsAtRest:
@@ -133,7 +142,10 @@ class _AsAtRest:
 
 @dataclass(frozen=True, eq=False)
 class Frozen(_AsAtRest):
-    """Quasi-static law with its tension multiplied by a factor per node: frozen speeds."""
+    """Quasi-static law with its tension multiplied by a factor per node.
+
+    The speeds of a law that grows, or the times of one that ages, are frozen.
+    """
 
     base: Traction
     factor: npt.NDArray

@@ -59,8 +59,8 @@ def march(
 
     `until` is "pull-off" (stop after the largest tension of the last leg, see :mod:`.later`) or
     "detached" (stop when the surfaces have separated). `stiffness` is the spring stiffness of the
-    machine [output force/h0]. The traction law of the contact is the quasi-static law; `growing` is
-    the rate-dependent law if the traction grows with the opening speed, otherwise None.
+    machine [output force/h0]. The traction law of the contact is that at rest; `growing` is the law
+    itself if its tension grows with the opening speed or the time in contact, otherwise None.
 
     The outcome is one of these words:
 
@@ -101,7 +101,7 @@ def first_place(run: Run, start: Relaxed, grading: Grading) -> Place:
         lattice=start.lattice,
         grading=grading,
         edge=0.0 if np.isnan(start.edge) else start.edge,
-        narrows=run.body.growing is not None,
+        narrows=run.body.runs,
     )
     books = Books(0.0, np.zeros(len(run.body.weights)))
     return Place(state, books, mesh, leg, 0, state.seen, leg.least_step, Lowest())

@@ -43,7 +43,7 @@ from viscotack.problem import Groups
 from viscotack.protocol import Apart
 from viscotack.result import Result, ShallowStart
 from viscotack.result.observables import pull_off, work_to_pull_off
-from viscotack.traction import grows
+from viscotack.traction import has_rest
 
 # Starts up to this depth [h0] are simulated directly, which takes seconds.
 _DEEP = 1000.0
@@ -137,13 +137,13 @@ def _asked(groups: Groups, contact: Contact) -> float:
 
     The start is not replaced for tests with moves before the retraction or without a retraction,
     for punches, for bodies other than the half-space, for shapes that may have several contacts at
-    one depth, and for rate-dependent interfaces.
+    one depth, and for interfaces that grow or age.
     """
     if isinstance(groups.start, Apart):
         return 0.0
     known = isinstance(groups.geometry, Sphere | Cone | PowerLawProfile)
     known &= isinstance(groups.body, HalfSpace)
-    if groups.moves or groups.rate is None or not known or grows(groups.traction):
+    if groups.moves or groups.rate is None or not known or has_rest(groups.traction):
         return 0.0
     return contact.deepest(groups.start)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.bem.ageing import finer
 from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.clock import TimeUp, met
@@ -34,7 +35,7 @@ from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
-from viscotack.traction import effective_range, grows
+from viscotack.traction import effective_range, has_rest
 
 # Called with the completed fraction of the work, 0 to 1.
 Progress = Callable[[float], None] | None
@@ -149,7 +150,7 @@ def _run(
     spring = spring_travel(start, depths, groups.moves, groups.stiffness, k, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact, spring)
     modes = modes_of_run(groups.material, legs, longest, settings)
-    grading = contact.grading(settings, max(depths))
+    grading = contact.grading(finer(settings, groups.traction, longest), max(depths))
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
 
@@ -166,7 +167,7 @@ def _run(
         settings,
         until=until,
         stiffness=groups.stiffness,
-        growing=groups.traction if grows(groups.traction) else None,
+        growing=groups.traction if has_rest(groups.traction) else None,
         profiles=fields,
         progress=progress,
         watch=None if watch is None else seen,
@@ -178,7 +179,7 @@ def _run(
 def relaxed_start(groups: Groups, contact: Contact, settings: Settings) -> Relaxed:
     """Return the relaxed start of a test."""
     try:
-        return contact.relaxed(groups.start, settings)
+        return contact.relaxed(groups.start, finer(settings, groups.traction))
     except ArithmeticError as reason:
         raise InputError(f"the relaxed start was not found: {reason}") from reason
 
@@ -193,7 +194,7 @@ def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed
 
 def contact_of(groups: Groups) -> Contact:
     """Return the contact described by dimensionless groups, with the quasi-static law."""
-    law = _at_rest(groups.traction)
+    law = _base(groups.traction)
     if isinstance(groups.geometry, FlatPunch):
         return PunchContact(groups.geometry.half_width, groups.body, law)
     low, high = SIMULATED_TABOR
@@ -217,20 +218,18 @@ def contact_of(groups: Groups) -> Contact:
             return ShapeContact(groups.tabor, law, shape, body=body)
 
 
-def _at_rest(law: Any) -> Any:
-    """Return the quasi-static law; reject rate-dependent laws too steep for nodal evaluation.
+def _base(law: Any) -> Any:
+    """Return the law at rest; reject laws that grow or age and are too steep for the nodes.
 
-    A rate-dependent law is evaluated at the nodes because opening speeds are known only there.
+    They are evaluated at the nodes because opening speeds and contact times are known only there.
     """
-    if not grows(law):
-        return law
-    if not resolved(law.base):
+    if has_rest(law) and not resolved(law.base):
         raise InputError(
-            "the law at rest of one that grows with the opening speed must be smooth enough for "
-            f"nodes, and {law.base} falls too steeply; take a wider fall (dugdale: rise 0.3, fall "
-            "1), or lennard-jones"
+            f"the law at rest of one of the kind {law.word} must be smooth enough for nodes, and "
+            f"{law.base} falls too steeply; take a wider fall (dugdale: rise 0.3, fall 1), or "
+            "lennard-jones"
         )
-    return law.base
+    return law.base if has_rest(law) else law
 
 
 def modes_of_run(

@@ -105,7 +105,7 @@ def instant(run: Run, s: Step) -> bool:
 
 def is_shortest(run: Run, at: Place, s: Step) -> bool:
     """Return whether a shorter step would not change the result."""
-    least = at.leg.least_step * (1.0 if run.body.growing is None else _RUNNING)
+    least = at.leg.least_step * (_RUNNING if run.body.runs else 1.0)
     return instant(run, s) and at.dt <= least * (1 + 1e-9)
 
 
@@ -124,7 +124,7 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
     heat = before.surface.unit * before.memory.heat(
         s, before.relaxed, after.relaxed, before.nodal, after.nodal
     )
-    work, friction = work_of(before.seen, after.seen), _interface_heat(before, after)
+    work, friction = work_of(before.seen, after.seen), run.body.friction(before, after)
     return entered(run, at, after, work, heat, _strain(run, at, trial), interface=friction)
 
 
@@ -160,16 +160,6 @@ def entered(
 def work_of(before: Snapshot, after: Snapshot) -> float:
     """Return the work at the indenter in a step in which force and depth changed linearly."""
     return 0.5 * (before.force + after.force) * (after.depth - before.depth)
-
-
-def _interface_heat(before: State, after: State) -> float:
-    """Return the heat in a rate-dependent interface over a step."""
-    if before.extra is None or after.extra is None:
-        return 0.0
-    nodal = 0.5 * (before.extra.nodal + after.extra.nodal)
-    flank = 0.5 * (before.extra.flank + after.extra.flank)
-    lifted = before.seen.depth - after.seen.depth
-    return before.surface.unit * float(nodal @ (after.gap - before.gap)) + flank * lifted
 
 
 def cut(strain: float) -> float:

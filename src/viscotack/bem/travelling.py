@@ -92,7 +92,7 @@ class Ahead:
 def ahead(run: Run, at: Place) -> Ahead | None:
     """Predict the edge after the next step; None if this frame does not apply."""
     trail, edge = at.state.trail, at.seen.edge
-    if run.body.growing is not None:  # opening speeds are defined at fixed points
+    if run.body.growing is not None:  # speeds and ages of bonds are defined at fixed points
         return None
     if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
         return None

@@ -14,7 +14,7 @@ from viscotack.geometry import HalfSpace, Sphere, end
 from viscotack.protocol import Apart
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Traction, grows
+from viscotack.traction import Traction, has_rest
 
 # Relative energy imbalance above which a run is rejected; good runs stay below 1e-3.
 _LARGEST_RESIDUAL = 1e-2
@@ -80,7 +80,7 @@ def _out_of_bounds(result: Result) -> str:
     stated = (result.error_estimate or {}).get("force", _UNRESOLVED * (result.accuracy or 0.0))
     before_minimum = float(result.force[0]) > float(np.min(result.force))
     least = 1.0 if k == 1 and before_minimum else 0.0
-    most = np.inf if grows(groups.traction) else _DERJAGUIN / k
+    most = np.inf if has_rest(groups.traction) else _DERJAGUIN / k
     if least * (1 - stated) <= force <= most * (1 + stated):
         return ""
     return (

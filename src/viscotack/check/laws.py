@@ -18,7 +18,7 @@ from viscotack.materials.branched_solids import Elastic
 from viscotack.problem import Groups
 from viscotack.protocol import AtForce
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Tabulated, effective_range, grows, softening
+from viscotack.traction import Tabulated, at_rest, effective_range, has_rest, softening
 
 from . import round_trips, simulated
 from .findings import Finding, Report, holds, report, same
@@ -34,8 +34,8 @@ def check_law(law: Any, *, thorough: bool = True) -> Report:
     Parameters
     ----------
     law : Traction
-        A law in SI, from the package or user-defined. For a law that grows with the opening speed
-        the law at rest is checked.
+        A law in SI, from the package or user-defined. For a law that grows or ages the
+        law at rest is checked.
     thorough : bool
         Whether also to simulate contacts near the JKR and Bradley limits, which takes seconds.
 
@@ -63,10 +63,6 @@ def check_law(law: Any, *, thorough: bool = True) -> Report:
     return report(law, checks + ((_campaign, _contacts) if thorough else ()))
 
 
-def _at_rest(law: Any) -> Any:
-    return law.at_rest if grows(law) else law
-
-
 def _gaps(law: Any) -> npt.NDArray[np.float64]:
     """Gaps from compressed to far apart, finer where the law may be discontinuous."""
     reach = effective_range(law)
@@ -82,18 +78,18 @@ def _integrals(function: Callable[[Any], Any], h: npt.NDArray[np.float64]) -> An
 
 def _constants(law: Any) -> Iterator[Finding]:
     """Check the constants of the law."""
-    work, gap, reach = law.work_of_adhesion, law.equilibrium_gap, effective_range(_at_rest(law))
+    work, gap, reach = law.work_of_adhesion, law.equilibrium_gap, effective_range(at_rest(law))
     for name, value in (("work_of_adhesion", work), ("equilibrium_gap", gap), ("range", reach)):
         yield holds(f"{name} is positive", 0 < value < np.inf, "> 0", value)
-    fall = softening(_at_rest(law))
+    fall = softening(at_rest(law))
     yield holds("the tension falls beyond its peak", 0 < fall < np.inf, "a fall", fall)
-    if not isinstance(_at_rest(law), Tabulated):  # a tabulated law has points, no cards
-        check_carded(type(_at_rest(law)))
+    if not isinstance(at_rest(law), Tabulated):  # a tabulated law has points, no cards
+        check_carded(type(at_rest(law)))
 
 
 def _identities(law: Any) -> Iterator[Finding]:
     """Check that energy, traction and stiffness are derivatives of each other."""
-    law = _at_rest(law)
+    law = at_rest(law)
     h, w, s = _gaps(law), law.work_of_adhesion, law.strength
     change = np.diff(np.asarray(law.energy(h)))
     reach = float(np.max(np.abs(law.energy(h))))
@@ -119,7 +115,7 @@ def _identities(law: Any) -> Iterator[Finding]:
 
 def _far(law: Any) -> Iterator[Finding]:
     """Check the law at the equilibrium gap and far apart."""
-    law = _at_rest(law)
+    law = at_rest(law)
     h0, w, s = law.equilibrium_gap, law.work_of_adhesion, law.strength
     yield same(
         "energy at the equilibrium gap is minus the work of adhesion", law.energy(h0), -w, rtol=1e-6
@@ -136,7 +132,7 @@ def _far(law: Any) -> Iterator[Finding]:
 
 def _peak(law: Any) -> Iterator[Finding]:
     """Check the strength and the edge gap."""
-    law = _at_rest(law)
+    law = at_rest(law)
     largest = float(np.max(law.traction(_gaps(law))))
     fits = law.strength * (1 - 1e-2) <= largest <= law.strength * (1 + 1e-9)
     yield holds("strength is the largest traction", fits, f"{law.strength:.8g}", f"{largest:.8g}")
@@ -146,7 +142,7 @@ def _peak(law: Any) -> Iterator[Finding]:
 
 def _units(law: Any) -> Iterator[Finding]:
     """Check the reduced law, and other units."""
-    law = _at_rest(law)
+    law = at_rest(law)
     r, w, h0 = law.reduced(), law.work_of_adhesion, law.equilibrium_gap
     numbers = (r.work_of_adhesion, r.equilibrium_gap)
     yield same("reduced: work 1 and gap 1", numbers, (1.0, 1.0), rtol=1e-12)
@@ -162,7 +158,7 @@ def _units(law: Any) -> Iterator[Finding]:
 
 
 def _tables(law: Any) -> dict[str, Any]:
-    if not grows(law):
+    if not has_rest(law):
         return {"interface": {"law": law.word} | round_trips.numbers_of(law)}
     # the base case is reduced: only dimensionless numbers of the law are kept
     pure = {
@@ -174,19 +170,19 @@ def _tables(law: Any) -> dict[str, Any]:
 
 def _case_file(law: Any) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    if not isinstance(_at_rest(law), Tabulated):  # a table of points is a file of its own
+    if not isinstance(at_rest(law), Tabulated):  # a table of points is a file of its own
         yield round_trips.through_case_file(law, "traction", _tables(law))
 
 
 def _campaign(law: Any) -> Iterator[Finding]:
     """Check a plan of a campaign."""
-    if not isinstance(_at_rest(law), Tabulated):
+    if not isinstance(at_rest(law), Tabulated):
         yield from round_trips.through_campaign(law, _tables(law))
 
 
 def _flag(law: Any) -> Iterator[Finding]:
     """Check the flag."""
-    if grows(law) or isinstance(law, Tabulated):
+    if has_rest(law) or isinstance(law, Tabulated):
         return
     r = law.reduced()
     scales = {"work_of_adhesion", "equilibrium_gap"}
@@ -197,7 +193,7 @@ def _flag(law: Any) -> Iterator[Finding]:
 
 def _contacts(law: Any) -> Iterator[Finding]:
     """Check simulated contacts near the limits."""
-    law = _at_rest(law).reduced()
+    law = at_rest(law).reduced()
     solid = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     reach = effective_range(law)
     groups = Groups(_JKR * reach, solid, AtForce(0.0), 1.0, law)

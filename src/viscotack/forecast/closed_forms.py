@@ -33,7 +33,7 @@ from viscotack.theory import (
 )
 from viscotack.theory.elastic.relaxed import contact_in_groups
 from viscotack.traction import LennardJones, effective_range, softening
-from viscotack.traction.growing import check_of_gap_alone
+from viscotack.traction.resting import check_of_gap_alone
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9

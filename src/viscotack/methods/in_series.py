@@ -31,7 +31,7 @@ from viscotack.theory.crack.contact import (
     pull_apart,
 )
 from viscotack.theory.elastic.relaxed import contact_in_groups
-from viscotack.traction import LennardJones, grows
+from viscotack.traction import LennardJones, has_rest
 
 # Error of the table of elastic pull-off forces, relative to simulations.
 _TABLE_ERROR = 0.005
@@ -131,10 +131,10 @@ def _side(problem: Problem) -> _Side:
     assert groups.tabor is not None
     profile = profile_of(groups.geometry)
     scales = Scales(si.length * groups.tabor, si.force / (1.5 * np.pi), si.time)
-    if grows(groups.traction):
+    if has_rest(groups.traction):
         raise OutOfRange(
             "steady cracks in series were not compared with simulations of interfaces that grow "
-            "with the opening speed; simulate"
+            "with the opening speed, or age in contact; simulate"
         )
     elastic = groups.modulus_ratio == 1
     is_table = isinstance(groups.geometry, Sphere) and isinstance(groups.traction, LennardJones)

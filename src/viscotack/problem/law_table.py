@@ -8,19 +8,19 @@ from viscotack.cards import Field, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.problem.case_table import OWN, Table
-from viscotack.traction import LAWS, LennardJones, Tabulated, Traction, grows
+from viscotack.traction import LAWS, LennardJones, Tabulated, Traction, has_rest
 from viscotack.units import finite, positive
 
 
 def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
     """Return the law of the table [interface]; its range is equilibrium_gap or strength.
 
-    A law that grows with the opening speed has its law at rest in the table ``base``.
+    A law that grows or ages has its law at rest in the table ``base``.
     """
     kind: Any = laws[table.word("law", laws, OWN)]
-    if not grows(kind):
+    if not has_rest(kind):
         return _of_gap(table, kind)
-    rest = [word for word, law in laws.items() if not grows(law)]
+    rest = [word for word, law in laws.items() if not has_rest(law)]
     base = laws[table.word("base", rest, OWN) if "base" in table.values else LennardJones.word]
     growth = _constants(kind)
     table.require(growth)
@@ -66,7 +66,8 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     >>> law_from_words("dugdale").strength
     1.0
 
-    For a law that grows with the opening speed, the law at rest follows after a second colon:
+    For a law that grows with the opening speed or ages in contact, the law at rest follows after a
+    second colon:
 
     >>> law_from_words("gent-schultz:10,0.4:exponential:0.25").base.decay
     0.25
@@ -80,7 +81,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
             raise InputError("the law table needs a file: table:FILE.csv")
         return _tabulated(rest).reduced()
     base = None
-    if grows(kind):
+    if has_rest(kind):
         rest, _, base = rest.partition(":")
     constants = [constant.name for constant in _constants(kind)]
     needed = [constant.name for constant in _constants(kind) if constant.needed]

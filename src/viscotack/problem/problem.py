@@ -34,7 +34,7 @@ from viscotack.problem.revolution import Scales
 from viscotack.problem.units import material_in_si
 from viscotack.protocol import Apart, Move, Retraction, Start, Units, check_moves
 from viscotack.traction import LennardJones, Traction, effective_range
-from viscotack.traction.growing import reduced, scaled
+from viscotack.traction.resting import reduced, scaled
 from viscotack.units import positive
 
 Tabor = Annotated[
@@ -66,7 +66,7 @@ class Problem:
     ----------
     material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
         Material of the soft body.
-    traction : LennardJones, Dugdale, Exponential, Tabulated, GentSchultz or Eyring
+    traction : LennardJones, Dugdale, Exponential, Tabulated, or one that grows or ages
         Traction law of the interface.
     geometry : Sphere, Cone, PowerLawProfile, FlatPunch or a shape of the user's
         Rigid indenter.

@@ -16,7 +16,7 @@ from viscotack.problem import plane
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.problem import Groups, Problem
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
-from viscotack.traction import Traction, grows
+from viscotack.traction import Traction, has_rest
 
 _PROBLEMS = (Problem, Groups)
 
@@ -104,7 +104,7 @@ class _Models:
             for field in fields(kind):
                 # records omit default values, so the schema needs only their existence
                 given = ... if field.default is MISSING else Field(default_factory=dict)
-                told[field.name] = (self._told(hints[field.name], at_rest=grows(kind)), given)
+                told[field.name] = (self._told(hints[field.name], at_rest=has_rest(kind)), given)
             forbid = ConfigDict(extra="forbid")
             self._made[kind] = create_model(kind.__name__, __config__=forbid, **told)
         return self._made[kind]
@@ -117,7 +117,7 @@ class _Models:
         laws = self._nouns.laws
         kinds = {
             Material: self._nouns.materials,
-            Traction: {w: k for w, k in laws.items() if not (at_rest and grows(k))},
+            Traction: {w: k for w, k in laws.items() if not (at_rest and has_rest(k))},
             Shape: {w: k for w, k in self._nouns.shapes.items() if k is not FlatPunch},
             Body: self._nouns.bodies,
         }

@@ -5,7 +5,7 @@ from typing import Any
 
 from viscotack.materials import Elastic
 from viscotack.materials.scaling import scaled
-from viscotack.traction import grows
+from viscotack.traction import has_rest
 
 
 @dataclass(frozen=True)
@@ -37,10 +37,10 @@ class InSI:
 def time_unit(material: Any, traction: Any) -> float:
     """Return the unit of dimensionless times [s]: the material's.
 
-    An elastic solid has none; where the traction law grows with the opening speed, the time in
-    which a gap opens by h_0 at its reference speed is the only one there is.
+    An elastic solid has none; where the traction law grows or ages, its own time is the only one
+    there is: that in which a gap opens by h_0 at its reference speed, or its reference time.
     """
-    if isinstance(material, Elastic) and grows(traction):
+    if isinstance(material, Elastic) and has_rest(traction):
         return traction.own_time
     return material.time_unit
 

@@ -27,7 +27,7 @@ from viscotack.geometry import HalfSpace, Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart
 from viscotack.theory import SteadyCrack
-from viscotack.traction import grows
+from viscotack.traction import at_rest, grows
 
 from . import Outcome, Result
 
@@ -102,7 +102,7 @@ def edge_energy(result: Result) -> EdgeEnergy:
     """
     groups = _checked(result)
     crack = SteadyCrack(groups.material, groups.traction)
-    rest = SteadyCrack(groups.material, _at_rest(groups.traction))
+    rest = SteadyCrack(groups.material, at_rest(groups.traction))
     a, P = result.contact_radius * _ROOT, result.force * _LOAD
     with np.errstate(invalid="ignore"):
         energy = (2 * a**2 / 3 - P / (2 * a)) ** 2 / (2 * np.pi * a)
@@ -137,10 +137,6 @@ def _checked(result: Result) -> Groups:
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed, so there are no energies: {result.status}")
     return groups
-
-
-def _at_rest(law: Any) -> Any:
-    return law.at_rest if grows(law) else law
 
 
 def _steady(result: Result, a: Array, zone: float) -> npt.NDArray[np.bool_]:

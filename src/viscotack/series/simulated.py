@@ -18,6 +18,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.arrays import Array
+from viscotack.bem.ageing import finer
 from viscotack.bem.books import History
 from viscotack.bem.bounds import check_bounds
 from viscotack.bem.clock import TimeUp, limited
@@ -31,7 +32,7 @@ from viscotack.methods import handover
 from viscotack.problem import Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import AtForce, Retraction
-from viscotack.traction import grows
+from viscotack.traction import has_rest
 
 _STATUS = {
     "detached": "one contact has separated",
@@ -166,10 +167,10 @@ def _part(posed: _Posed, settings: Settings, shortest: float, longest: float) ->
     groups, contact, unit = posed.groups, posed.contact, posed.units.time
     legs = (Leg(inf, -1.0, least_step=shortest / unit),)
     modes = modes_of_run(groups.material, legs, longest / unit, settings)
-    grading = contact.grading(settings, posed.start.depth)
+    grading = contact.grading(finer(settings, groups.traction, longest / unit), posed.start.depth)
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
-    growing = groups.traction if grows(groups.traction) else None
+    growing = groups.traction if has_rest(groups.traction) else None
     return Part(contact, posed.start, modes, grading, posed.units, growing)
 
 

@@ -1,22 +1,34 @@
 """Traction laws: stress between the surfaces as a function of the gap, and its energy.
 
 Traction is positive in TENSION (attraction). It is a function of the gap; for growing laws also
-of the opening speed. Pressure in a result is its negative. The energy
-vanishes at infinite gap and is negative in contact.
+of the opening speed, for ageing laws of the time in contact. Pressure in a result is its negative.
+The energy vanishes at infinite gap and is negative in contact.
 docs/traction-laws.md shows how to add a law.
 """
 
+from viscotack.traction.ageing import LogarithmicAgeing, SaturatingAgeing
 from viscotack.traction.dugdale import Dugdale
 from viscotack.traction.exponential import Exponential
-from viscotack.traction.growing import Eyring, GentSchultz, grows
+from viscotack.traction.growing import Eyring, GentSchultz
 from viscotack.traction.law import Traction, effective_range, softening
 from viscotack.traction.lennard_jones import LennardJones
+from viscotack.traction.resting import ages, at_rest, grows, has_rest
 from viscotack.traction.tabulated import Tabulated
 
-# Word in a file or option -> law. Every constant except work, gap and the reference speed of a
-# growing law is dimensionless.
+# Word in a file or option -> law. Every constant except work, gap and the reference speed or time
+# of a law that grows or ages is dimensionless.
 LAWS = {
-    law.word: law for law in (LennardJones, Dugdale, Exponential, Tabulated, GentSchultz, Eyring)
+    law.word: law
+    for law in (
+        LennardJones,
+        Dugdale,
+        Exponential,
+        Tabulated,
+        GentSchultz,
+        Eyring,
+        LogarithmicAgeing,
+        SaturatingAgeing,
+    )
 }
 
 __all__ = [
@@ -26,9 +38,14 @@ __all__ = [
     "Eyring",
     "GentSchultz",
     "LennardJones",
+    "LogarithmicAgeing",
+    "SaturatingAgeing",
     "Tabulated",
     "Traction",
+    "ages",
+    "at_rest",
     "effective_range",
     "grows",
+    "has_rest",
     "softening",
 ]

@@ -12,23 +12,22 @@ The interface dissipates, :math:`(\sigma - \sigma_0) \dot h \geq 0`. Its stored 
 the law at rest; the rest of the work is heat.
 
 As functions of the gap alone these classes return the law at rest, which relaxed contacts and
-starts use; :func:`grows` identifies them.
+starts use; :func:`viscotack.traction.grows` identifies them.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Annotated, Any, ClassVar, Self
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.cards import Quantity, conform
-from viscotack.errors import InputError, OutOfRange
+from viscotack.cards import Quantity
 from viscotack.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
 from viscotack.traction.lennard_jones import LennardJones
-from viscotack.units import positive
+from viscotack.traction.resting import OverRest
 
 # Fraction of the reference speed below which a power law is proportional to the speed.
 _SLOW = 1e-6
@@ -43,46 +42,10 @@ ReferenceSpeed = Annotated[
 ]
 
 
-class _Growing:
-    """Common part of growing laws: everything except their constants and their growth."""
+class _Growing(OverRest):
+    """Common part of laws that grow with the opening speed, except their growth."""
 
-    work_of_adhesion: Any
-    equilibrium_gap: Any
     reference_speed: Any
-    base: Any
-
-    @classmethod
-    def of(cls, base: Traction, **constants: float) -> Self:
-        """Return the growing law with a given law at rest, with the growth constants in SI."""
-        kind: Any = cls
-        return kind(
-            work_of_adhesion=base.work_of_adhesion,
-            equilibrium_gap=base.equilibrium_gap,
-            base=base.reduced(),
-            **constants,
-        )
-
-    def __post_init__(self) -> None:
-        conform(self)
-        base = self.base
-        if grows(base) or not hasattr(base, "energy_beyond"):
-            raise InputError(
-                f"base must be a law of the gap alone, got {base!r}; for example LennardJones(1, 1)"
-            )
-        if base.work_of_adhesion != 1 or base.equilibrium_gap != 1:
-            raise InputError(
-                f"base must be a reduced law, of work 1 and gap 1, got {base!r}; use "
-                f"{type(self).__name__}.of(law, ...) for a law in SI"
-            )
-
-    @property
-    def at_rest(self) -> Any:
-        """The law of the gap at zero opening speed."""
-        return replace(
-            self.base,
-            work_of_adhesion=self.work_of_adhesion,
-            equilibrium_gap=self.equilibrium_gap,
-        )
 
     def growth(self, opening_speed: npt.ArrayLike) -> Array:
         """Return the relative growth of the tension at opening speeds [m/s]; 0 while closing."""
@@ -108,44 +71,13 @@ class _Growing:
         """Return the derivative of the traction by the opening speed at a gap [Pa s/m]."""
         return np.maximum(self.at_rest.traction(gap), 0) * self.growth_slope(opening_speed)
 
-    def energy(self, gap: npt.ArrayLike) -> Array:
-        """Return the stored energy per area [J/m^2], that of the law at rest."""
-        return self.at_rest.energy(gap)
-
-    def energy_beyond(self, gap: npt.ArrayLike) -> Array:
-        """Return the integral of that energy from a gap [m] to infinity [J/m]."""
-        return self.at_rest.energy_beyond(gap)
-
-    @property
-    def strength(self) -> float:
-        """Largest tension at rest [Pa]."""
-        return self.base.strength * self.work_of_adhesion / self.equilibrium_gap
-
-    @property
-    def edge_gap(self) -> float:
-        """Gap of the largest tension at rest [m]; defines the contact edge."""
-        return self.base.edge_gap * self.equilibrium_gap
-
-    def reduced(self, time_unit: float = 1.0) -> Self:
-        """Return the law with work 1, gap 1, and speeds in h_0 per time unit [s]."""
-        speed = self.reference_speed * time_unit / self.equilibrium_gap
-        law: Any = self
-        return replace(law, work_of_adhesion=1.0, equilibrium_gap=1.0, reference_speed=speed)
-
-    def scaled(self, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Self:
-        """Convert a reduced law to SI."""
-        law: Any = self
-        return replace(
-            law,
-            work_of_adhesion=work_of_adhesion,
-            equilibrium_gap=equilibrium_gap,
-            reference_speed=self.reference_speed * equilibrium_gap / time_unit,
-        )
-
     @property
     def own_time(self) -> float:
         """Time in which a gap opens by h_0 at the reference speed [s]."""
         return self.equilibrium_gap / self.reference_speed
+
+    def _in_units(self, time: float, length: float) -> dict[str, float]:
+        return {"reference_speed": self.reference_speed * time / length}
 
     def _growth(self, u: Array) -> Array:
         raise NotImplementedError
@@ -298,29 +230,3 @@ class Eyring(_Growing):
 
     def _slope(self, u: Array) -> Array:
         return self.sensitivity / np.sqrt(1 + u * u)
-
-
-def grows(law: Any) -> bool:
-    """Return whether a law, or a class of laws, depends on the opening speed."""
-    return hasattr(law, "growth_slope")
-
-
-def reduced(law: Traction, time_unit: float) -> Any:
-    """Return the dimensionless law, with speeds in h_0 per time unit [s]."""
-    return law.reduced(time_unit) if isinstance(law, _Growing) else law.reduced()
-
-
-def scaled(law: Any, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Any:
-    """Convert a reduced law to SI."""
-    if isinstance(law, _Growing):
-        return law.scaled(work_of_adhesion, equilibrium_gap, positive("time_unit", time_unit, "s"))
-    return replace(law, work_of_adhesion=work_of_adhesion, equilibrium_gap=equilibrium_gap)
-
-
-def check_of_gap_alone(law: Any, what: str) -> None:
-    """Raise an error for a law that depends on the opening speed."""
-    if grows(law):
-        raise OutOfRange(
-            f"the law {type(law).word} grows with the opening speed, but {what} supports laws of "
-            "the gap only; simulate it, or use its law at rest"
-        )

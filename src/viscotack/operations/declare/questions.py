@@ -78,7 +78,9 @@ _LAWS = (
     "length over h0), or table:FILE, a CSV file with the header 'gap_nm,traction_kPa' or other "
     "units; NAME:NUMBERS for one of --with. Strength that grows with the opening speed: "
     "gent-schultz:SPEED,EXPONENT or eyring:SPEED,SENSITIVITY (reference speed in h0 over the unit "
-    "of time), with :LAW behind it for another law at rest than lennard-jones."
+    "of time); with the time in contact: logarithmic-ageing:TIME,SENSITIVITY or "
+    "saturating-ageing:TIME,GROWTH; with :LAW behind it for another law at rest than "
+    "lennard-jones."
 )
 _MATERIALS = {
     "power-law": "modified power law by its retardation spectrum",

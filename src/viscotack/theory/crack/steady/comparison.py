@@ -17,7 +17,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.theory._checks import Values, positive
 from viscotack.theory.crack import greenwood, persson_brener
-from viscotack.traction.growing import check_of_gap_alone
+from viscotack.traction.resting import check_of_gap_alone
 
 from .cracks import SteadyCrack
 

@@ -33,7 +33,7 @@ from viscotack.errors import InputError
 from viscotack.materials import Modes
 from viscotack.theory._checks import Number, Values, plain
 from viscotack.traction import Dugdale, Traction, effective_range, grows
-from viscotack.traction.growing import reduced
+from viscotack.traction.resting import check_ageless, reduced
 
 from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
@@ -133,6 +133,7 @@ class SteadyCrack:
                     f"{name} must be one of viscotack.{'materials' if name == 'material' else name}"
                     f", got {getattr(self, name)!r}"
                 )
+        check_ageless(self.traction, "a steady crack")
 
     @property
     def speed_unit(self) -> float:

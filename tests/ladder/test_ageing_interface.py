@@ -1,0 +1,240 @@
+"""Interfaces whose tension grows with the time in contact: laws, limits, energies, order."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups
+from viscotack.problem.law_table import law_from_words
+from viscotack.protocol import Apart, Approach, AtDepth, Dwell, Retract
+from viscotack.result.observables import pull_off_force
+from viscotack.traction import Dugdale, Exponential, LennardJones, ages
+from viscotack.traction.resting import OverRest, reduced
+
+REST = LennardJones(0.05, 20e-9)
+LOG = vt.LogarithmicAgeing.of(REST, reference_time=2.0, sensitivity=0.1)
+ENDS = vt.SaturatingAgeing.of(REST, reference_time=2.0, largest_growth=0.5)
+laws = pytest.mark.parametrize("law", [LOG, ENDS], ids=["logarithmic", "saturating"])
+GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 20e-9
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def run(law, *, moves=(), start=None, material=ELASTIC, tabor=3.0, rate=3.0, **given):
+    start = AtDepth(10.0) if start is None else start
+    groups = Groups(
+        tabor=tabor, material=material, start=start, rate=rate, traction=law, moves=moves
+    )
+    return vt.solve(groups, **({"until": "pull-off", "estimate_error": False} | given))
+
+
+def pressed(law, *dwells, speed=1e3, **given):
+    """Approach, dwell and retract fast; in between detach, where there are several dwells."""
+    moves = ()
+    for dwell in dwells:
+        back = (Retract(speed, to=AtDepth(-30.0)),) if moves else ()
+        moves += (*back, Approach(speed, to=AtDepth(10.0)), Dwell(dwell))
+    return run(law, start=Apart(6.0), moves=moves, rate=speed, **given)
+
+
+# --- the law
+
+
+@laws
+def test_only_surfaces_that_attract_feel_the_time(law):
+    at_rest = REST.traction(GAPS)
+    np.testing.assert_array_equal(law.traction(GAPS), at_rest)
+    old, attracts = law.traction(GAPS, 7.0), at_rest > 0
+    np.testing.assert_array_equal(old[~attracts], at_rest[~attracts])
+    np.testing.assert_allclose(
+        old[attracts], at_rest[attracts] * (1 + law.growth_after(7.0)), rtol=1e-14
+    )
+    d = 1e-5 * GAPS
+    by_gap = (law.traction(GAPS + d, 7.0) - law.traction(GAPS - d, 7.0)) / (2 * d)
+    np.testing.assert_allclose(law.stiffness(GAPS, 7.0), by_gap, rtol=1e-6)
+
+
+def test_growth_has_the_stated_values():
+    assert float(LOG.growth_after(2.0)) == pytest.approx(0.1 * np.log(2), rel=1e-14)
+    decade = float(LOG.growth_after(2e9) - LOG.growth_after(2e8))
+    assert decade == pytest.approx(0.1 * np.log(10), rel=1e-7)
+    assert float(ENDS.growth_after(2.0)) == pytest.approx(0.5 * (1 - np.exp(-1)), rel=1e-14)
+    assert float(ENDS.growth_after(ENDS.settled)) == pytest.approx(0.5, rel=1e-15)
+
+
+@laws
+def test_a_reduced_law_counts_times_in_the_unit_of_time(law):
+    small = reduced(law, 0.02)
+    np.testing.assert_allclose(
+        small.traction(GAPS / 20e-9, 7.0 / 0.02), law.traction(GAPS, 7.0) * 20e-9 / 0.05, rtol=1e-12
+    )
+    back = small.scaled(0.05, 20e-9, 0.02)
+    assert back.reference_time == pytest.approx(law.reference_time, rel=1e-15)
+
+
+@laws
+def test_a_law_beyond_one_at_rest_stores_the_energy_of_that_at_rest(law):
+    assert isinstance(law, OverRest)
+    np.testing.assert_array_equal(law.energy(GAPS), REST.energy(GAPS))
+    np.testing.assert_array_equal(law.energy_beyond(GAPS), REST.energy_beyond(GAPS))
+    assert type(law).of(REST, **law_constants(law)) == law
+    assert law.reduced(1.0).scaled(0.05, 20e-9, 1.0) == law
+
+
+def law_constants(law):
+    return {name: v for name, v in vars(law).items() if name not in vars(REST) and name != "base"}
+
+
+def test_what_is_no_ageing_law_is_refused():
+    with pytest.raises(ValueError, match="reference_time must be positive"):
+        vt.LogarithmicAgeing(1, 1, 0.0, 0.1)
+    with pytest.raises(ValueError, match="a law of the gap alone"):
+        vt.SaturatingAgeing(1, 1, 1.0, 0.5, base=vt.GentSchultz(1, 1, 1, 0.5))
+    with pytest.raises(ValueError, match="must be smooth enough for nodes.*wider fall"):
+        run(vt.SaturatingAgeing.of(Dugdale(1, 1), reference_time=1, largest_growth=0.5))
+    with pytest.raises(ValueError, match="closed for ever, and logarithmic-ageing has no end"):
+        run(vt.LogarithmicAgeing(1, 1, 1.0, 0.1))
+
+
+@laws
+def test_tiers_that_do_not_know_ages_refuse_them(law):
+    problem = vt.Problem(
+        StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5),
+        law,
+        vt.Sphere(1e-3),
+        vt.Retraction(start=vt.AtForce(1e-4), speed=1e-5),
+    )
+    for ask in (vt.predict, vt.advise, vt.crack_contact):
+        with pytest.raises(vt.OutOfRange):
+            ask(problem)
+
+
+def test_words_files_and_records_know_an_ageing_law(tmp_path):
+    law = law_from_words("logarithmic-ageing:10,0.4:exponential:0.25")
+    assert law == vt.LogarithmicAgeing(1, 1, 10, 0.4, base=Exponential(1, 1, 0.25))
+    path = tmp_path / "case.toml"
+    path.write_text("""
+[material]
+model = "elastic"
+rubbery_modulus = "1.458 MPa"
+poisson_ratio = 0.5
+
+[interface]
+law = "saturating-ageing"
+work_of_adhesion = "0.05 J/m^2"
+equilibrium_gap = "20 nm"
+reference_time = "2 min"
+largest_growth = 0.5
+
+[sphere]
+radius = "1 mm"
+
+[protocol]
+preload_force = "1.5 mN"
+speed = "100 um/s"
+""")
+    problem = vt.read_case(path)
+    assert ages(problem.traction) and problem.traction.reference_time == 120.0
+    assert vt.from_dict(vt.to_dict(problem)) == problem
+    # an elastic solid has no time of its own, and takes that of the interface
+    assert problem.scales().time == 120.0
+    assert problem.groups().traction.reference_time == pytest.approx(1.0)
+    back = problem.groups().in_si(
+        radius=1e-3, contact_modulus=2e6, equilibrium_gap=1e-8, time_unit=7.0, poisson_ratio=0.5
+    )
+    assert back.traction.reference_time == pytest.approx(7.0)
+
+
+# --- limits
+
+
+@pytest.mark.parametrize("growth", [0.5, 2.0])
+def test_an_old_contact_holds_like_one_of_the_work_that_it_has_reached(growth):
+    # between JKR of the bonds, whose last percent breaks, and all forces that much stronger: those
+    # beyond the first edge, and of broken bonds, are not
+    old = pull_off_force(run(vt.SaturatingAgeing(1, 1, 1.0, growth)))
+    more = 1 + growth
+    strong = pull_off_force(run(LennardJones(1, 1), tabor=3.0 * more ** (2 / 3)))
+    assert 1 + 0.985 * growth < old < more * strong
+    assert old == pytest.approx(more * strong, rel=0.012)
+
+
+@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
+def test_weak_growth_is_the_law_at_rest(material):
+    plain = pull_off_force(run(LennardJones(1, 1), material=material))
+    found = pull_off_force(run(vt.SaturatingAgeing(1, 1, 1.0, 1e-9), material=material))
+    assert found == pytest.approx(plain, rel=1e-4)
+
+
+def test_the_force_follows_the_dwell():
+    # elastic: the dwell changes nothing but the bonds
+    law = vt.LogarithmicAgeing(1, 1, 0.01, 0.08)
+    for dwell in (0.1, 10.0):
+        grown = 1 + float(law.growth_after(dwell))
+        strong = pull_off_force(run(LennardJones(1, 1), tabor=3.0 * grown ** (2 / 3)))
+        found = pull_off_force(pressed(law, dwell, speed=1e5))
+        assert found == pytest.approx(grown * strong, rel=6e-3)
+
+
+def test_a_contact_made_anew_ages_from_the_beginning():
+    law = vt.SaturatingAgeing(1, 1, 1.0, 1.0)
+    first = pull_off_force(pressed(law, 0.3))
+    again = pull_off_force(pressed(law, 20.0, 0.3))
+    assert again == pytest.approx(first, rel=2e-3)
+    assert pull_off_force(pressed(law, 20.0)) > 1.4 * first
+
+
+def test_an_approach_is_that_of_the_law_at_rest():
+    def approached(law):
+        moves = (Approach(1e4, to=AtDepth(5.0)),)
+        return run(law, start=Apart(6.0), moves=moves, rate=None, until="detached", material=SOLID)
+
+    plain, old = approached(LennardJones(1, 1)), approached(vt.SaturatingAgeing(1, 1, 1.0, 2.0))
+    assert old.force[-1] == pytest.approx(plain.force[-1], rel=2e-3)
+    assert abs(old.energy.interface_heat[-1]) < 0.02 * abs(old.energy.interface[-1])
+
+
+# --- energy, order
+
+
+@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
+def test_energy_is_conserved_with_the_heat_of_the_interface(material):
+    law = vt.SaturatingAgeing(1, 1, 1.0, 1.0)
+    result = pressed(law, 1.0, speed=10.0, material=material, until="detached")
+    energy = result.energy
+    total = energy.elastic + energy.interface + energy.heat + energy.interface_heat
+    missing = energy.drive - (total - total[0]) - energy.jumps - energy.transfer
+    heat = energy.interface_heat[-1]
+    assert heat > 0 and np.max(np.abs(missing)) < 2e-3 * np.ptp(total)
+    assert result.energy_residual < 1e-3
+    # bonds of age t cost growth times the area that they held, 1.5 to 0.5 per unit at most
+    assert np.min(np.diff(energy.interface_heat[energy.interface_heat.argmin() :])) > -1e-3 * heat
+
+
+def test_a_crack_that_turns_creates_no_energy():
+    law = vt.SaturatingAgeing(1, 1, 0.5, 1.0)
+    turns = tuple(
+        move
+        for _ in range(4)
+        for move in (Retract(2.0, to=AtDepth(-2.0)), Approach(2.0, to=AtDepth(4.0)))
+    )
+    result = run(law, start=Apart(6.0), moves=(Approach(2.0, to=AtDepth(4.0)), *turns), rate=2.0)
+    assert result.energy_residual < 1e-3
+    heat, move = result.energy.interface_heat, np.asarray(result.move)
+    ends = [heat[move == 1 + 2 * k][-1] for k in range(5)]
+    assert np.all(np.diff(ends) > 0)
+
+
+def test_a_finer_run_confirms_the_stated_error():
+    law = vt.SaturatingAgeing(1, 1, 1.0, 1.0)
+    usual = pressed(law, 0.5, material=SOLID, speed=30.0, estimate_error=True)
+    fine = pull_off_force(pressed(law, 0.5, material=SOLID, speed=30.0, accuracy=3e-4))
+    assert usual.error_estimate is not None
+    assert abs(pull_off_force(usual) / fine - 1) < usual.error_estimate["force"] < 1e-2
+
+
+def test_a_law_keeps_its_kind_when_its_work_is_replaced():
+    assert replace(LOG, work_of_adhesion=0.1).growth_after(2.0) == LOG.growth_after(2.0)
