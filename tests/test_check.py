@@ -242,7 +242,8 @@ def test_the_tiers_of_the_package_pass(tier, monkeypatch):
 LOAD = vt.AtForce(1e-4)
 FACTORS: dict[str, dict[str, Any]] = {
     "material": MATERIALS,
-    "law": LAWS_CHECKED,
+    # relaxed contacts of a growth without an end are refused: test_ageing_interface.py
+    "law": {word: law for word, law in LAWS_CHECKED.items() if word != "logarithmic-ageing"},
     "shape": SHAPES_CHECKED,
     "body": {"half-space": vt.HalfSpace(), "foundation": FOUNDATION(2e-5)},
     "protocol": {
@@ -316,7 +317,10 @@ def answers_or_refuses(row):
         return "refused"
     if isinstance(found, vt.Result):
         assert found.energy_residual is None or abs(found.energy_residual) < 0.05
-        assert np.isfinite(observable(found))
+        # a flat end on springs lets go everywhere at once, and has no edge at its largest force
+        edgeless = isinstance(shape, vt.Disc) and body is FACTORS["body"]["foundation"]
+        of_edge = observable is observables.contact_radius_at_pull_off
+        assert np.isfinite(observable(found)) or (edgeless and of_edge)
         assert (
             vt.from_dict(vt.to_dict(problem), also=(MORSE, COLE_COLE, ROUNDED, FOUNDATION))
             == problem
