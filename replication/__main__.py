@@ -31,12 +31,12 @@ _Workers = Annotated[
 _Folder = Annotated[
     Path, Option("--out", metavar="DIR", help="Folder of the pictures; made if missing.")
 ]
-_Table = Annotated[
+_Archive = Annotated[
     Path | None,
     Option(
-        "--table",
-        metavar="FILE",
-        help="The whole table that the authors of the thesis published, for what is made of it.",
+        "--archive",
+        metavar="DIR",
+        help="A checkout of the authors' public archive, for what is made of its rows.",
         show_default=False,
     ),
 ]
@@ -53,7 +53,7 @@ def contents(
     afresh: _Afresh = False,
     workers: _Workers = 2,
     out: _Folder = _OUT,
-    table: _Table = None,
+    archive: _Archive = None,
 ) -> None:
     """Do again what others published about detachment, and say whether it holds.
 
@@ -67,7 +67,7 @@ def contents(
         typer.echo("\n\n".join([*parts, *(each.words() for each in figures())]))
     if every:
         with wrong_input():
-            _all(afresh, workers, out, table)
+            _all(afresh, workers, out, archive)
 
 
 @app.command(no_args_is_help=True)
@@ -80,7 +80,7 @@ def figure(
     workers: _Workers = 2,
     out: _Folder = _OUT,
     svg: Annotated[bool, Option("--svg", help="SVG instead of PNG.")] = False,
-    table: _Table = None,
+    archive: _Archive = None,
 ) -> None:
     """Draw a figure or a table, and say what it claims, needs and costs.
 
@@ -89,7 +89,7 @@ def figure(
     with wrong_input(), Hands(workers) as hands:
         drawn = Figure(name)
         before = kept(name) if path_of(name).exists() else None
-        maker = Maker(hands, afresh=afresh, store=keep, table=table, say=_progress)
+        maker = Maker(hands, afresh=afresh, store=keep, archive=archive, say=_progress)
         path = picture(name, maker.of(name), out, ending="svg" if svg else "png")
         typer.echo(drawn.words())
     if afresh and before is not None:
@@ -102,7 +102,7 @@ def claim(
     name: Annotated[str, typer.Argument(help="As the ledger has it: alpha, reduction.")],
     afresh: _Afresh = False,
     workers: _Workers = 2,
-    table: _Table = None,
+    archive: _Archive = None,
 ) -> None:
     """Measure a claim of the ledger, and say whether its verdict stands.
 
@@ -110,7 +110,7 @@ def claim(
     """
     with wrong_input(), Hands(workers) as hands:
         one = named(name)
-        maker = Maker(hands, afresh=afresh, table=table, say=_progress)
+        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
         found = one.measured(maker.of)
         typer.echo(f"{one.says} ({one.place})")
         typer.echo(f"  thesis: {one.thesis}\n  here: {found.said()}")
@@ -142,11 +142,11 @@ def gallery() -> None:
     typer.echo(f"wrote {GALLERY}")
 
 
-def _all(afresh: bool, workers: int, out: Path, table: Path | None) -> None:
+def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
     """Draw all there is, and measure all claims."""
     began = perf_counter()
     with Hands(workers) as hands:
-        maker = Maker(hands, afresh=afresh, table=table, say=_progress)
+        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
         for each in figures():
             path = picture(each.name, maker.of(each.name), out)
             beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""

@@ -29,13 +29,13 @@ class Bench:
         Like the built-in ``map``, of one function and one iterable; in several processes or not.
     of : callable
         Returns the numbers of another figure by its name.
-    table : path or None
-        The whole table that the authors of the thesis published, where it is at hand.
+    archive : path or None
+        A checkout of the authors' public archive, where it is at hand.
     """
 
     each: Each
     of: Callable[[str], Numbers]
-    table: Path | None = None
+    archive: Path | None = None
 
 
 class Hands:

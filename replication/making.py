@@ -28,8 +28,8 @@ class Maker:
         Whether to make numbers that are kept already.
     store : bool
         Whether to keep what was made, in place of what was kept.
-    table : path or None
-        The whole published table; what needs it is taken as it is kept where there is none.
+    archive : path or None
+        The authors' archive; what needs it is taken as it is kept where there is none.
     say : callable
         Is told what is being made.
     """
@@ -37,7 +37,7 @@ class Maker:
     hands: Hands
     afresh: bool = False
     store: bool = False
-    table: Path | None = None
+    archive: Path | None = None
     say: Callable[[str], None] = _nothing
     made: dict[str, Numbers] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
@@ -45,16 +45,16 @@ class Maker:
     def of(self, name: str) -> Numbers:
         """Return the numbers of a figure as they are kept, to so many digits."""
         if name not in self.made:
-            lacking = self.afresh and Figure(name).needs_table and self.table is None
+            lacking = self.afresh and Figure(name).needs_archive and self.archive is None
             if lacking:
-                self.say(f"figure {name} needs the whole published table (--table): as it is kept")
+                self.say(f"figure {name} needs the authors' archive (--archive): as it is kept")
             self.made[name] = self._made(name) if self.afresh and not lacking else kept(name)
         return self.made[name]
 
     def _made(self, name: str) -> Numbers:
         self.say(f"figure {name} ...")
         of_others, began = sum(self.seconds.values()), self.hands.seconds
-        found = rounded(Figure(name).module.numbers(Bench(self.hands.each, self.of, self.table)))
+        found = rounded(Figure(name).module.numbers(Bench(self.hands.each, self.of, self.archive)))
         # what it took from other figures is counted there
         of_others = sum(self.seconds.values()) - of_others
         self.seconds[name] = self.hands.seconds - began - of_others

@@ -31,6 +31,7 @@ BESIDE = (
     "published-rows",
     "work-bound",
     "printed-algorithm",
+    "linear-curve",
 )
 # Parts of the docstring that are said of a figure.
 _PARTS = ("Claims:", "Needs:", "Costs:")
@@ -78,9 +79,9 @@ class Figure:
         return getattr(self.module, "NOTE", "")
 
     @property
-    def needs_table(self) -> bool:
+    def needs_archive(self) -> bool:
         """Whether it is made of the whole published table, which is not in the repository."""
-        return getattr(self.module, "NEEDS_TABLE", False)
+        return getattr(self.module, "NEEDS_ARCHIVE", False)
 
     def part(self, head: str) -> str:
         """Return a paragraph of its docstring, "Claims:", "Needs:" or "Costs:", without its head.

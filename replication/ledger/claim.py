@@ -22,6 +22,7 @@ class Verdict(StrEnum):
 
     HOLDS = "holds"
     CORRECTED = "holds with correction"
+    THEN = "holds as measured then"
     FAILS = "does not hold"
     OPEN = "cannot be decided"
 

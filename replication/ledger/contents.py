@@ -14,11 +14,18 @@ CHAPTERS: dict[str, tuple[Claim, ...]] = {
     "Chapter 4: a lens on silicone rubber": rubber.CLAIMS,
     "Chapter 5: simulated campaigns and what is learned from them": learning.CLAIMS,
 }
+# What was found here, and the thesis does not say.
+OWN: tuple[Claim, ...] = (*spheres.OWN, *rubber.OWN)
+
+
+def of_thesis() -> tuple[Claim, ...]:
+    """Return all claims of the thesis."""
+    return tuple(claim for claims in CHAPTERS.values() for claim in claims)
 
 
 def every() -> tuple[Claim, ...]:
-    """Return all claims."""
-    return tuple(claim for claims in CHAPTERS.values() for claim in claims)
+    """Return all claims, those of the thesis first."""
+    return of_thesis() + OWN
 
 
 def named(name: str) -> Claim:

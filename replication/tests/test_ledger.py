@@ -43,15 +43,15 @@ def test_a_wrong_number_in_the_ledger_is_seen(measured):
 
 
 def test_a_verdict_falls_with_the_number_it_rests_on():
-    """A third of the simulated works, and Eq. 43 would be a bound."""
+    """A third of the simulated works, and Eq. 43 would be a bound at all rates."""
 
     def less(name):
         numbers = kept(name)
         return numbers | {"simulated": numbers["simulated"] / 3} if name == "A.7" else numbers
 
-    assert named("upper-bound").measured(kept).value > 2
-    with pytest.raises(vt.InputError, match="upper-bound.*'does not hold' stands between"):
-        named("upper-bound").measured(less)
+    assert named("upper-bound-between").measured(kept).value > 2
+    with pytest.raises(vt.InputError, match="upper-bound-between.*'holds' stands between"):
+        named("upper-bound-between").measured(less)
     with pytest.raises(vt.InputError, match="jkr-work: measured 0.80182"):
         replace(named("jkr-work"), stands=(1.8, 1.9)).measured(kept)
     with pytest.raises(vt.InputError, match="measured nan"):
@@ -117,7 +117,7 @@ def test_a_figure_made_afresh_says_how_far_it_is_from_the_kept_one(tmp_path):
 
 def test_what_is_taken_as_it_is_kept_though_asked_for_afresh_is_said():
     code, said = asked("claim", "random-rows", "--afresh", "--workers", 1)
-    assert code == 0 and "published-rows needs the whole published table (--table)" in said
+    assert code == 0 and "published-rows needs the authors' archive (--archive)" in said
 
 
 def test_commands_refuse_in_words():
@@ -127,8 +127,8 @@ def test_commands_refuse_in_words():
 
 
 def test_a_claim_is_measured_by_its_command(measured):
-    code, said = asked("claim", "upper-bound")
-    assert code == 0 and "does not hold" in said and "88.9 ± 0.6 %" in said
+    code, said = asked("claim", "upper-bound-between")
+    assert code == 0 and "holds" in said and "88.9 ± 0.6 %" in said
     code, said = asked("ledger")
     assert code == 0 and said.strip() == measured.strip()
 
