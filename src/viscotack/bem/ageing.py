@@ -66,7 +66,7 @@ class Contacted:
     time : ndarray, shape (N,)
         Time in contact [time unit of the modes].
     held : ndarray, shape (N,)
-        Share of the bonds that hold, 0 to 1.
+        Share of the bonds that hold, 0 to 1; 0 where there never were any.
     """
 
     time: npt.NDArray
@@ -75,7 +75,8 @@ class Contacted:
     @classmethod
     def relaxed(cls, base: Traction, ageing: Any, gap: npt.NDArray) -> Contacted:
         """Return the times of a relaxed contact, closed for ever; base is the law at rest."""
-        return cls(np.where(gap < base.edge_gap, ageing.settled, 0.0), np.ones_like(gap))
+        closed = gap < base.edge_gap
+        return cls(np.where(closed, ageing.settled, 0.0), np.where(closed, 1.0, 0.0))
 
     def forgotten(self) -> Contacted:
         """Return the times as they are: they predict nothing."""
@@ -83,8 +84,8 @@ class Contacted:
 
     def carried(self, old: npt.NDArray, nodes: npt.NDArray) -> Contacted:
         """Return the times on other nodes; linear, because they are discontinuous at an edge."""
-        time = np.interp(nodes, old, self.time, right=0.0)
-        return Contacted(time, np.interp(nodes, old, self.held, right=1.0))
+        time, held = (np.interp(nodes, old, values) for values in (self.time, self.held))
+        return Contacted(time, held)
 
     def factor(self, ageing: Any) -> npt.NDArray:
         """Return the factor of the tension at the nodes."""
@@ -100,10 +101,10 @@ class Contacted:
         """Return the times after a step of this length, from the gaps `before` to these."""
         first, last = _gap_with(base, _BREAKS), _gap_with(base, _BROKEN)
         share = np.log(last / np.maximum(gap, first)) / np.log(last / first)
-        held = np.minimum(self.held, share)
+        held = np.clip(np.minimum(self.held, share), 0.0, None)
+        new = (held == 0) & (gap < base.edge_gap)
         time = self._older(base, before, length).time
-        bonds = (time > 0) & (held > 0)
-        return Contacted(np.where(bonds, time, 0.0), np.where(bonds, held, 1.0))
+        return Contacted(np.where(held > 0, time, 0.0), np.where(new, 1.0, held))
 
     def heat(
         self, base: Traction, ageing: Any, before: npt.NDArray, gap: npt.NDArray, length: float
@@ -114,7 +115,8 @@ class Contacted:
         return growth * (base.energy(np.maximum(gap, 1.0)) - base.energy(np.maximum(before, 1.0)))
 
     def _older(self, base: Traction, gap: npt.NDArray, length: float) -> Contacted:
-        return replace(self, time=self.time + np.where(gap < base.edge_gap, length, 0.0))
+        ages = (gap < base.edge_gap) & (self.held > 0)
+        return replace(self, time=self.time + np.where(ages, length, 0.0))
 
 
 @lru_cache(maxsize=64)

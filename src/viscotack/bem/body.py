@@ -194,14 +194,14 @@ class Body:
                 largest_gain=largest_gain,
                 most_iterations=most_iterations,
             )
-        gap, bent = balance.gap, 0.0
+        gap, faces, bent = balance.gap, balance.faces, 0.0
         if isinstance(law, Stepped):
             speed = law.speed(gap) if speed is None else speed
             bonds = law.opening(state.gap, speed, s.length)
             bent = bend(law, gap, bonds, surface.area)
-        elif isinstance(bonds, Contacted):
+            faces = surface.interface.at(self.law(bonds), gap)
+        elif isinstance(bonds, Contacted):  # bonds that break now pull less from the next step on
             bonds = bonds.after(base, state.gap, gap, s.length)
-        faces = self._faces(surface, balance, bonds)
         e = (gap - free + balance.depth) / s.compliance
         edge = surface.edge(gap, self.contact.law.edge_gap)
         moved = 0.0 if isnan(edge - state.seen.edge) else edge - state.seen.edge
@@ -262,7 +262,7 @@ class Body:
         gap, depth = balance.gap, balance.depth
         e = (gap - free + depth) / c
         edge = surface.edge(gap, self.contact.law.edge_gap)
-        faces = self._faces(surface, balance, bonds)
+        faces = balance.faces if bonds is None else surface.interface.at(self.law(bonds), gap)
         time = state.seen.time
         moved = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds)
         return replace(moved, trail=state.trail) if len(state.trail) > 1 else moved
@@ -272,6 +272,14 @@ class Body:
         if bonds is None:
             return self.contact.law
         return Frozen(self.contact.law, bonds.factor(self.growing))
+
+    def transferred(self, before: State, after: State) -> float:
+        """Return the heat in an interface that ages when it is balanced anew on other nodes."""
+        if after.extra is None or not isinstance(after.extra.bonds, Contacted):
+            return 0.0
+        gap = CubicSpline(before.surface.position, before.gap)(after.surface.position)
+        heat = after.extra.bonds.heat(self.contact.law, self.growing, gap, after.gap, 0.0)
+        return after.surface.unit * float(after.surface.area @ heat)
 
     def friction(self, before: State, after: State) -> float:
         """Return the heat in the interface over a step, 0 if the law depends on the gap alone."""
@@ -300,14 +308,6 @@ class Body:
     ) -> Passed:
         each = np.einsum("ij,ij->i", e - memory.displacement, F - memory.force)
         return Passed(seen, surface.unit * (self.weights / self.times * each))
-
-    def _faces(
-        self, surface: Surface, balance: Balance, bonds: Opening | Contacted | None
-    ) -> Faces:
-        """Return the interface of a balance with the law frozen at these bonds."""
-        if bonds is None:
-            return balance.faces
-        return surface.interface.at(self.law(bonds), balance.gap)
 
     def net(self, hold: Hold, state: State) -> Hold:
         """Return the hold minus the flank force, which is not on any node and changes slowly."""

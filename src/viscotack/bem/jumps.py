@@ -154,8 +154,10 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
         if at.seen is before.seen:
             break
         work, gone = lost(before, at)
-        at = replace(at, books=replace(at.books, work=at.books.work + work))
-        missing += gone
+        heat = run.body.transferred(before.state, at.state)
+        books = replace(at.books, work=at.books.work + work, interface=at.books.interface + heat)
+        at = replace(at, books=books)
+        missing += gone - heat
     return at, missing
 
 
