@@ -292,3 +292,21 @@ def test_whole_digits_of_a_signal_without_noise_are_in_its_uncertainty():
     (cycle,) = tack.evaluate(tack.TackRecord(test.time, rounded, test.drive, into=1)).cycles
     assert cycle.noise >= digit / np.sqrt(12) * 0.99
     assert abs(cycle.pull_off_force.value - true) < 3 * cycle.pull_off_force.uncertainty
+
+
+def test_attraction_out_of_contact_does_not_bend_the_zero():
+    # DMT's sphere in Lennard-Jones forces: the pull-off is the force at contact
+    reach, size = 3e-6, 1e-3
+    way = np.linspace(-60e-6, 8e-6, 800)
+    depth = np.concatenate([way, way[::-1]])
+    force = 20 * size * np.maximum(depth / 8e-6, 0) ** 1.5
+    force -= size * (1 + np.maximum(-depth, 0) / reach) ** -2.0
+    time, errors = np.arange(depth.size) * 0.01, []
+    for seed in range(6):
+        noise = 2e-3 * size * np.random.default_rng(seed).standard_normal(force.size)
+        noisy = force + noise + 2e-2 * size * time / time[-1]
+        (cycle,) = tack.evaluate(tack.TackRecord(time, noisy, depth, into=1)).cycles
+        found = cycle.pull_off_force
+        errors.append(found.value / size - 1)
+        assert abs(found.value - size) < 4 * found.uncertainty
+    assert abs(np.mean(errors)) < 0.015

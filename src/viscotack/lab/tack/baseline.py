@@ -11,10 +11,16 @@ an integrated one (:math:`q/h_k^2`): the wander of the zero. The flank of a cont
 powers p of the depth u beyond the contact point over its largest value (0 out of contact): 3/2 for
 Hertz, 0 for a jump.
 
+Attraction reaches beyond the contact. A sphere at a gap h feels
+:math:`-\tfrac83 \pi R \Delta\gamma (h_0/h)^2` by Derjaguin's approximation of Lennard-Jones
+forces. The free points of each part therefore have a term :math:`-a (1 + d/s)^{-2}`, where d is the
+distance from the innermost of them, a is not negative, and the length s is one of several.
+
 All coefficients have normal priors. So the evidence of a contact point, a set of powers and a
 strength q has a closed form, after integration over the noise (inverse gamma, around that of
 neighbouring points). First the contact points of both parts are averages over the evidence of all
-of these, then the baseline is that over the strengths, drift and tilt, given the free points.
+of these, then the baseline is that over the strengths, drift, tilt and attraction, given the free
+points.
 """
 
 from dataclasses import dataclass, replace
@@ -22,6 +28,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.special import log_ndtr
 
 from viscotack.arrays import Array
 
@@ -32,6 +39,9 @@ _FEW_SINES, _SINES = 8, 32
 # strengths of the wander, relative to the noise: random walk, integrated
 _WANDERS = ((0.0, 0.0), (2.0, 0.0), (8.0, 0.0), (30.0, 0.0), (0.0, 10.0), (0.0, 100.0))
 _SLOPES = 0.2  # prior standard deviation of drift and tilt, relative to the range of force
+# Prior standard deviation of the attraction on the innermost free point, relative to the range of
+# force, and its lengths relative to the longer free part
+_ATTRACTION, _LENGTHS = 0.03, (0.03, 0.1, 0.3, 1.0)
 _WANDERING = 0.1  # largest strength of a random walk, relative to the range of force
 _POWERS = (0.0, 1.0, 1.5, 2.0, 3.0)  # of the flank; 0 is a jump into or out of contact
 _FLANKS = ((1.5,), (2,), (1, 2), (1.5, 2, 3), (0,), (0, 1), (0, 1.5, 2), (0, 1, 2, 3))
@@ -339,19 +349,42 @@ def baseline(force: Array, depth: Array, time: Array, free: list[slice], noise: 
     widths = np.array(
         [_widths(size, wander, slope, _SINES) for wander in _WANDERS for slope in slopes]
     )
+    pulls, own = _attraction(blocks), X.shape[-1]
+    X = np.concatenate([np.broadcast_to(X, (len(pulls), *X.shape)), pulls], axis=-1)
+    widths = np.pad(widths, ((0, 0), (0, len(blocks))), constant_values=_ATTRACTION * size)
     logs, L, v, scale = _evidence(X * weight[:, None], (F - level) / noise * weight, widths)
-    weights = np.exp(logs - logs.max())
+    likely = logs > logs.max() - _UNLIKELY
+    widths = np.broadcast_to(widths, (len(pulls), *widths.shape))[likely]
+    root = np.linalg.solve(L[likely], np.eye(L.shape[-1]) * widths[:, None, :])
+    each = np.einsum("hij,hi->hj", root, v[likely])
+    spread = np.einsum("h,hij,hik->hjk", scale[likely], root, root)
+    # part of each posterior in which the forces attract
+    pull, variance = each[:, own:], np.diagonal(spread, axis1=1, axis2=2)
+    sure = pull / np.sqrt(np.maximum(variance[:, own:], 1e-300))
+    weights = np.exp(logs[likely] - logs.max() + np.sum(log_ndtr(sure) + np.log(2), axis=1))
     weights /= weights.sum()
-    root = noise * np.linalg.solve(L, np.eye(L.shape[-1]) * widths[:, None, :])
-    each = np.einsum("hij,hi->hj", root, v)
-    spread = np.einsum("h,hij,hik->jk", weights * scale, root, root)
+    each, spread = each[:, :own], spread[:, :own, :own]
     mean = weights @ each
     off = each - mean
-    covariance = spread + (weights[:, None] * off).T @ off
+    covariance = np.einsum("h,hij->ij", weights, spread) + (weights[:, None] * off).T @ off
+    mean, covariance = noise * mean, noise**2 * covariance
     mean[0] += level
     law = Baseline(mean, covariance, 0.0, origin, place)
     rest = np.concatenate([force[p] - law.at(depth[p], time[p]) for p in free])
     return Baseline(mean, covariance, float(np.std(rest)), origin, place)
+
+
+def _attraction(blocks: list[list[Array]]) -> Array:
+    """Return a term for each free part (last axis) by length (first axis), 0 for the first."""
+    depths = [depth for _, depth, *_ in blocks]
+    span = max(float(np.ptp(depth)) for depth in depths)
+    lengths = np.array(_LENGTHS)[:, None] * max(span, 1e-300)
+    found = np.zeros((1 + len(_LENGTHS), sum(map(len, depths)), len(depths)))
+    begin = 0
+    for part, depth in enumerate(depths):
+        rows = slice(begin, begin := begin + len(depth))
+        found[1:, rows, part] = -((1 + (depth.max() - depth) / lengths) ** -2)
+    return found
 
 
 def _blocks(force: Array, depth: Array, time: Array) -> list[Array]:
