@@ -310,3 +310,37 @@ def test_attraction_out_of_contact_does_not_bend_the_zero():
         errors.append(found.value / size - 1)
         assert abs(found.value - size) < 4 * found.uncertainty
     assert abs(np.mean(errors)) < 0.015
+
+
+def test_noise_behind_a_soft_machine_makes_no_work_certain_by_chance():
+    # a flat smallest force; the noise times the compliance is four steps of the depth
+    compliance, noise, found = 0.2, 0.02, []
+    down, up = np.linspace(-1.5, 1, 600), np.linspace(1, -2, 3000)
+    back = np.where(up > -0.3, 3 * ((up + 0.3) / 1.3) ** 2 - 1, ((up + 0.3) / 0.6) ** 2 - 1)
+    pure = np.concatenate([2 * np.maximum(down, 0) ** 1.5, np.where(up < -0.9, 0.0, back)])
+    drive = np.concatenate([down, up]) + compliance * pure
+    for seed in range(10):
+        force = pure + noise * np.random.default_rng(seed).standard_normal(pure.size)
+        test = tack.TackRecord(np.arange(pure.size) * 0.01, force, drive, into=1)
+        (cycle,) = tack.evaluate(test, compliance=compliance).cycles
+        found.append(cycle.work_to_pull_off)
+    uncertainty = np.array([one.uncertainty for one in found])
+    assert uncertainty.max() < 4 * uncertainty.min()
+    away = np.where((back < 0) & (up >= -0.3), -back, 0.0)
+    true = -float(np.trapezoid(away, up))
+    assert np.all(np.abs([one.value - true for one in found]) < 3 * uncertainty)
+
+
+def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
+    signals, ratios = benchmark("rig_signals"), []
+    for seed in range(20):
+        rng = np.random.default_rng([9, seed])
+        test = signals.pure(rng)
+        steps = np.sqrt(np.gradient(test.time) / np.ptp(test.time))
+        walk = np.cumsum(steps * rng.standard_normal(test.time.size))
+        noise = 0.002 * rng.standard_normal(test.time.size)
+        force = test.force + test.range * (0.02 * walk + noise)
+        record = tack.TackRecord(test.time, force, test.depth, into=1)
+        found = signals.judged(signals.Signal(record, test.truth, {}))
+        ratios.append(found[signals.QUANTITIES.index("preload_depth")][1])
+    assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 1.1

@@ -30,7 +30,6 @@ _CLIPPED = 8  # equal extreme values in a row while the drive moves ...
 _ROUNDED = 8.0  # digits by which a rounded extreme changes as far again from it
 _MOVED = 0.002  # ... by more than this fraction of its travel
 _OUT = 5.0  # standard deviations of the noise that it may reverse in addition
-_NEAR = 4  # points before the pull-off that give its depth
 _SLIDING = 0.1  # fraction of the travel by which the corrected depth may reverse
 
 
@@ -183,14 +182,19 @@ def _cycle(
         notes.append(f"spikes replaced by the mean of their neighbours: {np.sum(clean != raw)}")
     origin, spread, how = _origin(depth, force, own, touch, law.noise)
     depth = depth - origin
+    if touch:
+        first = slice(touch.free, touch.free + 1)
+        end = float(depth[own.dwell]), float(force[own.dwell])
+        spread = float(np.hypot(spread, _lifted(law.uncertainty(way[first], time[first]), *end)))
     notes.append(how)
     if compliance:
         notes.append(f"machine compliance {readable(compliance, 'm/N')} subtracted from the depth")
     crossing = _crossing(force, own.retract, at)
-    # the pull-off lies between two points, and a soft machine may jump to the second
-    near = np.arange(max(at - _NEAR, own.retract), at + 1)
-    last = float(np.polyval(np.polyfit(near - at, depth[near], 1), own.retract + least.at - at))
-    flat = least.at_uncertainty * abs(float(depth[at + 1] - depth[at - 1])) / 2
+    # at the smallest force the depth goes as the drive; single depths have the noise of the force,
+    # and a soft machine may jump behind it
+    index = np.arange(way.size) - own.retract
+    last = float(np.interp(least.at, index, way)) - compliance * least.value - origin
+    flat = least.at_uncertainty * abs(float(way[at + 1] - way[at - 1])) / 2
     place = float(np.hypot(np.hypot(spread, flat), compliance_uncertainty * abs(force[at])))
     deepest = force[: own.retract + 1]
     top = int(np.argmax(deepest))
@@ -359,6 +363,17 @@ def _origin(
         spread + step / 5,
         "no approach before contact: depth is zero where the retraction's force is zero",
     )
+
+
+def _lifted(zero: float, depth: float, force: float) -> float:
+    """Return the shift of the contact point [m] by the uncertainty of the zero there [N].
+
+    A flank of Hertz that reaches a force [N] at a depth [m] exceeds the zero's uncertainty
+    at this shift.
+    """
+    if depth <= 0 or force <= 0:
+        return 0.0
+    return depth * min(zero / force, 1.0) ** (2 / 3)
 
 
 def _crossing(force: Array, begin: int, at: int) -> int:
