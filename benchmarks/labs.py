@@ -27,6 +27,7 @@ are those that are stated; what was tried was tried on labs from 1000 on.
 import argparse
 import json
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -46,7 +47,8 @@ GROWING, DISTURBED = 20, 30  # of the seed of a lab
 USUAL = argparse.Namespace(growing=False, disturbed=False, tabor=(10.0, 1e4))
 SHORT = 10.0  # Tabor number beyond which attraction out of contact is left out
 KINDS = ("none", "drift", "dropped", "compliance", "temperature", "law", "few points")
-WARMER = 10 ** (-5 * 2 / 152)  # factor of the times of a solid 2 K warmer
+SHIFT = vt.materials.shift.WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
+WARMER = 10 ** SHIFT.log10_shift(295.15)  # factor of the times of a solid 2 K warmer
 WANDER = 0.02  # of the zero, in pull-off forces
 ALIKE = 0.358  # decay length over h0 of the exponential law of that strength
 
@@ -256,6 +258,8 @@ def done(seed, given):
     records = [record_of(lab, v) for v in lab["speeds"]]
     begin = time.process_time()
     passport = passport_of(lab["solid"], lab["model"], rng)
+    # the shift by which its sweeps were joined
+    passport = replace(passport, shift=SHIFT)
     fitted = time.process_time()
     compliance = (1 + 0.1 * rng.standard_normal()) / lab["stiffness"]
     doubt = 0.1
@@ -274,6 +278,7 @@ def done(seed, given):
         preload=lab["preload"],
         gaps=around,
         stiffness=1 / compliance,
+        compliance_uncertainty=doubt,
         growth=growing,
         scatter=SCATTER,
         level=LEVEL,

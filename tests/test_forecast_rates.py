@@ -14,14 +14,14 @@ import viscotack as vt
 from command_line import exit_status
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
-from viscotack.identify.covariances import allowed, covariance, log_forces
+from viscotack.identify.covariances import allowed, covariance, log_forces, shift_error
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, write_passport
 from viscotack.materials.conversion import slowed
 from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence
-from viscotack.materials.shift import WLF
+from viscotack.materials.shift import WLF, TabulatedShift
 from viscotack.operations import operation
 from viscotack.operations.declare.study import read_study, study_text
 from viscotack.operations.identify import IdentifyRates
@@ -95,7 +95,46 @@ def test_doubt_about_the_material_widens_the_answer(exact, fit):
         for one in (exact, fit)
     )
     assert wide > 1.05 * narrow
-    assert "assumed exact" in exact.words[-1] and "assumed exact" not in fit.words[-1]
+    assert "assumed exact" in " ".join(exact.words) and "assumed exact" not in " ".join(fit.words)
+
+
+def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
+    sure = replace(RUBBER, evidence=None)
+    warm, v = Forward(slowed(SOLID, RUBBER.shift_factor(295.15)), RADIUS), np.array([3e-3])
+    force = warm.pulled(WORK, GAP, SPEEDS, PRELOAD).force
+    series = [
+        PullOff(float(one), Measured(float(P), 2e-3 * float(P)), PRELOAD)
+        for one, P in zip(SPEEDS, force, strict=True)
+    ]
+    cases = (sure, 0.0), (sure, 2.0), (replace(sure, shift=None), None)
+    fits = [
+        identify_rates(
+            series, material=one, radius=RADIUS, theory=2e-3, temperature_uncertainty=kelvin
+        )
+        for one, kelvin in cases
+    ]
+    truth = {"work_of_adhesion": WORK, "equilibrium_gap": GAP}
+    off = [one.objective.best(truth).misfit - one.best.misfit for one in fits]
+    assert off[0] > 10 and off[1] < 3
+    found, true = forecast_rates(fits[1], v), warm.pulled(WORK, GAP, v, PRELOAD).force
+    assert found.low < true < found.high
+    assert "uncertainty of 2 K (stated), the times of the material one of 15.4% by it" in " ".join(
+        fits[1].words
+    )
+    assert "the passport has no shift of times with temperature" in " ".join(fits[2].words)
+    assert not any("temperature" in one for one in fits[0].words)
+    for kelvin in (-1.0, 275.15):
+        with pytest.raises(InputError, match="must lie between 0 and 50 K"):
+            identify_rates(series, material=sure, radius=RADIUS, temperature_uncertainty=kelvin)
+
+
+def test_the_error_of_times_is_the_slope_of_the_shift():
+    assert shift_error(RUBBER, 2.0) == pytest.approx(5 / 150 * 2 * np.log(10), rel=1e-3)
+    # at the end of a table, from its other side
+    table = TabulatedShift(293.15, (273.15, 293.15), (2.0, 0.0))
+    end = replace(RUBBER, shift=table)
+    assert shift_error(end, 2.0) == pytest.approx(0.2 * np.log(10))
+    assert shift_error(replace(RUBBER, shift=None), 2.0) == 0.0
 
 
 def test_times_in_doubt_are_speeds_in_doubt(forward):
@@ -140,7 +179,8 @@ def test_what_cannot_be_forecast_is_refused(fit):
     with pytest.raises(InputError, match="positive speeds"):
         forecast_rates(fit, [-1e-4])
     with pytest.raises(InputError, match="the temperature dependence of its times is unknown"):
-        bare = replace(fit, passport=replace(RUBBER, shift=None))
+        passport = replace(RUBBER, shift=None)
+        bare = replace(fit, uncertain=replace(fit.uncertain, passport=passport))
         forecast_rates(bare, [1e-4], temperature=310.0)
 
 

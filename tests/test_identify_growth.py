@@ -77,7 +77,8 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     with pytest.raises(
         InputError, match="the temperature dependence of a speed-dependent interface is unknown"
     ):
-        forecast_rates(replace(fit, passport=shifting), [3e-5], temperature=310.0)
+        moved = replace(fit, uncertain=replace(fit.uncertain, passport=shifting))
+        forecast_rates(moved, [3e-5], temperature=310.0)
 
 
 @pytest.mark.slow

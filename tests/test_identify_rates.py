@@ -174,6 +174,12 @@ def test_a_series_by_a_soft_machine_is_corrected_by_its_ratios(monkeypatch):
     assert fit.forces == pytest.approx(soft, rel=2e-3)
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.01)
     assert fit.equilibrium_gap == pytest.approx(200e-9, rel=0.03)
+    # the forces change by the uncertainty of the compliance in proportion
+    sure = identify_rates(series(soft, 0.01), compliance_uncertainty=0.0, **case)
+    fall = np.log(soft / force)
+    assert fit.covariance - sure.covariance == pytest.approx(
+        0.01 * np.outer(fall, fall), rel=0.05, abs=1e-7
+    )
 
 
 def test_a_series_without_information_is_refused():

@@ -4,11 +4,14 @@ A passport contains solids sampled from the uncertainty of its measurement. Each
 forces; their scatter is a low-rank covariance of ln(force) over the speeds: a stiffer solid
 raises all forces, a slower one those of one flank. It is computed at one interface near the best
 one, because it hardly depends on the interface, and is added to the noise in fit and prediction.
+The uncertainty of the temperature of the tests, by which all times of the solid are multiplied, is
+added in the same way.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
-from math import inf, log
+from math import exp, inf, log
 from statistics import NormalDist
 from typing import Any
 
@@ -17,6 +20,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Passport
+from viscotack.materials.conversion import slowed
 
 from .forward import Forward, Growth
 
@@ -85,6 +89,51 @@ def covariance(rows: Array) -> Array:
     """Return the covariance of ln(force) over the speeds, from rows of solids."""
     away = rows - rows.mean(axis=0)
     return away.T @ away / (len(rows) - 1)
+
+
+def shift_error(passport: Passport, uncertainty: float) -> float:
+    """Return the relative standard error of the times of a solid by its temperature.
+
+    Parameters
+    ----------
+    passport : Passport
+        Solid at the temperature of the tests.
+    uncertainty : float
+        Standard uncertainty of this temperature [K].
+
+    Returns
+    -------
+    float
+        In ln of the times; 0 without a shift law.
+    """
+    law, middle = passport.shift, passport.temperature
+    if law is None or middle is None or not uncertainty:
+        return 0.0
+    found = {middle: float(law.log10_shift(middle))}
+    for temperature in (middle - uncertainty, middle + uncertainty):
+        # a table may end here, or a law have its pole
+        with suppress(InputError):
+            found[temperature] = float(law.log10_shift(temperature))
+    span = max(found) - min(found)
+    decades = found[min(found)] - found[max(found)]
+    return abs(decades) / span * uncertainty * log(10.0) if span else 0.0
+
+
+def temperature_effect(
+    known: Forward,
+    error: float,
+    work: float,
+    gap: float,
+    speed: Array,
+    preload: Array,
+    growth: Growth | None = None,
+) -> Array:
+    """Return the change of ln(force) by a relative error of all times, shape (speeds,)."""
+    if not error:
+        return np.zeros(speed.size)
+    solids = [slowed(known.material, exp(sign * error)) for sign in (1, -1)]
+    slow, fast = log_forces(known, solids, work, gap, speed, preload, growth)
+    return (slow - fast) / 2
 
 
 def theory_covariance(speed: Array, theory: float | Array) -> Array:

@@ -25,7 +25,7 @@ from viscotack.materials.conversion import slowed
 from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import ModelError, allowed, covariance, log_forces
+from .covariances import ModelError, allowed, covariance, log_forces, temperature_effect
 from .pull_off import SAME, History
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
@@ -152,7 +152,7 @@ def forecast_rates(
 
     measured = np.array([one.speed for one in fit.series])
     m, both = measured.size, _model(fit, theory).joined(found.model)
-    spread = _together(fit, passport, (measured, loads), (v, load), both)
+    spread = _together(fit, passport, (measured, loads), (v, load), both, spring is not None)
     # covariance of the fit: noise, theory and material of the measured forces
     gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
     left = spread[m:, m:] - gain @ spread[:m, m:]
@@ -292,8 +292,13 @@ def _together(
     measured: tuple[Array, Array],
     wanted: tuple[Array, float],
     model: ModelError,
+    springy: bool,
 ) -> Array:
-    """Return the joint covariance of model and material over measured and predicted speeds."""
+    """Return the joint covariance of model, material and machine over all speeds.
+
+    These are the measured and the predicted ones; the machine counts at the latter if it is
+    `springy` there.
+    """
     speed = np.concatenate([measured[0], wanted[0]])
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     load = np.full(wanted[0].size, wanted[1])
@@ -301,15 +306,31 @@ def _together(
     both = ((fit.forward, *measured), (known, wanted[0], load))
     more = [forward.layer_error(w, gap, v, preload) for forward, v, preload in both]
     spread = replace(model, theory=model.theory + np.concatenate(more)).covariance(speed)
+    law = None if fit.growth is None else fit.growth.law
+    # one thermometer and one machine for all tests
+    shifts = fit.uncertain.shift, replace(fit.uncertain, passport=passport).shift
+    rows = zip(both, shifts, strict=True)
+    warmer = np.concatenate(
+        [temperature_effect(one, error, w, gap, v, load, law) for (one, v, load), error in rows]
+    )
+    softer = _softer(fit, measured[0], wanted[0], springy)
+    spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
     solids = allowed(fit.passport)
     if not solids:
         return spread
     moved = allowed(passport) if passport.allowed else _slowed(fit.passport, passport, solids)
-    law = None if fit.growth is None else fit.growth.law
     first = log_forces(fit.forward, solids, w, gap, *measured, law)
     second = log_forces(known, moved, w, gap, wanted[0], load, law)
     rows = np.concatenate([first, second], axis=1)
     return spread + covariance(rows)
+
+
+def _softer(fit: RateSeriesFit, measured: Array, wanted: Array, springy: bool) -> Array:
+    """Return the error of ln(force) by the compliance of the machine, at both sets of speeds."""
+    yielding = fit.ratio.others if isinstance(fit.ratio, Mixed) else fit.ratio
+    error, order = fit.uncertain.compliance * yielding.log_ratio, np.argsort(measured)
+    beyond = np.interp(np.log(wanted), np.log(measured[order]), error[order])
+    return np.concatenate([error, beyond * springy])
 
 
 def _slowed(first: Passport, second: Passport, solids: Sequence[object]) -> Sequence[object]:

@@ -3,6 +3,9 @@
 While the tension grows a compliant machine stretches, so the sphere moves more slowly than the
 drive. The ratio of the force to that of a rigid machine is computed at one interface. Where it is
 far from 1, its derivatives with respect to the interface are computed as well.
+
+The logarithm of the ratio is nearly proportional to the compliance. Its product with the relative
+uncertainty of the compliance is therefore an error common to all forces.
 """
 
 from collections.abc import Mapping
@@ -26,7 +29,8 @@ class Yielding:
     Parameters
     ----------
     log_ratio : ndarray, shape (S,)
-        ln of the ratio at the reference interface.
+        ln of the ratio at the reference interface; of tests without an answer by theory that of the
+        nearest speeds with one.
     slopes : ndarray, shape (2, S)
         Derivatives with respect to ln of the work of adhesion and of the range.
     work, gap : float
@@ -85,4 +89,7 @@ def yielding_near(
         for row, ((other, there), step) in zip(slopes, beside, strict=True):
             known = [i for i in range(speed.size) if i not in there.refused]
             row[known] = (other - middle)[known] / step
+    told = [i for i in np.argsort(speed) if i not in changed.refused]
+    if told:
+        middle = np.interp(np.log(speed), np.log(speed[told]), middle[told])
     return Yielding(middle, slopes, work, gap), changed

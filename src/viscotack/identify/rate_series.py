@@ -4,7 +4,8 @@ The forward model is the contact whose edge is a steady crack (:mod:`.forward`),
 where that does not hold (:mod:`.tiers`). Pull-off forces are computed on a grid of works of
 adhesion and ranges and interpolated in logarithms (:mod:`.interpolated_forces`), so that the search
 (:mod:`.search`) and its intervals are fast. Noise of the forces, error of the forward model and
-uncertainty of the material (:mod:`.covariances`) form one covariance of the relative forces.
+uncertainty of material, temperature (:mod:`.covariances`) and machine (:mod:`.machine_compliance`)
+form one covariance of the relative forces.
 
 An interface that grows with speed (:mod:`.growth`) has two additional unknowns.
 """
@@ -23,7 +24,15 @@ from viscotack.materials import Material, Passport
 from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import ModelError, allowed, covariance, log_forces, theory_covariance
+from .covariances import (
+    ModelError,
+    allowed,
+    covariance,
+    log_forces,
+    shift_error,
+    temperature_effect,
+    theory_covariance,
+)
 from .forward import Changed, Forward
 from .growth import FoundGrowth, found_growth
 from .interpolated_forces import Table
@@ -51,10 +60,40 @@ from .tiers import Conditions, answered
 _THEORY, _GROWING_THEORY, _LAYER_THEORY = 0.02, 0.03, 0.03
 _LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _MOST = 40  # largest number of speeds
+# Standard uncertainties where none is stated: temperature of tests [K], relative compliance.
+_TEMPERATURE, _COMPLIANCE = 2.0, 0.1
+_WARMEST = 50.0  # K: largest uncertainty of a temperature; 2 degC would be read as 275 K
 _OVER = 1.2  # overshoot of the limit on a layer that is left
 _THICK = HalfSpace()
 _LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
+
+
+@dataclass(frozen=True, eq=False)
+class Uncertain:
+    """Material and machine of a series, with what is uncertain of them.
+
+    Parameters
+    ----------
+    passport : Passport
+        Material at the temperature of the tests.
+    temperature : float
+        Standard uncertainty of this temperature [K].
+    stiffness : float or None
+        Stiffness of the machine [N/m]; None if rigid.
+    compliance : float
+        Relative standard uncertainty of its compliance.
+    """
+
+    passport: Passport
+    temperature: float
+    stiffness: float | None
+    compliance: float
+
+    @property
+    def shift(self) -> float:
+        """Relative standard error of all times of the material by the temperature."""
+        return shift_error(self.passport, self.temperature)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +126,6 @@ class RateSeriesFit:
         Fitted pull-offs, each with its preload.
     excluded : tuple of PullOff
         Pull-offs at speeds for which neither theory nor simulation has an answer.
-    passport : Passport
-        Passport of the material.
     forward : Forward
         Forward model of the material.
     covariance : ndarray, shape (S, S)
@@ -99,8 +136,8 @@ class RateSeriesFit:
         Relative standard uncertainty of the forward model, included in the covariance.
     level : float
         Confidence level of the intervals.
-    stiffness : float or None
-        Stiffness of the machine [N/m].
+    uncertain : Uncertain
+        Material, stiffness of the machine and temperature, with their uncertainties.
     yielding : ndarray, shape (S,)
         Ratio of forces with the machine's stiffness, or simulated, to those of a rigid machine by
         theory, for this interface.
@@ -124,17 +161,26 @@ class RateSeriesFit:
     words: tuple[str, ...]
     series: tuple[PullOff, ...]
     excluded: tuple[PullOff, ...]
-    passport: Passport
     forward: Forward
     covariance: Array
     objective: Objective
     theory: float
     level: float
-    stiffness: float | None
+    uncertain: Uncertain
     yielding: Array
     ratio: Yielding | Mixed
     model_error: ModelError
     growth: FoundGrowth | None = None
+
+    @property
+    def passport(self) -> Passport:
+        """Passport of the material."""
+        return self.uncertain.passport
+
+    @property
+    def stiffness(self) -> float | None:
+        """Stiffness of the machine [N/m]; None if rigid."""
+        return self.uncertain.stiffness
 
     @property
     def best(self) -> Best:
@@ -156,6 +202,8 @@ def identify_rates(
     gaps: tuple[float, float] = (0.3e-9, 3e-6),
     work_of_adhesion: tuple[float, float] | None = None,
     stiffness: float | None = None,
+    compliance_uncertainty: float | None = None,
+    temperature_uncertainty: float | None = None,
     curves: bool = False,
     growth: bool = False,
     history: bool = False,
@@ -186,6 +234,11 @@ def identify_rates(
     stiffness : float, optional
         Stiffness of the machine between drive and sphere [N/m], the inverse of its compliance; None
         if rigid. While the tension grows, the sphere moves more slowly than the drive.
+    compliance_uncertainty : float, optional
+        Relative standard uncertainty of this compliance; by default 10 %.
+    temperature_uncertainty : float, optional
+        Standard uncertainty of the temperature of the tests [K]; by default 2 K. It changes all
+        times of the material by the shift law of the passport; without one it has no effect.
     curves : bool
         Whether to fit whole curves, by the travels between forces of each pull-off; then one
         speed is sufficient, and rate effects within the curve are included.
@@ -231,12 +284,13 @@ def identify_rates(
     if history:
         _check_history(series, curves or growth or thin)
     _check(series, radius, gaps, stiffness, curves, scatter, theory, level)
+    uncertain = _uncertain(passport, temperature_uncertainty, stiffness, compliance_uncertainty)
 
     def data_of(some: Sequence[PullOff]) -> Data:
         return Data(some, work_of_adhesion, curves, scatter, theory)
 
     with Simulations() as runs:
-        near = _near(forward, data_of, series, passport, gaps, stiffness, growth, history, runs)
+        near = _near(forward, data_of, series, uncertain, gaps, growth, history, runs)
     forward, plain, search, dropped = near.forward, near.plain, near.search, near.dropped
     if growth:
         fit, intervals = closely(forward, search, level)
@@ -260,6 +314,7 @@ def identify_rates(
         *_layer_words(forward, search, best),
         *near.words,
         *([] if history else _relaxed_words(series, forward.material)),
+        *_temperature_words(uncertain, temperature_uncertainty is None),
         *_left_out(dropped),
         *(remark for one in series for remark in one.remarks),
     ]
@@ -276,13 +331,12 @@ def identify_rates(
         words=tuple(words),
         series=tuple(data.series),
         excluded=tuple(one for one in series if one.speed in dropped),
-        passport=passport,
         forward=forward,
         covariance=search.spread,
         objective=objective,
         theory=theory,
         level=level,
-        stiffness=stiffness,
+        uncertain=uncertain,
         yielding=search.yielding(best.values),
         ratio=search.yielding,
         model_error=search.model,
@@ -318,9 +372,8 @@ def _near(
     forward: Forward,
     data_of: Callable[[Sequence[PullOff]], Data],
     series: Sequence[PullOff],
-    passport: Passport,
+    uncertain: Uncertain,
     gaps: tuple[float, float],
-    stiffness: float | None,
     growth: bool,
     history: bool,
     runs: Simulations,
@@ -342,14 +395,14 @@ def _near(
                 gaps = gaps[0], float(plain.axes["equilibrium_gap"][-1])
             search = widely(forward, search, opening)
             best = search.best()
-        known, changed = _disturbed(search, best, forward, passport, stiffness)
+        known, changed = _disturbed(search, best, forward, uncertain)
         if isinstance(known.yielding, Yielding) and known.yielding.much:
             # repeat for this machine, because the interface was that of a rigid one
-            known, changed = _disturbed(search, known.best(), forward, passport, stiffness)
+            known, changed = _disturbed(search, known.best(), forward, uncertain)
         refused = changed.refused
         if simulable:
             moves = tuple(_moves(one) for one in series) if history else ()
-            tests = Conditions(data.speed, data.load, stiffness, moves)
+            tests = Conditions(data.speed, data.load, uncertain.stiffness, moves)
             known, refused, words = answered(known, changed, forward, tests, runs)
         if not refused:
             most = _largest_gap(known, forward)
@@ -367,13 +420,13 @@ def _near(
 
 
 def _disturbed(
-    search: Search, best: Best, forward: Forward, passport: Passport, stiffness: float | None
+    search: Search, best: Best, forward: Forward, uncertain: Uncertain
 ) -> tuple[Search, Changed]:
-    """Return a search that includes the uncertainty of the material and a compliant machine.
+    """Return a search that includes a compliant machine, and uncertainties of material and machine.
 
     Also return the ratios of the forces at the interface.
     """
-    solids, data = allowed(passport), search.data
+    solids, data, stiffness = allowed(uncertain.passport), search.data, uncertain.stiffness
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
     grown = None if search.opening is None else search.opening.of(best.values)
     yielding, changed = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
@@ -383,6 +436,10 @@ def _disturbed(
         # hardly depends on the interface
         rows = log_forces(forward, solids, w, gap, data.speed, data.load, grown)
         spread = spread + covariance(rows)
+    case = w, gap, data.speed, data.load
+    warmer = temperature_effect(forward, uncertain.shift, *case, grown)
+    softer = uncertain.compliance * yielding.log_ratio
+    spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
     return replace(search, spread=spread, yielding=yielding), changed
 
 
@@ -518,6 +575,39 @@ def _relaxed_words(series: Sequence[PullOff], material: Material) -> list[str]:
         f"the contacts are taken as relaxed, but after a dwell of {readable(dwell, 's', digits=2)} "
         f"at {_speed(speed)} the modulus is {left:.0%} above the relaxed one; with --history the "
         "forces include approach and dwell"
+    ]
+
+
+def _uncertain(
+    passport: Passport,
+    temperature: float | None,
+    stiffness: float | None,
+    compliance: float | None,
+) -> Uncertain:
+    """Return material and machine with their uncertainties, stated or usual."""
+    temperature = _TEMPERATURE if temperature is None else temperature
+    compliance = _COMPLIANCE if compliance is None else compliance
+    if not (0 <= temperature <= _WARMEST and 0 <= compliance < 1):
+        raise InputError(
+            f"the uncertainty of the temperature must lie between 0 and {_WARMEST:g} K, and that "
+            f"of the compliance between 0 and 1 of it; got {temperature:g} K and {compliance:g}"
+        )
+    return Uncertain(passport, temperature, stiffness, compliance)
+
+
+def _temperature_words(uncertain: Uncertain, usual: bool) -> list[str]:
+    """Return a sentence on the uncertainty of the temperature."""
+    if not uncertain.temperature or uncertain.passport.temperature is None:
+        return []
+    if uncertain.passport.shift is None:
+        return [
+            "the uncertainty of the temperature of the tests is not in the intervals, because the "
+            "passport has no shift of times with temperature"
+        ]
+    known = "assumed" if usual else "stated"
+    return [
+        f"the temperature of the tests has a standard uncertainty of {uncertain.temperature:.2g} K "
+        f"({known}), the times of the material one of {uncertain.shift:.1%} by it"
     ]
 
 

@@ -34,6 +34,8 @@ class Study:
         Force under which contacts relaxed [N]; by default the force at the start of the retraction.
     temperature : float, optional
         Temperature of the tests [K]; by default that of the passport.
+    temperature_uncertainty : float, optional
+        Its standard uncertainty [K]; by default that of :func:`.identify_rates`.
     work_of_adhesion : (float, float), optional
         Value known from a slow test, with its standard uncertainty [J/m2].
     curves : bool
@@ -59,6 +61,7 @@ class Study:
     body: HalfSpace | Layer = HalfSpace()
     preload: float | None = None
     temperature: float | None = None
+    temperature_uncertainty: float | None = None
     work_of_adhesion: tuple[float, float] | None = None
     curves: bool = False
     growth: bool = False
@@ -121,6 +124,8 @@ def answer(study: Study) -> Answer:
         preload=study.preload,
         work_of_adhesion=study.work_of_adhesion,
         stiffness=1 / compliance if compliance > 0 else None,
+        compliance_uncertainty=_relative(study.evaluation, compliance),
+        temperature_uncertainty=study.temperature_uncertainty,
         curves=study.curves,
         growth=study.growth,
         history=study.history,
@@ -128,3 +133,9 @@ def answer(study: Study) -> Answer:
         level=study.level,
     )
     return Answer(study, found, fit)
+
+
+def _relative(evaluation: Mapping[str, Any], compliance: float) -> float | None:
+    """Return the relative uncertainty of the compliance; None where none is stated."""
+    uncertainty = evaluation.get("compliance_uncertainty", 0.0)
+    return uncertainty / compliance if uncertainty and compliance > 0 else None

@@ -154,6 +154,15 @@ class IdentifyRates(Operation):
             metavar="T",
         ),
     ] = None
+    temperature_uncertainty: Annotated[
+        float | None,
+        Number(
+            'Standard uncertainty of this temperature, "0.5 K"; default: 2 K. It changes the times '
+            "of the material by the shift of the passport.",
+            unit="K",
+            metavar="T",
+        ),
+    ] = None
     curves: Annotated[
         bool,
         Switch("Fit whole curves by their travel between forces; one speed is then sufficient."),
@@ -198,6 +207,7 @@ class IdentifyRates(Operation):
             body=body_of(self.thickness, self.bonded),
             preload=self.preload,
             temperature=self.temperature,
+            temperature_uncertainty=self.temperature_uncertainty,
             work_of_adhesion=self.work_of_adhesion,
             curves=self.curves,
             growth=self.growth,

@@ -108,7 +108,8 @@ class Rig(Part):
     compliance_uncertainty: Annotated[
         float,
         Number(
-            "Standard uncertainty of the compliance; propagated to depths and works.",
+            "Standard uncertainty of the compliance; propagated to depths and works, and by "
+            "`identify rates` to the interface, there 10 % by default.",
             unit="m/N",
             metavar="LENGTH/FORCE",
         ),
