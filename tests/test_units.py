@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack
-from viscotack.units import finite, parse, positive, readable
+from viscotack.units import finite, parse, positive, readable, readable_interval
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,32 @@ def test_a_range_and_an_uncertainty_have_the_prefix_of_the_quantity():
     assert readable(-5e-6, "m", to=1e-6) == "-5 to 1 um"
     assert readable(0.0, "m", to=1e-6) == "0 to 1 um"
     assert readable(1e-6, "m/s", to=3e-3) == "1 um/s to 3 mm/s"
-    assert readable(4.31e-3, "N", uncertainty=2e-5) == "4.31 +- 0.02 mN"
+    assert readable(4.31e-3, "N", uncertainty=2e-5) == "4.310 +- 0.020 mN"
+
+
+@pytest.mark.parametrize(
+    ("value", "uncertainty", "text"),
+    [
+        (1.234e-3, 1e-4, "1.23 +- 0.10 mN"),
+        (1.234e-3, 9.96e-5, "1.23 +- 0.10 mN"),
+        (4.314e-3, 0.0127e-3, "4.314 +- 0.013 mN"),
+        (0.9876, 0.123, "990 +- 120 mN"),
+        (2e-3, 3.4e-3, "2.0 +- 3.4 mN"),
+        (-1e-7, 2e-5, "0 +- 20 uN"),
+        (3e-20, 2e-21, "3.00e-20 +- 2.0e-21 N"),
+        (1e-3, float("inf"), "0.001 +- inf N"),
+    ],
+)
+def test_an_uncertainty_has_two_digits_and_its_value_the_same_place(value, uncertainty, text):
+    assert readable(value, "N", uncertainty=uncertainty) == text
+
+
+def test_the_ends_of_an_interval_are_distinct():
+    assert readable_interval(0.15284, 0.15311, "J/m2") == "152.84 to 153.11 mJ/m2"
+    assert readable_interval(142e-9, 161e-9, "m") == "142 to 161 nm"
+    assert readable_interval(0.246, 1.36, "J/m2") == "0.246 to 1.36 J/m2"
+    assert readable_interval(2.0, 2.0, "N") == "2 N"
+    assert readable_interval(1.0, float("inf"), "N") == "1 N to inf N"
 
 
 def test_a_deviation_has_the_prefix_of_its_mean():
@@ -138,8 +163,8 @@ def test_a_deviation_has_the_prefix_of_its_mean():
 def test_an_uncertainty_below_the_last_digit_is_omitted():
     assert readable(1e-6, "m/s", uncertainty=6e-13) == "1 um/s"
     assert readable(-1.5e-3, "N", uncertainty=0.0) == "-1.5 mN"
-    assert readable(1e-6, "m/s", uncertainty=2e-10) == "1 +- 0.0002 um/s"
-    assert readable(0.0, "N", uncertainty=1e-3) == "0 +- 0.001 N"
+    assert readable(1e-6, "m/s", uncertainty=2e-10) == "1.00000 +- 0.00020 um/s"
+    assert readable(0.0, "N", uncertainty=1e-3) == "0.0 +- 1.0 mN"
 
 
 @pytest.mark.parametrize("unit", ["N", "m", "m/s", "J/m^2", "Pa", "N/m", "m/N", "J", "s"])

@@ -51,6 +51,7 @@ _PREFIXED = (
 _NOT_ABOVE_ONE = ("s", "m", "m/s")
 # Beyond these no prefix makes a number readable.
 _SMALLEST, _LARGEST = 1e-15, 1e12
+_MOST_DIGITS = 8  # of an interval, and decimals of an uncertainty
 
 
 @lru_cache(maxsize=1)
@@ -217,7 +218,8 @@ def readable(
         Upper end of the range that `value` begins; with the same prefix, unless it is more than
         a thousand times as large; omitted if it reads the same.
     uncertainty : float, optional
-        Standard uncertainty, of which one digit is written; omitted below the last of `digits`.
+        Standard uncertainty, written with two digits, and the value to the same place; omitted
+        below the last of `digits`.
     like : float
         A larger quantity, whose prefix is taken.
 
@@ -228,13 +230,14 @@ def readable(
     >>> readable(1.7e-6, "m/s", to=213e-6)
     '1.7 to 213 um/s'
     >>> readable(0.1523, "J/m^2", uncertainty=0.0021)
-    '152.3 +- 2 mJ/m^2'
+    '152.3 +- 2.1 mJ/m^2'
     >>> readable(1e-6, "m/s", uncertainty=6e-13)
     '1 um/s'
     """
     if to is not None and 0 < 1000 * abs(value) < abs(to):
         return f"{readable(value, unit, digits=digits)} to {readable(to, unit, digits=digits)}"
-    rounded = max((float(f"{x:.{digits}g}") for x in (value, to or 0.0, like)), key=abs)
+    sizes = value, to or 0.0, like, uncertainty or 0.0
+    rounded = max((float(f"{x:.{digits}g}") for x in sizes), key=abs)
     factor, name = prefixed(rounded, "" if unit == "1" else unit)
 
     def number(x: float, digits: int) -> str:
@@ -246,5 +249,35 @@ def readable(
     if to is not None and number(to, digits) != text:
         text += f" to {number(to, digits)}"
     if uncertainty is not None and not uncertainty < 10.0**-digits * abs(value):
-        text += f" +- {number(uncertainty, 1)}"
+        text = _both_to_one_place(value / factor, uncertainty / factor)
     return f"{text} {name}".rstrip()
+
+
+def readable_interval(low: float, high: float, unit: str, *, digits: int = 3) -> str:
+    """Text of an interval, with at least two digits of its width.
+
+    Examples
+    --------
+    >>> readable_interval(0.1528, 0.15311, "J/m^2")
+    '152.8 to 153.11 mJ/m^2'
+    >>> readable_interval(142e-9, 161e-9, "m")
+    '142 to 161 nm'
+    """
+    width, size = high - low, max(abs(low), abs(high))
+    if 0 < width < size < math.inf:
+        digits = max(digits, min(2 + math.ceil(math.log10(size / width)), _MOST_DIGITS))
+    return readable(low, unit, digits=digits, to=high)
+
+
+def _both_to_one_place(value: float, uncertainty: float) -> str:
+    """Text of a value and its uncertainty, both to the second digit of the uncertainty."""
+    if not math.isfinite(value) or not 0 < uncertainty < math.inf:
+        return f"{value:.4g} +- {uncertainty:.2g}"
+    rounded = float(f"{uncertainty:.1e}")
+    decimals = 1 - math.floor(math.log10(rounded))
+    if decimals > _MOST_DIGITS or rounded >= 10.0**_MOST_DIGITS:
+        # beyond all prefixes
+        place = max(decimals + math.floor(math.log10(abs(value) or rounded)), 0)
+        return f"{value:.{place}e} +- {rounded:.1e}"
+    shown = max(decimals, 0)
+    return f"{round(value, decimals) + 0.0:.{shown}f} +- {rounded:.{shown}f}"

@@ -16,7 +16,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
 from viscotack.theory import maugis, transition
-from viscotack.units import readable
+from viscotack.units import readable, readable_interval
 
 from .contacts import MODELS, ElasticModel
 from .objective import Best, Interval, Objective, Parameter
@@ -383,8 +383,9 @@ def _words(test: SlowTest, fits: list[ModelFit], size: float, level: float) -> l
     best = fits[0]
     said = []
     w, ends = best.work_of_adhesion, best.intervals["work_of_adhesion"]
+    both = ends.low, ends.high
     said.append(
-        f"work of adhesion {readable(w, 'J/m2')} ({readable(ends.low, 'J/m2', to=ends.high)}, "
+        f"work of adhesion {readable(w, 'J/m2')} ({readable_interval(*both, 'J/m2')}, "
         f"{level:.0%}) by {best.model.upper()}"
     )
     alike = [fit.model.upper() for fit in fits[1:] if fit.criterion - best.criterion < _DIFFERENT]
