@@ -356,6 +356,10 @@ def test_an_angular_frequency_without_a_unit_is_in_radians(file):
     ("text", "words"),
     [
         ("Shear Rate,Viscosity\n1/s,Pa.s\n1,2\n2,3\n", "it is a flow curve"),
+        (
+            "Time,Strain,Rate,Stress\ns,1,1/s,Pa\n0,0,1,2\n0.1,0.1,0.9,3\n0.2,0,-1,-2\n",
+            "waves of a large amplitude",
+        ),
         ("t,Shear Rate,Stress\ns,1/s,Pa\n1,2,3\n2,3,4\n", "start-up of a steady"),
         ("t,stress\ns,Pa\n1,2\n2,3\n", "a stress over time without the strain"),
         ("t,strain\ns,-\n1,2\n2,3\n", "a strain over time without the stress"),

@@ -107,6 +107,13 @@ def cause(tables: Sequence[Columns], wanted: str, kind: str | None) -> str:
 def _nonlinear(columns: Columns) -> str:
     """Describe a table without a linear viscoelastic test; empty if unknown."""
     timed = "time" in columns or "step_time" in columns
+    # a wave of large amplitude has its rate beside strain and stress
+    waves = timed and "stress" in columns and "strain" in columns and "viscosity" not in columns
+    if waves and "shear_rate" in columns:
+        return (
+            "it is strain, stress and rate over time, such as waves of a large amplitude; the "
+            "moduli of a sweep are needed"
+        )
     flows = "shear_rate" in columns or "viscosity" in columns
     if flows:
         return "it is a flow curve or the start-up of a steady flow: a shear rate or a viscosity"
