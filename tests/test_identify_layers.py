@@ -10,11 +10,11 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from viscotack.errors import InputError, OutOfRange
-from viscotack.forecast.other_contacts import MOST_ZONE
 from viscotack.identify import PullOff, forecast_rates, identify_rates
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured
 from viscotack.theory.crack.contact import SpheresOnLayers, profile_of, profile_on
+from viscotack.theory.crack.contact.films import MOST_ZONE
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.15, 100e-9, 20e-3

@@ -6,12 +6,8 @@ energy :math:`\Delta\gamma_0/k` of a glassy edge. Both hold for forces of short 
 contact that begins at the start and only shrinks.
 
 In between, under a shape without details, the edge is a steady crack that recedes on the film
-(:mod:`viscotack.theory.crack.contact.recession`). Of 56 simulations with Lennard-Jones forces
-(`benchmarks/films.py`: thickness 0.1 to 3 beta, Tabor numbers 5 to 16, modulus ratios 0.03 and 0.1,
-Poisson ratios 0.3 to 0.5 and sliding) it applies to 29, and is within 3 % + 7 % times
-:math:`\ell a/b^2` of each; :math:`\ell` is the length of the cohesive zone and a the contact
-radius, both at pull-off. The number is limited to 0.5: on thinner films the forces reach through
-the film, and the force is smaller, down to half.
+(:mod:`viscotack.theory.crack.contact.recession`), within the limits and the error of
+:mod:`viscotack.theory.crack.contact.films`.
 """
 
 from __future__ import annotations
@@ -27,18 +23,19 @@ from viscotack.geometry import Disc, HalfSpace, Layer, detail
 from viscotack.problem import Groups
 from viscotack.theory import SteadyCrack, film
 from viscotack.theory.crack.contact import profile_on, recede
+from viscotack.theory.crack.contact.films import (
+    ERROR,
+    ERROR_BY_ZONE,
+    LEAST_RATIO,
+    MOST_ZONE,
+    outside,
+)
 from viscotack.theory.elastic import disc, relaxed
 
 from .closed_forms import Estimate
 
 # Differences from the half-space for which a thickness is stated.
 TOLERANCES = (0.1, 0.05, 0.01)
-# Error of the receding crack on a film: a constant, and a factor of l a/b^2, which is limited.
-_ERROR, ERROR_BY_ZONE, MOST_ZONE = 0.03, 0.07, 0.5
-# Smallest Tabor number over the cube root of the energy at pull-off, as simulated; smallest start
-# over the radius at pull-off, or travel of the edge in zone lengths; smallest modulus ratio.
-_LEAST_ZONES = 10.0
-_LEAST_TABOR, _LEAST_START, LEAST_RATIO = 2.9, 1.2, 0.03
 # Length of the zone of a relaxed edge [beta], times the squared Tabor number.
 _REST_ZONE = 0.75
 # Part of the fast force at which the gain is called saturated, and rates [beta^2/R per time unit]
@@ -279,40 +276,7 @@ def _outside(groups: Groups, radius: float, energy: float, edge: float) -> tuple
         zone = crack.zone_length * energy / groups.tabor**2
         through = zone * edge / groups.body.thickness**2
     why = outside(effective, radius / edge, through)
-    return why, np.inf if why else _ERROR + ERROR_BY_ZONE * through
-
-
-def outside(effective: float, start: float, through: float, zones: float = 0.0) -> str:
-    """Return why the theory of a receding crack does not hold at a pull-off, or "".
-
-    Parameters
-    ----------
-    effective : float
-        Effective Tabor number at the energy of the edge.
-    start : float
-        Contact radius of the start over that at pull-off.
-    through : float
-        Length of the cohesive zone times contact radius over the squared thickness of a film; 0 on
-        a half-space.
-    zones : float
-        Travel of the edge until pull-off in lengths of the cohesive zone, if known.
-    """
-    if effective < _LEAST_TABOR:
-        return (
-            f"the cohesive zone is too long: effective Tabor number {effective:.3g} at the energy "
-            f"of the edge, valid from {_LEAST_TABOR:g}"
-        )
-    if start < _LEAST_START and zones < _LEAST_ZONES:
-        why = f"the start is {start:.3g} times the radius at pull-off, valid from "
-        why += f"{_LEAST_START:g} times"
-        return why + (f" or {_LEAST_ZONES:g} zone lengths, not {zones:.2g}" if zones else "")
-    if through > MOST_ZONE:
-        return (
-            "the film is too thin for the range of the forces: zone length times contact radius "
-            f"is {through:.2g} times the squared thickness, valid up to {MOST_ZONE:g}; the force "
-            "is an upper limit"
-        )
-    return ""
+    return why, np.inf if why else ERROR + ERROR_BY_ZONE * through
 
 
 def _recede(groups: Groups, radius: float, rates: Array, radii: int = 160) -> tuple[Array, ...]:

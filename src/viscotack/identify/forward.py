@@ -15,7 +15,6 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.forecast.other_contacts import ERROR_BY_ZONE, LEAST_RATIO, outside
 from viscotack.geometry import HalfSpace, Layer, Sphere
 from viscotack.materials import Material
 from viscotack.methods import CrackContact, crack_contact
@@ -32,6 +31,7 @@ from viscotack.theory.crack.contact import (
     profile_of,
     recede,
 )
+from viscotack.theory.crack.contact.films import ERROR_BY_ZONE, LEAST_RATIO, outside
 from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import GentSchultz, LennardJones
 from viscotack.units import readable

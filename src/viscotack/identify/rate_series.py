@@ -18,11 +18,11 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.forecast.other_contacts import ERROR_BY_ZONE, MOST_ZONE
 from viscotack.geometry import HalfSpace, Layer
 from viscotack.materials import Material, Passport
 from viscotack.protocol import Move
-from viscotack.units import readable
+from viscotack.theory.crack.contact.films import ERROR_BY_ZONE, MOST_ZONE
+from viscotack.units import readable, readable_interval
 
 from .covariances import (
     ModelError,
@@ -712,7 +712,7 @@ def _speed(value: float) -> str:
 def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> list[str]:
     """Return a sentence on one parameter."""
     if ends.told:
-        both = readable(ends.low, unit, digits=3, to=ends.high)
+        both = readable_interval(ends.low, ends.high, unit)
         said = [f"{label} {readable(value, unit, digits=3)} ({both}, {level:.0%})"]
     elif ends.closed_below:
         low = readable(ends.low, unit, digits=3)

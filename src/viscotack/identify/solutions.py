@@ -6,7 +6,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from viscotack.arrays import Array
-from viscotack.forecast.other_contacts import MOST_ZONE
+from viscotack.theory.crack.contact.films import MOST_ZONE
 from viscotack.units import readable
 
 from .forward import Forward
