@@ -16,6 +16,7 @@ from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
 from viscotack.identify.covariances import allowed, covariance, log_forces, shift_error
 from viscotack.identify.forward import Forward
+from viscotack.identify.study import Study, answer
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, write_passport
 from viscotack.materials.conversion import slowed
@@ -126,6 +127,30 @@ def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
     for kelvin in (-1.0, 275.15):
         with pytest.raises(InputError, match="must lie between 0 and 50 K"):
             identify_rates(series, material=sure, radius=RADIUS, temperature_uncertainty=kelvin)
+
+
+def test_a_forecast_reuses_the_forces_of_the_identification(tmp_path, monkeypatch):
+    study = Study(
+        files=tuple(RIG / f"lens_{n}_um_s.csv" for n in (1, 30)),
+        material=published("pdms-10-1"),
+        radius=5.19e-3,
+        preload=1.5e-3,
+    )
+    kept, counted = tmp_path / "study.computed.npz", []
+    first = answer(study, kept)
+    pulled = Forward._all_pulled
+    monkeypatch.setattr(
+        Forward, "_all_pulled", lambda *given: counted.append(given) or pulled(*given)
+    )
+    second = answer(study, kept)
+    assert not counted
+    assert second.fit.forces == first.fit.forces and second.fit.words == first.fit.words
+    assert second.fit.intervals == first.fit.intervals
+    # another radius is another case, and a damaged file is computed anew
+    assert answer(replace(study, radius=6e-3), kept).fit.equilibrium_gap and counted
+    counted.clear()
+    kept.write_bytes(kept.read_bytes()[:-100])
+    assert answer(study, kept).fit.forces == first.fit.forces and counted
 
 
 def test_the_error_of_times_is_the_slope_of_the_shift():

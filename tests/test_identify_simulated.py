@@ -10,6 +10,7 @@ import viscotack as vt
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, pull_offs
 from viscotack.identify import simulations as simulating
+from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
 from viscotack.identify.pull_off import History
 from viscotack.identify.simulations import Simulations
@@ -167,3 +168,14 @@ def test_the_history_of_a_test_is_that_of_its_file():
     # the force has relaxed where the drive was held
     assert History(1e-6, 2e-3, 1.0).moves(1.5e-3)[1].hold == "drive"
     assert History(1e-6, 1.5e-3, 1.0).moves(1.5e-3)[1].hold == "force"
+
+
+def test_a_simulated_force_is_computed_once(monkeypatch):
+    problems = [FORWARD.problem(WORK, LENGTH / 2, PRELOAD, speed) for speed in (1e-3, 1e-2)]
+    computed = Computed()
+    with Simulations(computed) as runs:
+        first = runs.forces(problems)
+    monkeypatch.setattr(simulating, "_force", None)
+    with Simulations(computed) as runs:
+        assert np.array_equal(runs.forces(problems), first)
+        assert runs.count == 2

@@ -5,7 +5,8 @@ Lennard-Jones forces. For an interface whose strength grows with the opening spe
 (:class:`Growth`), the crack energies are interpolated from a lattice of cracks.
 """
 
-from collections.abc import Sequence
+import json
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -36,6 +37,7 @@ from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import GentSchultz, LennardJones
 from viscotack.units import readable
 
+from .computed import Computed, packaged
 from .travel import travels_of
 
 _APART = 20.0  # start of an approach, in ranges of attraction
@@ -140,12 +142,15 @@ class Forward:
         Cracks of the material for interfaces that grow.
     body : HalfSpace or Layer
         What the sphere presses; a layer of the material with its thickness in m.
+    computed : Computed, optional
+        Earlier results, for interfaces without growth.
     """
 
     material: Material
     radius: float
     lattice: GrowingCracks | None = None
     body: HalfSpace | Layer = HalfSpace()
+    computed: Computed | None = field(default=None, compare=False, repr=False)
 
     def check(
         self,
@@ -238,6 +243,44 @@ class Forward:
             Growth of the interface.
         """
         self.check(stiffness=stiffness, moves=moves, growth=growth is not None)
+
+        def compute() -> dict[str, Array]:
+            found = self._changed(work, gap, speed, preload, stiffness, moves, growth)
+            refused = np.frombuffer(json.dumps(found.refused).encode(), dtype=np.uint8)
+            return {"ratio": found.ratio, "band": found.band, "refused": refused.astype(float)}
+
+        case = ("changed", *_numbers(work, gap, speed, preload), stiffness, moves)
+        known = self._known(case, growth, compute)
+        refused = json.loads(bytes(known["refused"].astype(np.uint8)))
+        # changed in place by those who ask
+        return Changed(
+            known["ratio"].copy(), {int(i): why for i, why in refused.items()}, known["band"].copy()
+        )
+
+    def _known(
+        self, case: tuple[Any, ...], growth: Any, compute: Callable[[], Mapping[str, Array]]
+    ) -> Mapping[str, Array]:
+        """Return arrays that were computed for a case earlier, or compute them."""
+        store = self.computed
+        if store is None or growth is not None or not packaged(self.material):
+            return compute()
+        return store.of((*self._stated, self.radius, self.body, *case), compute)
+
+    @property
+    def _stated(self) -> tuple[Any, ...]:
+        """What states the cracks."""
+        return (self.material,)
+
+    def _changed(
+        self,
+        work: float,
+        gap: float,
+        speed: Array,
+        preload: Array,
+        stiffness: float | None,
+        moves: Sequence[tuple[Move, ...]],
+        growth: Growth | None,
+    ) -> "Changed":
         loads = np.broadcast_to(preload, speed.shape)
         if isinstance(self.body, Layer):
             refused = _outside_layer(self.pulled(work, gap, speed, loads))
@@ -268,7 +311,7 @@ class Forward:
 
     def beside(self, material: Material) -> "Neighbour":
         """Return a fast approximate forward model for a similar material."""
-        return Neighbour(material, self.radius, self.lattice, self.body, known=self)
+        return Neighbour(material, self.radius, self.lattice, self.body, self.computed, known=self)
 
     def edges(self, gap: Array, growth: Growth) -> Any:
         """Return one edge law per case, for its range and growth."""
@@ -300,6 +343,14 @@ class Forward:
             Growth of the interfaces.
         """
         given = (work, gap, speed, preload, *(growth or ()))
+        numbers = ("pulled", *_numbers(*given), radii)
+        known = self._known(numbers, growth, lambda: self._all_pulled(given, radii, growth))
+        return Pulled(**known)
+
+    def _all_pulled(
+        self, given: Sequence[npt.ArrayLike], radii: int, growth: Growth | None
+    ) -> dict[str, Array]:
+        """Return the fields of pull-offs by name."""
         cases = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
         shape, flat = cases[0].shape, [x.ravel() for x in cases]
         # with one edge law per case, process in batches to limit memory
@@ -309,7 +360,8 @@ class Forward:
             for i in range(0, flat[0].size, count)
         ]
         joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-        return Pulled(*(one.reshape((*shape, *one.shape[1:])) for one in joined))
+        columns = (one.reshape((*shape, *one.shape[1:])) for one in joined)
+        return dict(zip(Pulled._fields, columns, strict=True))
 
     def curve(
         self, work: float, gap: float, speed: float, preload: float, growth: Growth | None = None
@@ -380,6 +432,11 @@ class Forward:
         return profile_of(Sphere(radius=1.0)), np.asarray(start)
 
 
+def _numbers(*given: npt.ArrayLike) -> tuple[list[Any], ...]:
+    """Return arrays as lists, which have all their digits in text."""
+    return tuple(np.asarray(x, dtype=float).tolist() for x in given)
+
+
 def _outside_layer(pulled: Pulled) -> dict[int, str]:
     """Map the index of each speed at which the theory does not hold on a layer to the reason."""
     start = pulled.contact_radius / pulled.edge_radius
@@ -444,6 +501,10 @@ class Neighbour(Forward):
     """Forward model of a material similar to another one with known cracks."""
 
     known: Forward = field(kw_only=True)
+
+    @property
+    def _stated(self) -> tuple[Any, ...]:
+        return (self.material, *self.known._stated)
 
     @property
     def zone_length(self) -> float:

@@ -24,6 +24,7 @@ from viscotack.protocol import Move
 from viscotack.theory.crack.contact.films import ERROR_BY_ZONE, MOST_ZONE
 from viscotack.units import readable, readable_interval
 
+from .computed import Computed
 from .covariances import (
     ModelError,
     allowed,
@@ -210,6 +211,7 @@ def identify_rates(
     scatter: float = 0.0,
     theory: float | None = None,
     level: float = 0.9,
+    computed: Computed | None = None,
 ) -> RateSeriesFit:
     """Fit work of adhesion and range of attraction to pull-off forces at several speeds.
 
@@ -257,6 +259,8 @@ def identify_rates(
         forces have the error of their interpolation.
     level : float
         Confidence level of the intervals.
+    computed : Computed, optional
+        Forces of an earlier identification, to which new ones are added.
 
     Raises
     ------
@@ -279,7 +283,7 @@ def identify_rates(
     thin = isinstance(body, Layer)
     if theory is None:
         theory = _GROWING_THEORY if growth else _LAYER_THEORY if thin else _THEORY
-    forward = Forward(passport.material, radius, body=body)
+    forward = Forward(passport.material, radius, body=body, computed=computed)
     forward.check(stiffness=stiffness, curves=curves, growth=growth)
     if history:
         _check_history(series, curves or growth or thin)
@@ -289,7 +293,7 @@ def identify_rates(
     def data_of(some: Sequence[PullOff]) -> Data:
         return Data(some, work_of_adhesion, curves, scatter, theory)
 
-    with Simulations() as runs:
+    with Simulations(computed) as runs:
         near = _near(forward, data_of, series, uncertain, gaps, growth, history, runs)
     forward, plain, search, dropped = near.forward, near.plain, near.search, near.dropped
     if growth:

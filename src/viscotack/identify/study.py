@@ -12,6 +12,7 @@ from viscotack.materials import Material
 from viscotack.materials.library import passport_of
 from viscotack.materials.passport import Passport
 
+from .computed import Computed
 from .pull_off import pull_offs
 from .rate_series import RateSeriesFit, identify_rates
 
@@ -92,15 +93,19 @@ class Study:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """Evaluated files of a study, and the fitted interface."""
+    """Evaluated files of a study, the fitted interface, and the forces computed for it."""
 
     study: Study
     survey: Survey
     fit: RateSeriesFit
+    computed: Computed
 
 
-def answer(study: Study) -> Answer:
+def answer(study: Study, kept: Path | None = None) -> Answer:
     """Evaluate a study: read files, average pull-offs and fit the rate series.
+
+    Forces that an earlier identification computed are read from the file `kept`, and new ones are
+    written to it.
 
     Raises
     ------
@@ -115,6 +120,7 @@ def answer(study: Study) -> Answer:
         reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
         raise InputError(f"no cycle of a tack test could be read:\n  {reasons}")
     machine = [one.record.compliance for one in found.evaluations]
+    computed = Computed() if kept is None else Computed.read(kept)
     compliance = study.evaluation.get("compliance") or max(machine)
     fit = identify_rates(
         pull_offs(found.cycles),
@@ -131,8 +137,11 @@ def answer(study: Study) -> Answer:
         history=study.history,
         scatter=study.scatter,
         level=study.level,
+        computed=computed,
     )
-    return Answer(study, found, fit)
+    if kept is not None:
+        computed.write(kept)
+    return Answer(study, found, fit, computed)
 
 
 def _relative(evaluation: Mapping[str, Any], compliance: float) -> float | None:

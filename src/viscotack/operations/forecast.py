@@ -179,10 +179,11 @@ class Report(Operation):
 
 
 def _identified(study: Placed, caller: Caller) -> Any:
-    """Fit the interface to the files of a study."""
+    """Fit the interface to the files of a study, with forces from the file beside it."""
+    from viscotack.identify.computed import SUFFIX
     from viscotack.identify.study import answer
 
-    return answer(_asked(study).study(caller.also))
+    return answer(_asked(study).study(caller.also), study.path.with_suffix(SUFFIX))
 
 
 def _asked(study: Placed) -> IdentifyRates:

@@ -1,6 +1,9 @@
 """The operations ``identify ...``: fit the interface to measured curves."""
 
+import os
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
@@ -14,6 +17,8 @@ from .parts.rig import Files, Rig, refusals
 from .parts.solid import Solid, solid_of
 
 if TYPE_CHECKING:
+    from viscotack.files.whole import Target
+    from viscotack.identify.computed import Computed
     from viscotack.identify.study import Study
 
 _MODELS = ("jkr", "dmt", "maugis", "carpick")
@@ -226,7 +231,6 @@ class IdentifyRates(Operation):
         from viscotack.identify.study import answer
         from viscotack.pictures.identify import draw_posterior, draw_rate_series
 
-        from .declare.study import study_file
         from .parts.records import rates_record
 
         found = answer(self.study(caller.also))
@@ -235,7 +239,7 @@ class IdentifyRates(Operation):
             found,
             record=lambda: rates_record(fit),
             words=lambda: _rates_words(fit),
-            files={"output": study_file(self, caller.folder)},
+            files={"output": self._written(found.computed, caller)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
                 "corner": lambda: draw_posterior(
@@ -244,6 +248,20 @@ class IdentifyRates(Operation):
             },
             notes=refusals(found.survey),
         )
+
+    def _written(self, computed: "Computed", caller: Caller) -> Callable[["Target"], None]:
+        """Return a function that writes the study, and beside it the forces for a forecast."""
+        from viscotack.files.whole import is_standard_output
+        from viscotack.identify.computed import SUFFIX
+
+        from .declare.study import study_file
+
+        def write(target: "Target") -> None:
+            study_file(self, caller.folder)(target)
+            if isinstance(target, str | os.PathLike) and not is_standard_output(target):
+                computed.write(Path(target).with_suffix(SUFFIX))
+
+        return write
 
 
 def _slow_words(fit: Any) -> str:
