@@ -119,9 +119,8 @@ def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
     assert off[0] > 10 and off[1] < 3
     found, true = forecast_rates(fits[1], v), warm.pulled(WORK, GAP, v, PRELOAD).force
     assert found.low < true < found.high
-    assert "uncertainty of 2 K (stated), the times of the material one of 15.4% by it" in " ".join(
-        fits[1].words
-    )
+    words = "uncertainty of 2 K (stated), by which the times of the material change by 15.4%"
+    assert words in " ".join(fits[1].words)
     assert "the passport has no shift of times with temperature" in " ".join(fits[2].words)
     assert not any("temperature" in one for one in fits[0].words)
     for kelvin in (-1.0, 275.15):

@@ -611,7 +611,8 @@ def _temperature_words(uncertain: Uncertain, usual: bool) -> list[str]:
     known = "assumed" if usual else "stated"
     return [
         f"the temperature of the tests has a standard uncertainty of {uncertain.temperature:.2g} K "
-        f"({known}), the times of the material one of {uncertain.shift:.1%} by it"
+        f"({known}), by which the times of the material change by {uncertain.shift:.1%}; it is in "
+        "the intervals"
     ]
 
 

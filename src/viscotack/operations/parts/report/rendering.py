@@ -17,7 +17,7 @@ from viscotack.identify.speed_table import SpeedTable, jkr_work, speed_table
 from viscotack.identify.study import Answer
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.materials.passport_words import in_words
-from viscotack.units import readable
+from viscotack.units import readable, readable_interval
 from viscotack.version import __version__
 
 from ..records import cycle_row, forecast_rows, repeat_rows
@@ -113,7 +113,7 @@ def _as_reported(found: Answer, repeats: SpeedTable) -> list[tuple[str, str]]:
             ("scatter of single tests, pooled over speeds", f"{100 * repeats.scatter:.2g} %")
         )
     if repeats.exponent is not None:
-        exponent = f"{repeats.exponent.value:.3g} ± {repeats.exponent.uncertainty:.1g}"
+        exponent = _measured(repeats.exponent, "1")
         rows.append(("exponent of a power law of force by speed", exponent))
     slowest = repeats.speeds[0]
     work = jkr_work(slowest.force, found.study.radius)
@@ -221,7 +221,7 @@ def _interval(found: Answer, name: str, unit: str) -> str:
     fit = found.fit
     ends = fit.intervals[name]
     if ends.told:
-        both = _text(ends.low, unit, digits=3, to=ends.high)
+        both = _spelled(readable_interval(ends.low, ends.high, unit))
     else:
         low = _text(ends.low, unit, digits=3) if ends.closed_below else "no lower end"
         high = _text(ends.high, unit, digits=3) if ends.closed_above else "no upper end"
@@ -261,7 +261,7 @@ def _series(found: Answer) -> list[tuple[str, ...]]:
             _text(one.speed, "m/s"),
             _measured(one.force, "N"),
             _text(force, "N"),
-            f"{100 * (one.force.value / force - 1):+.2g} %",
+            f"{100 * (one.force.value / force - 1):+.2f} %",
         )
         for one, force in zip(fit.series, fit.forces, strict=True)
     ]
@@ -290,7 +290,11 @@ def _measured(one: Measured, unit: str) -> str:
 
 def _text(value: float, unit: str, **more: Any) -> str:
     """Return a quantity as a page spells it."""
-    return readable(value, unit, **more).replace(" u", " µ").replace("/m2", "/m²")
+    return _spelled(readable(value, unit, **more))
+
+
+def _spelled(text: str) -> str:
+    return text.replace(" u", " µ").replace("/m2", "/m²")
 
 
 def _drawing(figure: "Figure") -> Any:
