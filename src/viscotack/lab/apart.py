@@ -28,10 +28,11 @@ _SECONDS, _SECONDS_PER_BYTE = 60.0, 4e-6
 def limited() -> Iterator[Callable[..., Any]]:
     r"""Yield a function that calls a reader of files with limits.
 
-    It takes the reader, the paths and keyword arguments of the reader. Small text is read in this
-    process, which takes no time to start, and so are small workbooks. Other files are read in a child process, because the
-    memory that a library takes for a workbook, an archive or a binary file does not follow from the
-    size of the file. They may take 150 MB and 20 times their size, and 60 s and 4 s/MB.
+    It takes the reader, the paths and keyword arguments of the reader. Small text and
+    small workbooks are read in this process, which takes no time to start. Other files are read in
+    a child process, because the memory that a library takes for a workbook, an archive or a binary
+    file does not follow from the size of the file. They may take 150 MB and 20 times their size,
+    and 60 s and 4 s/MB.
 
     Examples
     --------

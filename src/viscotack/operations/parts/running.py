@@ -21,7 +21,7 @@ Tell = Callable[[Told], None]
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
 _PROFILES, _NODES = 60, 160
-# Processor time after which a run forecasts its own, and the smallest forecast that is reported [s].
+# Processor time after which a run forecasts its own, and the smallest forecast to report [s].
 _LOOK, _WORTH = 0.5, 5.0
 # Processor time after which a run states why it takes long [s], and the effective Tabor number, the
 # width of a punch [a0] and the number of moves that count as a reason.
