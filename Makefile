@@ -10,7 +10,8 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-outside test-processors lint types bench mutants fuzz fuzz-files farm verification clean
+.PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz fuzz-files farm \
+	verification lock sbom audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -19,10 +20,11 @@ $(VENV)/.demo: pyproject.toml
 	$(INSTALL) --editable .
 	touch $@
 
-# What tests, checks and benchmarks need beside it; compiled, for they start Python many times, and some
-# files that libraries bring for other Pythons cannot be.
+# What tests, checks and benchmarks need beside it, with LOCKED=1 in the versions and with the hashes of
+# requirements/dev.txt; compiled, for they start Python many times, and some files that libraries bring for
+# other Pythons cannot be.
 $(VENV)/.installed: $(VENV)/.demo
-	$(INSTALL) --editable ".[dev]"
+	$(INSTALL) $(if $(LOCKED),--require-hashes --requirement requirements/dev.txt,--editable ".[dev]")
 	$(BIN)/python -m compileall -qq -j 0 $(VENV)/lib || true
 	touch $@
 
@@ -42,6 +44,14 @@ test-outside: $(VENV)/.installed
 # Some minutes each; with `make test` twenty minutes at most on two quiet cores.
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 --dist worksteal -q --durations=15
+
+# The tests of `make test` with the lowest versions that pyproject.toml permits, beside which newer libraries
+# warn of what will change.
+test-lowest: requirements/lowest.txt
+	$(PYTHON) -m venv --clear .venv-lowest
+	.venv-lowest/bin/python -m pip install --quiet --requirement $<
+	.venv-lowest/bin/python -m pip install --quiet --no-deps --editable .
+	.venv-lowest/bin/python -m pytest -m "not slow and not outside" -n 2 -q -W ignore::DeprecationWarning
 
 test-processors: $(VENV)/.installed
 	PYTHON=$(BIN)/python .ci/processors
@@ -85,6 +95,25 @@ HOURS ?= 1
 farm: $(VENV)/.installed
 	$(BIN)/python benchmarks/farm.py --hours $(HOURS) --seed $(SEED) $(if $(SHORT),--short)
 
+# Newest versions with hashes, for development and CI, and the lowest ones, for every system.
+COMPILE = $(BIN)/uv pip compile pyproject.toml --quiet --extra dev --universal --python-version 3.11 \
+	--no-annotate --custom-compile-command "make lock"
+lock: $(VENV)/.demo
+	$(INSTALL) "uv>=0.4"
+	$(COMPILE) --upgrade --generate-hashes --output-file requirements/dev.txt
+	$(COMPILE) --upgrade --resolution lowest-direct --output-file requirements/lowest.txt
+
+# The bill of materials (CycloneDX) of what is installed, and known vulnerabilities of what is locked, which
+# needs a network.
+sbom: $(VENV)/.installed
+	$(INSTALL) "cyclonedx-bom>=4.4"
+	mkdir -p out
+	$(BIN)/cyclonedx-py environment --pyproject pyproject.toml --output-file out/sbom.json $(BIN)/python
+
+audit: $(VENV)/.installed
+	$(INSTALL) "pip-audit>=2.7"
+	$(BIN)/pip-audit --disable-pip --no-deps --require-hashes --requirement requirements/dev.txt
+
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py
 
@@ -92,4 +121,4 @@ verification: $(VENV)/.installed
 	$(BIN)/python benchmarks/verification.py --write
 
 clean:
-	rm -rf $(VENV) build dist out
+	rm -rf $(VENV) .venv-lowest build dist out

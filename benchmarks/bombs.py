@@ -22,12 +22,14 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 
 _INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
+_PART = "xl/worksheets/sheet1.xml"
 MOST_MEMORY, MOST_TIME = 300e6, 5.0
 _TESTS = Path(__file__).parents[1] / "tests"
 
@@ -86,7 +88,7 @@ def _book(rows: str = "", parts: dict[str, str] | None = None) -> Callable[[Path
     def write(path: Path) -> None:
         from test_bounded_files import BOOK, HEAD, TAIL
 
-        sheet = {"xl/worksheets/sheet1.xml": HEAD + rows + TAIL}
+        sheet = {_PART: HEAD + rows + TAIL}
         found = BOOK | sheet | (parts or {})
         _zip(path, {name: content.encode() for name, content in found.items()})
 
@@ -242,6 +244,29 @@ def _long_cell(path: Path) -> None:
     _book(f'<row><c t="inlineStr"><is><t>{text}</t></is></c></row>')(path)
 
 
+def _elsewhere(path: Path) -> None:
+    from test_bounded_files import BOOK, HEAD, TAIL
+
+    sheet = f'{HEAD}<row r="1048576"><c r="XFD1048576"><v>1</v></c></row>{TAIL}'
+    parts = {name: text.replace("worksheets/sheet1", "theme/a") for name, text in BOOK.items()}
+    _zip(path, {name: text.encode() for name, text in (parts | {"xl/theme/a.xml": sheet}).items()})
+
+
+def _lying(path: Path) -> None:
+    # a part states 100 bytes, and the checksum of these; it unpacks to 50 MB
+    from test_bounded_files import BOOK, HEAD
+
+    start = HEAD.encode().ljust(100)
+    _zip(path, {n: t.encode() for n, t in BOOK.items()} | {_PART: start + b" " * 50_000_000})
+    content = bytearray(path.read_bytes())
+    stated = struct.pack("<I", zlib.crc32(start))
+    for mark, at in ((b"PK\x03\x04", 14), (b"PK\x01\x02", 16)):
+        place = content.rindex(mark)
+        content[place + at : place + at + 4] = stated
+        content[place + at + 8 : place + at + 12] = struct.pack("<I", 100)
+    path.write_bytes(content)
+
+
 def _filled(path: Path) -> None:
     _book(("<row>" + "<c><v>1</v></c>" * 100 + "</row>") * 49_000)(path)
 
@@ -284,6 +309,9 @@ BOMBS = [
     Bomb("a folder", lambda path: path.mkdir(), ANY),
     Bomb("a hole.csv", _hole, ANY),
     Bomb("far cell.xlsx", _book('<row r="1048576"><c r="XFD1048576"><v>1</v></c></row>'), BOTH),
+    Bomb("sparse.xlsx", _book('<row r="200000"><c r="Y200000"><v>1</v></c></row>'), BOTH),
+    Bomb("far cell elsewhere.xlsx", _elsewhere, BOTH),
+    Bomb("wrong size.xlsx", _lying, BOTH),
     Bomb("long cell.xlsx", _long_cell, BOTH),
     Bomb("filled.xlsx", _filled, BOTH),
     Bomb("shared texts.xlsx", _shared, BOTH),

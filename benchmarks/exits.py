@@ -11,29 +11,61 @@ import argparse
 import multiprocessing
 import os
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from pathlib import Path
 
-# Commands and their exit statuses.
+# Commands and their exit statuses; {run} numbers the runs of a command.
 VERIFY = "campaign verify c"
+GROUPS = "--tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 50 --rate 100"
+CRACK = "--modulus-ratio 0.1 --exponent 0.6 --speed 1"
+JKR = "--radius 1mm --contact-modulus 1MPa --work-of-adhesion 50mJ/m^2"
+LENS = "lens_1_um_s.csv lens_1000_um_s.csv"
 COMMANDS = {
     VERIFY: 0,
     "campaign status c": 0,
     "campaign export c --csv -": 0,
     "campaign plan plan.toml": 0,
+    "campaign inputs lens.toml": 0,
+    "campaign merge c --out merged-{run}": 0,
+    "campaign merge c --out c": 2,
     "campaign run plan.toml --out c": 0,
-    "predict sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 1 --rate 10": 0,
-    "simulate sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 1 --rate 10"
-    " --accuracy 0.02 --until pull-off": 0,
+    "campaign run plan.toml --out new-{run}": 0,
+    f"predict sphere {GROUPS}": 0,
+    f"simulate sphere {GROUPS} --accuracy 0.02 --save lens.npz": 0,
+    f"simulate sphere {GROUPS} --time-limit 1us": 2,
     "simulate sphere --tabor -1": 2,
-    "theory maugis --tabor 1": 0,
+    "show lens.npz": 0,
+    "show missing.npz": 2,
+    "edge-energy lens.npz": 0,
+    f"advise {GROUPS}": 0,
+    "sweep lens.toml cases.csv --accuracy 0.02": 0,
+    "study predict.toml": 0,
+    "schema": 0,
     "material list": 0,
     "material show pdms-10-1": 0,
-    "show missing.npz": 2,
-    "schema": 0,
+    "material convert pdms-10-1 --temperature 0degC": 0,
+    "material export pdms-10-1 --to abaqus --bulk-modulus 2GPa": 0,
+    "material fit pdms_dma.csv --poisson-ratio 0.5 --model sls --reference-temperature 20degC"
+    " --glass-transition=-115degC": 0,
+    "test read lens_1_um_s.csv": 0,
+    "theory crack-contact --tabor 1e4 --modulus-ratio 0.1 --exponent 0.6 --preload 2e5"
+    " --rate 1e3": 0,
+    f"theory disc {JKR} --strength 50kPa": 0,
+    f"theory greenwood {CRACK}": 0,
+    f"theory jkr {JKR}": 0,
+    "theory maugis --tabor 1": 0,
+    f"theory persson-brener {CRACK}": 0,
+    "theory punch pad.toml --stress 60kPa": 0,
+    f"theory steady-crack {CRACK}": 0,
+    "identify slow lens_slow.csv --radius 5.19mm --model jkr": 0,
+    "window window.toml": 0,
+    f"identify rates {LENS} --material pdms-10-1 --radius 5.19mm -o study.toml": 0,
+    "forecast study.toml --speed 10um/s": 0,
+    "report study.toml --speed 10um/s -o report.html": 0,
 }
 PLAN = """[[grid]]
 tabor = 1.0
@@ -42,6 +74,28 @@ exponent = [0.4, 0.8]
 preload = 5.0
 rate = [1.0, 10.0]
 """
+WINDOW = {"1 um/s..10 mm/s": "10 um/s", '["200 uN", "1 mN", "5 mN"]': '"1 mN"'}
+
+
+def prepare(folder: Path) -> None:
+    """Write the files of the commands, those of the examples with less to compute."""
+    examples = Path(__file__).parents[1] / "examples"
+    for file in (*examples.glob("from_*/*.csv"), *examples.glob("from_toml/*.toml")):
+        shutil.copy(file, folder)
+    window = (examples / "window/kinetic_stamp.toml").read_text(encoding="utf-8")
+    for long, short in WINDOW.items():
+        window = window.replace(long, short)
+    study = (examples / "studies/predict.toml").read_text(encoding="utf-8")
+    texts = {
+        "plan.toml": PLAN,
+        "window.toml": window,
+        "predict.toml": study.replace("../from_toml/", ""),
+        "cases.csv": "protocol.speed\n0.0001\n",
+    }
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    run = [sys.executable, "-m", "viscotack", "campaign", "run", "plan.toml", "--out", "c"]
+    subprocess.run(run, cwd=folder, check=True, capture_output=True)
 
 
 def busy() -> None:
@@ -54,9 +108,10 @@ def statuses(command: str, runs: int, folder: Path) -> tuple[Counter[int], str]:
     """Run a command, and count its exit statuses; return the last words of a wrong one, too."""
     found: Counter[int] = Counter()
     said = ""
-    for _ in range(runs):
+    for number in range(runs):
+        words = shlex.split(command.format(run=number))
         told = subprocess.run(
-            [sys.executable, "-m", "viscotack", *shlex.split(command)],
+            [sys.executable, "-m", "viscotack", *words],
             cwd=folder,
             capture_output=True,
             text=True,
@@ -77,9 +132,7 @@ def main() -> int:
     wrong = 0
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        (folder / "plan.toml").write_text(PLAN, encoding="utf-8")
-        run = [sys.executable, "-m", "viscotack", "campaign", "run", "plan.toml", "--out"]
-        subprocess.run([*run, "c"], cwd=folder, check=True, capture_output=True)
+        prepare(folder)
         for process in load:
             process.start()
         for command, status in COMMANDS.items():

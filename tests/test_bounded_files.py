@@ -205,6 +205,39 @@ def test_small_text_is_read_in_this_process_and_other_files_in_a_child(tmp_path)
     assert found["c.xlsx"] == found["d.csv"] != here
 
 
+@pytest.mark.parametrize(
+    ("size", "parts", "compression", "is_small"),
+    [
+        (10_000, {}, zipfile.ZIP_DEFLATED, True),
+        (60_000, {}, zipfile.ZIP_DEFLATED, False),
+        (10_000, {"xl/a.xml": "x" * 1_000_000}, zipfile.ZIP_DEFLATED, False),
+        # these parts are not scanned, and a workbook may name them as sheets
+        (10_000, {"xl/worksheets/a.bin": "x"}, zipfile.ZIP_DEFLATED, False),
+        # these unpack to more than 1,032 times their size
+        (10_000, {}, zipfile.ZIP_LZMA, False),
+    ],
+)
+def test_a_small_workbook_is_read_in_this_process(size, parts, compression, is_small, tmp_path):
+    file = tmp_path / "a.xlsx"
+    with zipfile.ZipFile(file, "w", compression) as archive:
+        for name, content in (BOOK | parts).items():
+            archive.writestr(name, content)
+        archive.writestr("xl/stored.xml", "x" * size, zipfile.ZIP_STORED)
+    with limited() as call:
+        assert (call(process_of, file)[0] == os.getpid()) == is_small
+
+
+@pytest.mark.parametrize("part", ["xl/other/sheet1.xml", "xl/theme/theme1.xml"])
+def test_a_far_cell_is_refused_in_every_part(part, tmp_path):
+    file = tmp_path / "a.xlsx"
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in BOOK.items():
+            archive.writestr(name, content.replace("worksheets/sheet1.xml", part[3:]))
+        archive.writestr(part, HEAD + cell("XFD1048576") + TAIL)
+    with pytest.raises(InputError, match="a sheet has 1048576 rows"):
+        sheets(load(file))
+
+
 def test_a_reader_that_exceeds_its_limits_is_ended_and_the_next_file_is_read(tmp_path, monkeypatch):
     said = {
         "fill": "reading takes more than 150 MB of memory",

@@ -3,7 +3,9 @@
 import io
 import json
 import re
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -11,13 +13,14 @@ from command_line import exit_status
 from viscotack.bem import SimulationError, clock, solver
 from viscotack.errors import InputError
 from viscotack.materials import StandardSolid
-from viscotack.methods import solve
+from viscotack.methods import cost, solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell
 from viscotack.result import Outcome, load
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
+EXAMPLES = Path(__file__).parents[1] / "examples"
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
 
 
@@ -100,6 +103,52 @@ def test_a_limit_that_is_not_met_changes_nothing():
     assert solve(SPHERE, time_limit=600).status == solve(SPHERE).status
 
 
+def test_of_two_limits_the_one_that_ends_first_counts(monkeypatch, hand):
+    for outer, inner in ((1.0, 5.0), (5.0, 1.0), (1.0, None)):
+        with clock.limited(outer):
+            with clock.limited(inner):
+                hand.now += 0.9
+                clock.look()
+                hand.now += 0.2
+                with pytest.raises(clock.TimeUp, match="limit of 1 s"):
+                    clock.look()
+            assert (clock.met() is None) == (outer == 5.0)
+        assert clock.met() is None
+
+
+FILES = ["lens_1_um_s.csv", "lens_1000_um_s.csv"]
+LIMITED = {
+    "predict": ["sphere", *"--tabor 3 --modulus-ratio 0.1 --preload 5 --rate 10".split()]
+    + "--exponent 0.8 --exact".split(),
+    "identify rates": [*FILES, "--material", "pdms-10-1", "--radius", "5.19mm", "--history"],
+    "forecast": ["study.toml"],
+    "report": ["study.toml", "-o", "report.html"],
+    "sweep": ["lens.toml", "cases.csv", "--csv", "-"],
+}
+
+
+_FITTED = ("identify rates", "forecast", "report")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [pytest.param(one, marks=[pytest.mark.slow] if one in _FITTED else []) for one in LIMITED],
+)
+def test_every_command_that_simulates_ends_in_time(command, monkeypatch, tmp_path, capsys, hand):
+    for file in (*EXAMPLES.glob("from_*/lens*"), EXAMPLES / "from_toml/lens.toml"):
+        shutil.copy(file, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cases.csv").write_text("protocol.speed\n1e-4\n")
+    (tmp_path / "study.toml").write_text(
+        f'operation = "identify rates"\nfiles = {FILES}\nmaterial = "pdms-10-1"\n'
+        'radius = "5.19 mm"\nhistory = true\n'
+    )
+    slow(monkeypatch, hand, 1.0)
+    status = exit_status([*command.split(), *LIMITED[command], "--time-limit", "2 s"])
+    said = "".join(capsys.readouterr())
+    assert status in (2, 4) and "time limit of 2 s was met" in said
+
+
 def test_no_time_for_the_start_is_refused_in_words():
     with pytest.raises(InputError, match="limit of 1e-09 s was met before the relaxed start"):
         solve(SPHERE, time_limit=1e-9)
@@ -180,6 +229,7 @@ def test_a_simulation_that_takes_long_says_why_and_what_is_cheaper_once(
     from viscotack import methods
     from viscotack.operations.parts import running
 
+    monkeypatch.setattr(cost, "processor_time", lambda *_, **__: None)
     clocks = iter([0.0, *(5.0 * i for i in range(1, 100))])
     monkeypatch.setattr(running, "process_time", lambda: next(clocks))
     monkeypatch.setattr(running, "_EVERY", 0.0)
@@ -194,3 +244,74 @@ def test_a_simulation_that_takes_long_says_why_and_what_is_cheaper_once(
     said = capsys.readouterr().err
     assert said.count("30 s of processor time so far") == 1
     assert re.search(words, said), said
+
+
+@pytest.fixture
+def processor(monkeypatch):
+    """Return the clock that forecasts are read on."""
+    made = Clock()
+    monkeypatch.setattr(cost, "process_time", made)
+    return made
+
+
+def test_a_forecast_scales_with_its_coarse_run_and_with_accuracy(monkeypatch, processor):
+    run, settings = cost.solve, []
+
+    def coarse(problem, **options):
+        settings.append(options["settings"].accuracy)
+        processor.now += 0.5
+        return run(problem, **options)
+
+    monkeypatch.setattr(cost, "solve", coarse)
+    rough, default, fine = (
+        cost.processor_time(SPHERE, accuracy=accuracy) for accuracy in (0.02, 2e-3, 2e-4)
+    )
+    assert settings == [pytest.approx(0.08)] * 3
+    # more nodes, and more steps
+    assert rough * 10**0.25 < default < 0.5 * fine
+    assert default == pytest.approx(0.5 * 0.62 * 150**0.36, rel=0.2)
+
+
+def test_a_coarse_run_ends_in_its_time_and_counts_by_its_share(monkeypatch, processor):
+    def slow(share):
+        def run(problem, *, progress, **options):
+            processor.now += 2.0
+            progress(share)
+
+        return run
+
+    found = []
+    for share in (0.01, 0.05, 0.5):
+        monkeypatch.setattr(cost, "solve", slow(share))
+        found.append(cost.processor_time(SPHERE))
+    assert found[0] == found[1] > found[2] > 2.0
+
+
+def test_what_is_not_simulated_has_no_forecast():
+    for groups in (replace(SPHERE, tabor=1e4), replace(SPHERE, start=AtDepth(-50.0))):
+        assert cost.processor_time(groups) is None
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(38.0, "about 40 s of processor time expected"), (2.0, ""), (None, "")],
+)
+def test_a_simulation_tells_a_long_time_expected_and_has_the_same_numbers(
+    seconds, words, monkeypatch
+):
+    from viscotack.operations.parts import running
+
+    def forecast(problem, **options):
+        assert options == {"accuracy": 0.02, "until": "pull-off"}
+        solve(problem, **options)
+        return seconds
+
+    monkeypatch.setattr(running, "_EVERY", 0.0)
+    monkeypatch.setattr(running, "_LOOK", -1.0)
+    monkeypatch.setattr(cost, "processor_time", forecast)
+    told = []
+    options = {"accuracy": 0.02, "until": "pull-off"}
+    result = running.run(SPHERE, told.append, points=False, profiles=False, **options)
+    said = [each["notice"] for each in told if "notice" in each]
+    assert [each.partition(",")[0] for each in said] == [words] * bool(words)
+    assert result.force.tolist() == solve(SPHERE, **options).force.tolist()

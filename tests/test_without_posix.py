@@ -10,24 +10,36 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+from httpx import Client
+
+from app_server import running
+
 HERE = Path(__file__).parent
 PLAN = """
+[settings]
+accuracy = 0.02
 [[grid]]
 tabor = 1.0
 modulus_ratio = 0.1
 exponent = [0.4, 0.8]
 preload = 5.0
-rate = [1.0, 10.0, 100.0]
+rate = {{ log = [1.0, 100.0], count = {} }}
 """
+
+
+def environment():
+    """Return the environment of a Python without the names of POSIX."""
+    paths = [str(HERE / "without_posix"), *filter(None, [os.environ.get("PYTHONPATH")])]
+    return os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
 
 
 def bare(program, folder):
     """Run a program, or a command of viscotack, without the names of POSIX."""
-    paths = [str(HERE / "without_posix"), *filter(None, [os.environ.get("PYTHONPATH")])]
     return subprocess.run(
         [sys.executable, *program],
         cwd=folder,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
+        env=environment(),
         capture_output=True,
         text=True,
         timeout=300,
@@ -56,16 +68,34 @@ print(s.lock(handle))
     assert told.stdout == "True\n", told.stderr
 
 
-def test_a_campaign_runs_and_goes_on(tmp_path):
-    (tmp_path / "plan.toml").write_text(PLAN, encoding="utf-8")
+@pytest.mark.parametrize("cases", [6, pytest.param(50, marks=pytest.mark.slow)])
+def test_a_campaign_runs_and_goes_on(cases, tmp_path):
+    (tmp_path / "plan.toml").write_text(PLAN.format(cases // 2), encoding="utf-8")
     command = ["-m", "viscotack", "campaign", "run", "plan.toml", "--out", "c", "--workers", "2"]
     told = bare(command, tmp_path)
     assert told.returncode == 0, told.stderr
     told = bare(["-m", "viscotack", "campaign", "status", "c", "--json"], tmp_path)
     assert told.returncode == 0, told.stderr
-    assert json.loads(told.stdout)["done"] == 6
+    assert json.loads(told.stdout)["done"] == cases
     told = bare(["-m", "viscotack", "campaign", "verify", "c"], tmp_path)
     assert told.returncode == 0, told.stderr
+
+
+def test_the_page_answers_and_simulates():
+    sphere = {"tabor": 1.0, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 5.0, "rate": 10.0}
+    asked = {"problem": {"indenter": "sphere"} | sphere}
+    with (
+        running(environment=environment()) as (link, _),
+        Client(base_url=link, timeout=120) as client,
+    ):
+        assert "<html" in client.get("/").text
+        found = client.post("/api/predict", json=asked).json()
+        simulation = asked | {"accuracy": 0.02, "until": "pull-off"}
+        job = client.post("/api/jobs/simulate", json=simulation).json()
+        while not job["state"] == "done":
+            assert job["state"] in ("queued", "running"), job["error"]
+            job = client.get(f"/api/jobs/{job['id']}?wait=5").json()
+    assert job["answer"]["pull_off_force"] == pytest.approx(found["pull_off_force"], rel=0.05)
 
 
 def test_two_runs_do_not_share_a_folder(tmp_path):

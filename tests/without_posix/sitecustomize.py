@@ -31,7 +31,10 @@ def _import(name, globals=None, locals=None, fromlist=(), level=0):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
     if asker == "viscotack.system" and name == "msvcrt":
         return types.SimpleNamespace(locking=_locking, LK_NBLCK=2)
-    return _IMPORT(name, globals, locals, fromlist, level)
+    found = _IMPORT(name, globals, locals, fromlist, level)
+    if asker == "viscotack.system" and name == "psutil":
+        found.BELOW_NORMAL_PRIORITY_CLASS = 10  # of Windows; here a nice value
+    return found
 
 
 class _Windows:

@@ -23,6 +23,8 @@ class TimeUp(Exception):
 def limited(seconds: float | None) -> Iterator[None]:
     """Let what is within take so long; None for as long as it takes.
 
+    Of limits within each other, the one that ends first counts.
+
     Examples
     --------
     >>> with limited(1e-9):
@@ -31,7 +33,7 @@ def limited(seconds: float | None) -> Iterator[None]:
     viscotack.bem.clock.TimeUp: the time limit of 1e-09 s was met
     """
     given = inf if seconds is None else seconds
-    before = _END.set((perf_counter() + given, given))
+    before = _END.set(min(_END.get(), (perf_counter() + given, given)))
     try:
         yield
     finally:

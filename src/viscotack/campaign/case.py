@@ -69,7 +69,7 @@ class CaseSettings:
     until: str = "pull-off"
     time_limit: Annotated[
         float,
-        Quantity("s", "t", "longest time of a case", above=0, example="10 min"),
+        Quantity("s", "t", "longest wall time of a case", above=0, example="10 min"),
     ] = 600.0
     memory_limit: Annotated[
         float,

@@ -68,6 +68,7 @@ class Simulations:
                 handed += 1
             for number, event in pool.collect(1.0):
                 found[number] = event.what if event.kind == "answer" else np.nan
+            _in_time()
         return [found[i] for i in range(len(problems))]
 
 
@@ -88,4 +89,13 @@ def _force(problem: Problem) -> float:
     with suppress(InputError, SimulationError):
         found = solve(problem, until="pull-off", accuracy=ACCURACY, estimate_error=False)
         return pull_off_force(found) * problem.scales().force
+    _in_time()
     return np.nan
+
+
+def _in_time() -> None:
+    """Refuse to go on where the time limit of the caller has been met."""
+    from viscotack.bem.clock import met
+
+    if limit := met():
+        raise InputError(f"{limit} while tests were simulated; give more time")

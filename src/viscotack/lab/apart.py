@@ -1,13 +1,16 @@
 """Files of instruments read in a child process with limits, unless they are small text."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile, ZipFile
 
 from viscotack.files.bounded import open_regular
 from viscotack.pool.apart import Apart, Exceeded
+
+from .workbook_bounds import is_small
 
 AnyPath = str | PathLike[str]
 Reader = Callable[..., Any]
@@ -25,10 +28,11 @@ _SECONDS, _SECONDS_PER_BYTE = 60.0, 4e-6
 def limited() -> Iterator[Callable[..., Any]]:
     r"""Yield a function that calls a reader of files with limits.
 
-    It takes the reader, the paths and keyword arguments of the reader. Small text is read in this
-    process, which takes no time to start. Other files are read in a child process, because the
-    memory that a library takes for a workbook, an archive or a binary file does not follow from the
-    size of the file. They may take 150 MB and 20 times their size, and 60 s and 4 s/MB.
+    It takes the reader, the paths and keyword arguments of the reader. Small text and
+    small workbooks are read in this process, which takes no time to start. Other files are read in
+    a child process, because the memory that a library takes for a workbook, an archive or a binary
+    file does not follow from the size of the file. They may take 150 MB and 20 times their size,
+    and 60 s and 4 s/MB.
 
     Examples
     --------
@@ -47,7 +51,7 @@ def limited() -> Iterator[Callable[..., Any]]:
             files = [paths] if isinstance(paths, str | PathLike) else list(paths)
             size = sum(Path(file).stat().st_size for file in files)
             # afmformats reads some text, too
-            if size <= SMALL and more.get("format") != "afmformats" and all(map(_is_text, files)):
+            if size <= SMALL and more.get("format") != "afmformats" and all(map(_is_safe, files)):
                 return read(paths, **more)
             limits = {
                 "seconds": _SECONDS + _SECONDS_PER_BYTE * size,
@@ -61,8 +65,12 @@ def limited() -> Iterator[Callable[..., Any]]:
         yield call
 
 
-def _is_text(file: AnyPath) -> bool:
-    """Whether the first bytes of a file are text, which no library reads."""
+def _is_safe(file: AnyPath) -> bool:
+    """Whether a file is text by its first bytes, which no library reads, or a small workbook."""
     with open_regular(file) as stream:
         first = stream.read(_LOOKED)
-    return first.startswith(_MARKS) or b"\0" not in first
+        if first.startswith(_MARKS) or b"\0" not in first:
+            return True
+        with suppress(BadZipFile), ZipFile(stream) as archive:
+            return is_small(archive, Path(file).stat().st_size)
+    return False

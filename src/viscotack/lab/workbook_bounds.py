@@ -18,6 +18,9 @@ MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
 _LONGEST_TEXT, _MOST_TEXT, _ELEMENT = 40_000, 30_000_000, 16
 # Read at once, and most between two elements [bytes].
 _CHUNK, _LONGEST_ELEMENT = 1 << 16, 1 << 20
+# A small workbook, packed and unpacked [bytes].
+_SMALL, _SMALL_UNPACKED = 50_000, 1_000_000
+_SCANNED = (".xml", ".rels")
 _SHEET = "xl/worksheets/"
 _PLACE = re.compile(r"([A-Z]{1,7})([0-9]{1,9})")
 
@@ -30,8 +33,24 @@ def has_formulas(archive: zipfile.ZipFile) -> bool:
     InputError
         If a sheet or a text is larger than is read, or a part declares a document type.
     """
-    parts = [part for part in archive.namelist() if part.endswith((".xml", ".rels"))]
+    parts = [part for part in archive.namelist() if part.endswith(_SCANNED)]
     return any([_scan(archive, part).formulas for part in parts])
+
+
+def is_small(archive: zipfile.ZipFile, size: int) -> bool:
+    """Whether a workbook of this size [bytes] takes less than 100 MB, whatever is in it.
+
+    Its texts and elements are few, its cells bounded by :func:`has_formulas` in all of its parts,
+    and packed bytes grow by at most 1,032 times, also where their stated size is wrong.
+    """
+    parts = archive.infolist()
+    return (
+        size <= _SMALL
+        and "xl/workbook.xml" in archive.namelist()
+        and sum(part.file_size for part in parts) <= _SMALL_UNPACKED
+        and all(part.filename.endswith(_SCANNED) for part in parts)
+        and all(part.compress_type in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) for part in parts)
+    )
 
 
 def check_size(rows: int, columns: int) -> None:
@@ -54,8 +73,7 @@ class _Scan:
         tag, place = name.rpartition(":")[2], attributes.get("r", "")
         self._text = 0
         self._count(_ELEMENT + len(name) + sum(map(len, attributes.values())))
-        if not self.is_sheet:
-            return
+        # in every part, because a workbook can name any part as a sheet
         if tag == "row":
             self._rows, self._column = int(place) if place.isdigit() else self._rows + 1, 0
         elif tag == "c":
@@ -64,7 +82,7 @@ class _Scan:
             self._rows = max(self._rows, int(found[2])) if found else self._rows
             self._columns = max(self._columns, self._column)
         elif tag == "f":
-            self.formulas = True
+            self.formulas |= self.is_sheet
         check_size(self._rows, self._columns)
 
     def text(self, words: str) -> None:

@@ -80,8 +80,8 @@ def solve(
         dimensionless as in a result; for example to draw the curve. An exception that it raises
         ends the run and is propagated.
     time_limit : float, optional
-        Longest time [s] for both simulations. A run that reaches it stops; the result contains the
-        steps so far, and its status gives the reason.
+        Longest wall time [s] of both simulations. A run that reaches it stops; the result contains
+        the steps so far, and its status gives the reason.
 
     Returns
     -------

@@ -166,7 +166,9 @@ class Settings(Part):
     ] = None
     time_limit: Annotated[
         float | None,
-        Number('Time limit per case, "10 min"; replaces the plan\'s.', unit="s", metavar="TIME"),
+        Number(
+            'Longest wall time of a case, "10 min"; replaces the plan\'s.', unit="s", metavar="TIME"
+        ),
     ] = None
     memory_limit: Annotated[
         float | None,

@@ -15,6 +15,7 @@ from .declare.study import read_study
 from .identify import IdentifyRates
 from .parts.records import forecast_rows
 from .parts.rig import refusals
+from .simulate import HowLong
 
 _MOST = 50  # speeds between two ends
 
@@ -125,6 +126,7 @@ class Forecast(Operation):
 
     study: StudyFile
     wish: Wish = field(default_factory=Wish)
+    time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the series of the study and forecast from it."""
@@ -132,8 +134,7 @@ class Forecast(Operation):
 
         from .parts.tables import rows_as_csv
 
-        found = _identified(self.study, caller)
-        forecast = self.wish.of(found.fit)
+        found, forecast = _forecast(self, caller)
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
@@ -161,14 +162,14 @@ class Report(Operation):
 
     study: StudyFile
     wish: Wish = field(default_factory=Wish)
+    time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
         """Fit, forecast and render the page."""
         from .parts.report import page
         from .parts.tables import as_text
 
-        found = _identified(self.study, caller)
-        forecast = self.wish.of(found.fit)
+        found, forecast = _forecast(self, caller)
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
@@ -178,12 +179,19 @@ class Report(Operation):
         )
 
 
-def _identified(study: Placed, caller: Caller) -> Any:
-    """Fit the interface to the files of a study, with forces from the file beside it."""
+def _forecast(asked: Forecast | Report, caller: Caller) -> tuple[Any, Any]:
+    """Fit the interface to the files of a study; return it and the forecast.
+
+    Forces are those of the file beside the study, where it has them.
+    """
+    from viscotack.bem.clock import limited
     from viscotack.identify.computed import SUFFIX
     from viscotack.identify.study import answer
 
-    return answer(_asked(study).study(caller.also), study.path.with_suffix(SUFFIX))
+    with limited(asked.time_limit):
+        computed = asked.study.path.with_suffix(SUFFIX)
+        found = answer(_asked(asked.study).study(caller.also), computed)
+        return found, asked.wish.of(found.fit)
 
 
 def _asked(study: Placed) -> IdentifyRates:

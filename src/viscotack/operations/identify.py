@@ -15,6 +15,7 @@ from .declare.options import Operation
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.rig import Files, Rig, refusals
 from .parts.solid import Solid, solid_of
+from .simulate import HowLong
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
@@ -194,6 +195,7 @@ class IdentifyRates(Operation):
         ),
     ] = 0.0
     level: Level = 0.9
+    time_limit: HowLong = None
     title: Annotated[str, Text("Title of the report.", metavar="WORDS")] = ""
     notes: Annotated[str, Text("Notes for the report.", metavar="WORDS")] = ""
     rig: Rig = field(default_factory=Rig)
@@ -227,13 +229,15 @@ class IdentifyRates(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the interface to the rate series."""
+        from viscotack.bem.clock import limited
         from viscotack.identify import posterior
         from viscotack.identify.study import answer
         from viscotack.pictures.identify import draw_posterior, draw_rate_series
 
         from .parts.records import rates_record
 
-        found = answer(self.study(caller.also))
+        with limited(self.time_limit):
+            found = answer(self.study(caller.also))
         fit = found.fit
         return Answer(
             found,

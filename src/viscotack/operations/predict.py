@@ -13,6 +13,7 @@ from .declare.answer import Answer, Caller, csv_file, picture
 from .declare.cards import File, Number, Switch
 from .declare.options import Operation
 from .declare.statement import Stated, Statement
+from .simulate import HowLong
 
 if TYPE_CHECKING:
     from viscotack.forecast import Advice, Prediction
@@ -99,8 +100,9 @@ class Predict(Operation):
             metavar="SECONDS",
         ),
     ] = None
-    exact: Annotated[bool, Switch("Simulate without a time limit.")] = False
+    exact: Annotated[bool, Switch("Simulate, however long it takes.")] = False
     compare: Annotated[bool, Switch("Also simulate, and show the error of the prediction.")] = False
+    time_limit: HowLong = None
 
     def __post_init__(self) -> None:
         if (self.problem is None) == (self.cases is None):
@@ -111,6 +113,7 @@ class Predict(Operation):
         """Predict with the best tier within the time budget."""
         if self.cases is not None:
             return self._of_table(self.cases, caller)
+        from viscotack.bem.clock import limited
         from viscotack.forecast import predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON
@@ -121,19 +124,20 @@ class Predict(Operation):
             raise InputError(
                 "--csv is for a table CASES.csv; --curve writes the curve; leave out --csv"
             )
-        found = predict(
-            self.problem.problem,
-            shift_deviation=self.problem.deviation,
-            confidence=self.confidence,
-            budget=SOON if self.budget is None else self.budget,
-            exact=self.exact,
-        )
-        if found.curve is None and caller.wants & {"curve", "plot"}:
-            raise InputError(
-                f"{found.why}. The tier {found.method!r} gives no curve; leave out --curve and "
-                "--plot, or simulate"
+        with limited(self.time_limit):
+            found = predict(
+                self.problem.problem,
+                shift_deviation=self.problem.deviation,
+                confidence=self.confidence,
+                budget=SOON if self.budget is None else self.budget,
+                exact=self.exact,
             )
-        result = _simulated(self.problem.problem) if self.compare else None
+            if found.curve is None and caller.wants & {"curve", "plot"}:
+                raise InputError(
+                    f"{found.why}. The tier {found.method!r} gives no curve; leave out --curve and "
+                    "--plot, or simulate"
+                )
+            result = _simulated(self.problem.problem) if self.compare else None
         record = prediction_summary(found)
         if result is not None:
             record |= _comparison(found, result)
@@ -154,6 +158,7 @@ class Predict(Operation):
             "--compare": self.compare,
             "--exact": self.exact,
             "--budget": self.budget is not None,
+            "--time-limit": self.time_limit is not None,
             "--curve": "curve" in caller.wants,
             "--plot": "plot" in caller.wants,
         }

@@ -25,7 +25,7 @@ TimeLimit = Annotated[
     Quantity(
         "s",
         "",
-        "longest wall time of a run and of its coarser companion run",
+        "longest wall time of all simulations for an answer, or for a row of a table",
         above=0,
         example="90 s",
     ),

@@ -467,7 +467,7 @@ def save(result: Result, path: Target) -> None:
     arrays |= {f"fields/{k}": v for k, v in (result.fields or {}).items()}
     text = np.array(json.dumps(header))
     content = io.BytesIO()
-    np.savez_compressed(content, allow_pickle=False, header=text, **arrays)
+    np.savez_compressed(content, header=text, **arrays)
     write_whole(path, content.getvalue())
 
 

@@ -21,6 +21,8 @@ Tell = Callable[[Told], None]
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
 _PROFILES, _NODES = 60, 160
+# Processor time after which a run forecasts its own, and the smallest forecast to report [s].
+_LOOK, _WORTH = 0.5, 5.0
 # Processor time after which a run states why it takes long [s], and the effective Tabor number, the
 # width of a punch [a0] and the number of moves that count as a reason.
 _LONG, _SHARP, _WIDE, _MANY = 30.0, 5.0, 30.0, 2
@@ -33,14 +35,17 @@ def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: An
     """Simulate a problem, telling its curve as it grows.
 
     Tells ``share`` of the work, and the new ``points`` where they are wanted: time, depth, force,
-    contact radius, in SI where the problem is. After 30 s of processor time it tells once, as a
-    ``notice``, what takes long and what is cheaper. Other keywords are those of
-    :func:`viscotack.solve`.
+    contact radius, in SI where the problem is. As a ``notice`` it tells once the processor time
+    that it will take, after at most 2 s, if that is more than 5 s; and after 30 s what takes long
+    and what is cheaper. Other keywords are those of :func:`viscotack.solve`.
     """
     told = _Told(
         tell,
         _units_of(problem) if points else _NO_UNITS,
-        lambda share: slow_words(problem, share, options),
+        {
+            _LOOK: lambda share: _forecast(problem, options),
+            _LONG: lambda share: slow_words(problem, share, options),
+        },
     )
     options |= {"throw": False, "progress": told.progress}
     options |= {"watch": told.watch} if points else {}
@@ -91,6 +96,20 @@ def slow_words(problem: Any, share: float, options: Mapping[str, Any]) -> str:
     )
 
 
+def _forecast(problem: Any, options: Mapping[str, Any]) -> str:
+    """Return the words on the processor time of a simulation, none where it is short."""
+    from viscotack.methods.cost import processor_time
+
+    seconds = processor_time(
+        problem,
+        accuracy=options.get("accuracy", DEFAULT_ACCURACY),
+        until=options.get("until", "detached"),
+    )
+    if seconds is None or seconds < _WORTH:
+        return ""
+    return f"about {float(f'{seconds:.1g}'):g} s of processor time expected, within a factor of 3"
+
+
 def drawn_of(result: Result) -> dict[str, Any]:
     """Return the data of a result for the page: columns, energies, profiles."""
     return {
@@ -122,10 +141,10 @@ class _Told:
         self,
         tell: Tell,
         units: tuple[float, float, float, float],
-        notice: Callable[[float], str] = lambda share: "",
+        notices: Mapping[float, Callable[[float], str]],
     ) -> None:
         self._tell, self._units = tell, units
-        self._notice: Callable[[float], str] | None = notice
+        self._notices = dict(sorted(notices.items()))
         self._began = process_time()
         self._points: list[list[float | None]] = []
         self._share, self._last = 0.0, 0.0
@@ -147,9 +166,10 @@ class _Told:
         if now - self._last > _EVERY:
             self._last = now
             self.flush()
-            if self._notice is not None and process_time() - self._began > _LONG:
-                self._tell({"notice": self._notice(self._share)})
-                self._notice = None
+            due = [at for at in self._notices if process_time() - self._began > at]
+            for words in [self._notices.pop(at)(self._share) for at in due]:
+                if words:
+                    self._tell({"notice": words})
 
 
 def _units_of(problem: Any) -> tuple[float, float, float, float]:
