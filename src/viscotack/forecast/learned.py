@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.errors import OutOfRange
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
 from viscotack.methods.crack_band import band_parts, not_measured
@@ -23,7 +24,6 @@ from .equivalent_power_law import alike_words, like_of, unlike_words
 from .prediction import MEASURED, Prediction, of_theory, with_curve
 from .question import Question
 from .training_range import out_of_range
-from .two_peaks import two_peaks
 
 if TYPE_CHECKING:
     from viscotack.surrogate.alike import Alike
@@ -105,9 +105,7 @@ def inputs_of_sphere(asked: Question) -> Inputs:
     if isinstance(material, RetardationPowerLaw) or not np.isfinite(row[[0, 1, 3]]).all() or out:
         return Inputs(row[None], out)
     like = like_of(groups, float(row[3]))
-    tabor, k, _, depth, rate = like.groups[0].tolist()
-    doubts = (*unlike_words(like), two_peaks(tabor, k, depth, rate))
-    return Inputs(like.groups, tuple(words for words in doubts if words), like)
+    return Inputs(like.groups, tuple(unlike_words(like)), like)
 
 
 # Power laws ----------------------------------------------------------------------------------
@@ -159,14 +157,37 @@ def by_solids(asked: Question) -> Prediction:
 def within(
     asked: Question, learned: Surrogate, tests: Contact, method: str, why: str
 ) -> Prediction:
-    """Return a prediction inside the range, with its curve and the uncertainty of its start."""
+    """Return a prediction inside the range, with its curve and the uncertainty of its start.
+
+    Without work and curve if only these are uncertain, as where two maxima of the force are equal.
+
+    Raises
+    ------
+    OutOfRange
+        If the force is uncertain: the second networks contradict it, or its interval is wide.
+    """
     start, answers = asked.groups.start, learned.evaluate(tests)
-    held = learned.intervals(tests, answers, confidence=asked.confidence)
+    force_doubtful, work_doubtful = learned.doubtful(tests, answers)[0].tolist()
+    if force_doubtful:
+        raise OutOfRange(
+            f"the networks of the {method} are not certain here: they predict a pull-off force of "
+            f"{answers.pull_off_force[0]:.4g}, the independent second ones "
+            f"{10 ** tests.second[0][0]:.4g}"
+        )
+    held = learned.intervals(tests, answers, confidence=asked.confidence, joint=asked.joint)
     if not isinstance(start, AtDepth):
         by = "force" if isinstance(start, AtForce) else "contact_radius"
         half = NormalDist().inv_cdf((1 + asked.confidence) / 2)
         held = learned.with_start_doubt(tests, answers, held, by=by, quantile=half)
-    found = _prediction(asked, answers, held, method, why)
+    found = replace(_prediction(asked, answers, held, method, why), joint=asked.joint)
+    if work_doubtful:
+        why += (
+            f"; no work and no curve: the networks predict a work of "
+            f"{answers.work_to_pull_off[0]:.4g}, the independent second ones "
+            f"{10 ** tests.second[1][0]:.4g}; the force may have two maxima of about the same "
+            "height"
+        )
+        return replace(found, work_to_pull_off=None, work_interval=None, joint=False, why=why)
     return with_curve(found, learned.curves(tests, answers), held)
 
 

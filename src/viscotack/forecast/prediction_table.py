@@ -35,6 +35,8 @@ FORCE = {
 WORK = _with_interval("work_to_pull_off")
 # Column of each kind of start.
 _BY = {"preload_force": "force", "preload_radius": "contact_radius"}
+# Budget of the rows outside [s]: theories, but no simulation.
+_NO_SIMULATION = 0.5
 METHOD = {"sphere": SURROGATE, "punch": LEARNED_PUNCH}
 
 
@@ -116,17 +118,24 @@ def predict_table(
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
-    at, answers, held = _learned(kind, given, confidence)
+    at, answers, held, certain = _learned(kind, given, confidence)
     if at.size:
-        _put(table, force, at, answers.pull_off_force, held.pull_off_force.T)
-        _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
+        forces = answers.pull_off_force, held.pull_off_force
+        works = answers.work_to_pull_off, held.work_to_pull_off
+        for names, (values, pairs), some in zip(
+            (force, WORK), (forces, works), certain.T, strict=True
+        ):
+            _put(table, names, at[some], values[some], pairs[some].T)
+        at = at[certain[:, 0]]
         table["method"][at], table["band"][at] = METHOD[kind.name], MEASURED
         table["inside"][at] = True
     done = int(table["inside"].sum())
     for case, at in _equal_rows(given, np.flatnonzero(~table["inside"])).items():
         try:
             found = predict(
-                kind.problem(dict(zip(given, case, strict=True))), confidence=confidence
+                kind.problem(dict(zip(given, case, strict=True))),
+                confidence=confidence,
+                budget=_NO_SIMULATION,
             )
         except (ValueError, OverflowError) as error:
             table["why"][at] = str(error)
@@ -166,8 +175,11 @@ def _equal_rows(
 
 def _learned(
     kind: Kind, given: dict[str, Array], confidence: float
-) -> tuple[npt.NDArray[np.intp], Answers, Intervals]:
-    """Return the indices of rows that a surrogate covers, its predictions and their intervals."""
+) -> tuple[npt.NDArray[np.intp], Answers, Intervals, npt.NDArray[np.bool_]]:
+    """Return the indices of rows in the range of a surrogate, its predictions and intervals.
+
+    The last array, shape (rows, 2), marks the forces and works that are certain.
+    """
     from viscotack.surrogate import store
 
     learned = store.shipped(kind.name)
@@ -187,7 +199,7 @@ def _learned(
     if start is not None and at.size:
         half = NormalDist().inv_cdf((1 + confidence) / 2)
         held = learned.with_start_doubt(inside, answers, held, by=_BY[start], quantile=half)
-    return at, answers, held
+    return at, answers, held, ~learned.doubtful(inside, answers)
 
 
 def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array:
