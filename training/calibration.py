@@ -133,17 +133,20 @@ def trusted(
     sets = [pairs[i :: len(kept)] for i in range(len(kept))]
     whole = Trust(together(members), untested())
     sets += [[(whole, one)] for one in fresh]
-    return replace(surrogate, trust=levelled(whole, sets))
+    with_second = "second" in surrogate.networks
+    return replace(surrogate, trust=levelled(whole, sets, with_second=with_second))
 
 
-def levelled(trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]]) -> Trust:
+def levelled(
+    trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]], *, with_second: bool = True
+) -> Trust:
     """Return a trust with levels, single and joint, for the rows of each set that are certain.
 
     Of the sets the largest level counts. Which rows are certain depends on the widths, so it is
-    decided with the levels of all rows first.
+    decided with the levels of all rows first; all are without second networks.
     """
     found, kept = trust, [[np.ones(len(rows.told), dtype=bool) for _, rows in one] for one in sets]
-    for _ in range(_ROUNDS):
+    for _ in range(_ROUNDS if with_second else 1):
         scores = [
             np.concatenate([scored(of, r)[k] for (of, r), k in zip(one, some, strict=True)])
             for one, some in zip(sets, kept, strict=True)
@@ -151,10 +154,11 @@ def levelled(trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]]) -> Tru
         levels = np.max([levels_of(one) for one in scores], axis=0)
         joint = np.max([_joint(one, levels) for one in scores], axis=0)
         found = replace(trust, levels=levels, joint=joint)
-        kept = [
-            [~replace(of, levels=levels).doubtful(rows.told)[:, 1] for of, rows in one]
-            for one in sets
-        ]
+        if with_second:
+            kept = [
+                [~replace(of, levels=levels).doubtful(rows.told)[:, 1] for of, rows in one]
+                for one in sets
+            ]
     return found
 
 

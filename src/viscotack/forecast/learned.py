@@ -15,6 +15,7 @@ from viscotack.materials import RetardationPowerLaw
 from viscotack.methods.crack_band import band_parts, not_measured
 from viscotack.problem import Case, Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.theory.elastic.relaxed import contact_in_groups
 from viscotack.traction import LennardJones
 
@@ -49,6 +50,8 @@ OTHER_SOLIDS = Verified(
     starts=(AtDepth, AtForce, AtRadius),
 )
 INSIDE = "every input is in the training range"
+# Tabor number from which the theory of the crack is used as it is.
+_FADED = 20.0
 # Units of the inputs with units.
 _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
@@ -154,6 +157,14 @@ def by_solids(asked: Question) -> Prediction:
     return within(asked, solids, solids.tests(inputs.like), SOLIDS, why)
 
 
+def not_certain(method: str, force: float, second: float) -> str:
+    """Return the reason why a surrogate abstains, from the forces of its networks."""
+    return (
+        f"the networks of the {method} are not certain here: they predict a pull-off force of "
+        f"{force:.4g}, the independent second ones {second:.4g}"
+    )
+
+
 def within(
     asked: Question, learned: Surrogate, tests: Contact, method: str, why: str
 ) -> Prediction:
@@ -169,11 +180,7 @@ def within(
     start, answers = asked.groups.start, learned.evaluate(tests)
     force_doubtful, work_doubtful = learned.doubtful(tests, answers)[0].tolist()
     if force_doubtful:
-        raise OutOfRange(
-            f"the networks of the {method} are not certain here: they predict a pull-off force of "
-            f"{answers.pull_off_force[0]:.4g}, the independent second ones "
-            f"{10 ** tests.second[0][0]:.4g}"
-        )
+        raise OutOfRange(not_certain(method, answers.pull_off_force[0], 10 ** tests.second[0][0]))
     held = learned.intervals(tests, answers, confidence=asked.confidence, joint=asked.joint)
     if not isinstance(start, AtDepth):
         by = "force" if isinstance(start, AtForce) else "contact_radius"
@@ -237,7 +244,34 @@ def by_learned_crack(asked: Question) -> Prediction:
         f"within {error:.2%} of it: effective Tabor number {effective:.3g}, travel of "
         f"{zones:.3g} zones to the pull-off"
     )
-    return of_theory(asked, float(said.pull_off_force[0]), band, LEARNED_CRACK, why, inside=True)
+    factor = _at_seam(asked)
+    if factor != 1:
+        why += f"; times {factor:.4g}, with which it meets the simulations at a Tabor number of 10"
+    force = factor * float(said.pull_off_force[0])
+    found = of_theory(asked, force, band, LEARNED_CRACK, why, inside=True)
+    low, high = found.interval
+    least = min(force, float(pull_off_ratio(asked.groups.tabor)))
+    return replace(found, interval=(max(low, least), high))
+
+
+def _at_seam(asked: Question) -> float:
+    """Return the factor that makes the force continuous at a Tabor number of 10.
+
+    It is the ratio of the surrogate of simulations to that of the theory there, for the same depth
+    and rate, and tends to 1 at ``_FADED``; 1 without both.
+    """
+    from viscotack.surrogate import physics
+
+    seam, rows = physics.LIMITS["tabor"][1], asked.once(inputs_of_sphere).rows.copy()
+    mu, rows[0, physics.TABOR] = asked.groups.tabor, seam
+    simulated, theory = _learned(), _learned("short range")
+    if mu >= _FADED or not (simulated.inside(rows).all() and theory.inside(rows).all()):
+        return 1.0
+    answers, said = simulated.evaluate(rows), theory.evaluate(rows)
+    if simulated.doubtful(rows, answers)[0, 0] or not theory.holds(rows, said)[0]:
+        return 1.0
+    ratio = float(answers.pull_off_force[0] / said.pull_off_force[0])
+    return ratio ** float(1 - np.log(mu / seam) / np.log(_FADED / seam))
 
 
 def said_of_crack(asked: Question) -> Answers | str:
