@@ -36,8 +36,9 @@ def jumps(count: int, seed: int) -> str:
     """Return how far forces jump at a Tabor number of 10, in words."""
     found, apart = [], 0
     for inputs in drawn(count, seed):
-        both = [_said(inputs | {"tabor": 10 * side}) for side in (1 - _BESIDE, 1 + _BESIDE)]
-        if None in both:
+        sides = (_said(inputs | {"tabor": 10 * side}) for side in (1 - _BESIDE, 1 + _BESIDE))
+        both = [said for said in sides if said is not None]
+        if len(both) < 2:
             continue
         below, above = both
         found.append(abs(above.pull_off_force / below.pull_off_force - 1))

@@ -157,11 +157,11 @@ def by_solids(asked: Question) -> Prediction:
     return within(asked, solids, solids.tests(inputs.like), SOLIDS, why)
 
 
-def not_certain(method: str, force: float, second: float) -> str:
-    """Return the reason why a surrogate abstains, from the forces of its networks."""
+def not_certain(method: str, force: float, end: float, second: float) -> str:
+    """Return why a surrogate abstains, from its force, the end of its interval, and the second."""
     return (
         f"the networks of the {method} are not certain here: they predict a pull-off force of "
-        f"{force:.4g}, the independent second ones {second:.4g}"
+        f"{force:.4g} within {end / force - 1:.2g} of it, the independent second ones {second:.4g}"
     )
 
 
@@ -180,7 +180,11 @@ def within(
     start, answers = asked.groups.start, learned.evaluate(tests)
     force_doubtful, work_doubtful = learned.doubtful(tests, answers)[0].tolist()
     if force_doubtful:
-        raise OutOfRange(not_certain(method, answers.pull_off_force[0], 10 ** tests.second[0][0]))
+        force, end = (
+            answers.pull_off_force[0],
+            learned.intervals(tests, answers).pull_off_force[0, 1],
+        )
+        raise OutOfRange(not_certain(method, force, end, 10 ** tests.second[0][0]))
     held = learned.intervals(tests, answers, confidence=asked.confidence, joint=asked.joint)
     if not isinstance(start, AtDepth):
         by = "force" if isinstance(start, AtForce) else "contact_radius"

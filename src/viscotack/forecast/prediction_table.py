@@ -125,9 +125,10 @@ def predict_table(
             (force, WORK), (forces, works), certain.T, strict=True
         ):
             _put(table, names, at[some], values[some], pairs[some].T)
-        doubtful = (x[~certain[:, 0]].tolist() for x in (answers.pull_off_force, second))
-        for i, *pair in zip(abstained.tolist(), *doubtful, strict=True):
-            table["why"][i] = not_certain(METHOD[kind.name], *pair)
+        parts = answers.pull_off_force, held.pull_off_force[:, 1], second
+        doubtful = (x[~certain[:, 0]].tolist() for x in parts)
+        for i, *numbers in zip(abstained.tolist(), *doubtful, strict=True):
+            table["why"][i] = not_certain(METHOD[kind.name], *numbers)
         at = at[certain[:, 0]]
         table["method"][at], table["band"][at] = METHOD[kind.name], MEASURED
         table["inside"][at] = True
