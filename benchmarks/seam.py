@@ -26,8 +26,8 @@ _BESIDE = 1e-6
 def drawn(count: int, seed: int) -> Iterator[dict[str, float]]:
     """Yield the inputs of cases, even in the logarithm, with Tabor numbers of 10 to 20."""
     random = np.random.default_rng(seed)
-    low, high = physics.LOW.copy(), np.minimum(physics.HIGH, [20.0, 0.5, 2.0, 500.0, 1e7])
-    low[physics.TABOR] = 10.0
+    low, high = physics.LOW.copy(), np.minimum(physics.HIGH, [np.inf, 0.5, 2.0, 500.0, 1e7])
+    low[physics.TABOR], high[physics.TABOR] = 10.0, 20.0
     for part in random.random((count, len(physics.INPUTS))):
         yield dict(zip(physics.INPUTS, (low * (high / low) ** part).tolist(), strict=True))
 
