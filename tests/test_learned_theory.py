@@ -170,3 +170,20 @@ def test_what_it_is_worth_is_measured_on_other_solids():
     assert found.constants["error"] == pytest.approx([1 - 1 / 1.02] * 2)
     assert scores["cases"] == len(rows) and scores["median"] == pytest.approx(1 - 1 / 1.02)
     assert physics.RATE == 4  # the order of the columns above
+
+
+def test_the_force_is_continuous_at_a_tabor_number_of_ten():
+    solid = vt.RetardationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=20.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
+    )
+
+    def said(tabor):
+        start = vt.AtDepth(200.0)
+        return vt.predict(vt.Groups(tabor=tabor, material=solid, start=start, rate=300.0))
+
+    below, above = said(10 * (1 - 1e-7)), said(10 * (1 + 1e-7))
+    assert (below.method, above.method) == ("surrogate", "learned crack contact")
+    assert above.pull_off_force == pytest.approx(below.pull_off_force, rel=1e-6)
+    assert "with which it meets the simulations at a Tabor number of 10" in above.why
+    factors = [said(mu).why.count("with which it meets") for mu in (12.0, 19.9, 20.0, 30.0)]
+    assert factors == [1, 1, 0, 0]

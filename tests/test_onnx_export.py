@@ -53,6 +53,7 @@ def surrogate():
             "work": networks(random, 2, 9, 12, 1, centre=np.array([0.3]), spread=np.array([0.5])),
             "give": networks(random, 2, 10, 12, 1, centre=np.array([0.1]), spread=np.array([0.3])),
             "line": replace(shapes, centre=centre, spread=spread),
+            "second": networks(random, 1, 7, 6, 2),
         },
         Trust(
             networks(random, 2, TOLD, 6, len(OF)),
@@ -90,6 +91,7 @@ def assert_same_digits(exported, surrogate, groups):
         "force_interval": intervals.pull_off_force,
         "work_interval": intervals.work_to_pull_off,
         "inside": surrogate.inside(groups),
+        "doubtful": surrogate.doubtful(groups, answers),
         "force_slopes": surrogate.slopes(groups)[0],
         "work_slopes": surrogate.slopes(groups)[1],
         "curve_depth": curves.depth,
@@ -101,7 +103,7 @@ def assert_same_digits(exported, surrogate, groups):
     assert names == list(wanted)
     for name, value in wanted.items():
         assert found[name].shape == value.shape and found[name].dtype == value.dtype, name
-        if name == "inside":
+        if name in ("inside", "doubtful"):
             np.testing.assert_array_equal(found[name], value)
             continue
         assert np.isfinite(value).all()

@@ -206,12 +206,17 @@ def test_thousands_of_rows_are_a_matter_of_seconds(tmp_path, capsys):
     numbers = 10 ** (low + (high - low) * draws)
     np.savetxt(cases, numbers, delimiter=",", header=",".join(limits), comments="")
     found = answer(capsys, cases, "--csv", answers)
-    assert found["inside"] == count and found["methods"] == {"surrogate": count}
+    # the surrogate abstains in about 15 of 1,000 rows, which are neither simulated nor dropped
+    kept = found["inside"]
+    assert 0.97 * count < kept < count and found["methods"] == {"surrogate": kept}
     written = table(answers)
+    assert len(written) == count
+    assert all("are not certain here" in r["why"] for r in written if not r["method"])
+    written = [r for r in written if r["method"]]
     forces = np.array(
         [[float(r[f"pull_off_force{e}"]) for e in ("_low", "", "_high")] for r in written]
     )
-    assert len(written) == count and np.all(np.diff(forces, axis=1) > 0)
+    assert len(written) == kept and np.all(np.diff(forces, axis=1) >= 0)
 
 
 def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys):

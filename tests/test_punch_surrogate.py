@@ -70,6 +70,7 @@ def random_surrogate(seed=0):
             "work": scaled(7, 1),
             "give": scaled(7, 1),
             "line": networks(8, OUTPUTS, 1, **shapes),
+            "second": networks(7, 2, 1),
         },
         Trust(networks(TOLD, len(OF)), np.ones((len(OF), len(CONFIDENCES)))),
     )
@@ -265,8 +266,9 @@ def test_test_rows_are_predicted_within_the_documented_errors():
     found = scored(shipped(), rows)
     assert found["stress"]["median"] < 1e-3 and found["stress"]["95 %"] < 5e-3
     assert found["work"]["median"] < 3e-3
-    for name in ("stress", "work", "curve", "travel"):
-        assert 0.86 < found[name]["cover"] < 0.95
+    # the level of the curve holds between stored points too, where it is off further
+    for name, most in (("stress", 0.95), ("work", 0.95), ("curve", 0.97), ("travel", 0.95)):
+        assert 0.86 < found[name]["cover"] < most, name
 
 
 # where it ends

@@ -39,19 +39,27 @@ def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
     off, errors = [], []
     for name, values in SIMULATED.items():
         for test, (force, work) in zip(TESTS, values, strict=True):
-            said = vt.predict(sphere(SOLIDS[name], *test))
+            try:
+                said = vt.predict(sphere(SOLIDS[name], *test), budget=AT_ONCE)
+            except vt.OutOfRange as reason:
+                assert "are not certain here" in str(reason)
+                continue
             assert (said.method, said.band, said.inside) == (
                 "surrogate of solids",
                 "measured",
                 True,
             )
-            assert said.work_interval is not None and said.work_to_pull_off is not None
+            if said.work_to_pull_off is None:
+                assert said.interval[0] < force < said.interval[1]
+                continue
             pairs = (
                 (force, said.pull_off_force, said.interval),
                 (work, said.work_to_pull_off, said.work_interval),
             )
             errors.append([abs(np.log10(true / value)) for true, value, _ in pairs])
             off.append([abs(np.log(true / v)) / np.log(ends[1] / v) for true, v, ends in pairs])
+    # it abstains in one, the standard solid from 40 h0, and gives no work in one
+    assert len(off) >= 10
     # twelve cases are no measure of a share of nine in ten: docs/surrogate.md has one
     assert np.all(np.mean(np.array(off) <= 1, axis=0) >= 0.75)
     assert np.max(off) < 3.5
@@ -92,7 +100,9 @@ def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
         ("force", said.pull_off_force, tests.rows.force),
         ("work", said.work_to_pull_off, tests.rows.work),
     ):
-        assert np.mean(np.log10(found / true) ** 2) == pytest.approx(stated[name]["mse"], rel=1e-3)
+        assert np.mean(np.log10(found / true) ** 2) == pytest.approx(
+            stated[name]["mse_log10"], rel=1e-3
+        )
 
 
 def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
@@ -189,10 +199,11 @@ def test_a_damaged_file_is_refused(tmp_path):
 def test_the_file_states_its_errors():
     facts = store.facts(store.FILES["solids"])
     even = facts["scores"]["judged by, drawn evenly"]
-    assert 0.88 <= even["force"]["cover"] <= 0.95 and 0.88 <= even["work"]["cover"] <= 0.95
-    assert even["force"]["mse"] < 1e-5 and even["work"]["mse"] < 1e-4
+    # of the sets that measure, the largest level counts: deep pulls with two maxima of the force
+    assert 0.88 <= even["force"]["cover"] <= 0.98 and 0.88 <= even["work"]["cover"] <= 0.95
+    assert even["force"]["mse_log10"] < 1e-5 and even["work"]["mse_log10"] < 1e-4
     chosen = facts["scores"]["judged by, chosen"]
-    assert chosen["force"]["mse"] < 2e-5 and chosen["work"]["mse"] < 2e-4
+    assert chosen["force"]["mse_log10"] < 2e-5 and chosen["work"]["mse_log10"] < 2e-4
     # judged by rows that no one learned from
     assert facts["rows"]["judge"] > 700
 

@@ -17,7 +17,7 @@ from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks, added, single, together
 from viscotack.surrogate.physics import INPUTS, SphereContact
 from viscotack.surrogate.store import shipped
-from viscotack.surrogate.trust import CONFIDENCES, OF, Trust, error_inputs
+from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 from viscotack.surrogate.trust import INPUTS as TOLD
 from viscotack.theory import lennard_jones
 
@@ -58,6 +58,7 @@ def random_surrogate(seed=0):
             "work": random_networks(rng, 9, 8, 1, members=3, **one),
             "give": random_networks(rng, 10, 8, 1, members=2, **one),
             "line": random_networks(rng, 10, 8, line.OUTPUTS, **shapes),
+            "second": random_networks(rng, 7, 6, 2),
         },
         Trust(
             reach=random_networks(rng, TOLD, 6, len(OF), members=2),
@@ -170,19 +171,58 @@ def test_wider_confidence_is_a_wider_interval():
         surrogate.intervals(groups, said, confidence=0.42)
 
 
+def told_of(differences):
+    """Return inputs of the networks of the errors with differences from the second networks."""
+    told = np.zeros((len(differences), TOLD))
+    told[:, -2:] = np.log10(np.array(differences) + 1e-3) + 2
+    return told
+
+
+def constant_trust(half):
+    reach = Networks((np.zeros((1, TOLD, len(OF))),), (np.full((1, 1, len(OF)), np.log10(half)),))
+    return Trust(reach, np.ones((len(OF), len(CONFIDENCES))), np.full(len(CONFIDENCES), 2.0))
+
+
+def test_a_number_that_the_second_networks_contradict_is_doubtful_and_a_work_with_its_force():
+    differences = [(0.0, 0.0), (0.008, 0.02), (0.0, 0.03), (0.01, 0.0)]
+    wanted = [[False, False], [False, False], [False, True], [True, True]]
+    assert constant_trust(1e-3).doubtful(told_of(differences)).tolist() == wanted
+    # within wider intervals both models may differ
+    assert not constant_trust(0.02).doubtful(told_of([(0.015, 0.02)])).any()
+    # half an interval of more than 5 % of a force, or 15 % of a work, is of no use
+    assert constant_trust(0.022).doubtful(told_of([(0.0, 0.0)])).tolist() == [[True, True]]
+
+
+def test_joint_widths_are_the_single_ones_times_their_factor():
+    trust, told = constant_trust(1e-3), told_of([(0.0, 0.0)])
+    single, joint = (trust.widths(told, 0.9, joint=x) for x in (False, True))
+    assert np.array(joint) == pytest.approx(2 * np.array(single))
+    with pytest.raises(ValueError, match="no joint intervals were measured"):
+        replace(trust, joint=None).widths(told, 0.9, joint=True)
+
+
+def test_without_second_networks_no_number_is_doubtful():
+    whole, groups = random_surrogate(), random_groups(20)
+    others = {name: each for name, each in whole.networks.items() if name != "second"}
+    made = replace(whole, networks=others)
+    assert whole.doubtful(groups, whole.evaluate(groups)).any()
+    assert not made.doubtful(groups, made.evaluate(groups)).any()
+
+
 @pytest.mark.parametrize("made", [random_surrogate, shipped])
 def test_widths_are_smooth(made):
     surrogate, groups = made(), random_groups(300, seed=8)
     ahead = groups * 10 ** (1e-6 * np.random.default_rng(8).normal(size=groups.shape))
-    answers = (surrogate.evaluate(rows) for rows in (groups, ahead))
     # how far a few networks are apart has corners
-    a, b = (
-        np.array(
-            surrogate.trust.widths(error_inputs(physics.scaled(rows), replace(said, **apart)), 0.9)
-        )
-        for apart in ({name: np.full(300, 1e-4) for name in ("force_spread", "work_spread")},)
-        for rows, said in zip((groups, ahead), answers, strict=True)
-    )
+    apart = {name: np.full(300, 1e-4) for name in ("force_spread", "work_spread")}
+
+    def widths(rows):
+        tests = surrogate.tests(rows)
+        told = tests.told_of_errors(replace(surrogate.evaluate(tests), **apart))
+        told[:, -2:] = 0.0
+        return np.array(surrogate.trust.widths(told, 0.9))
+
+    a, b = widths(groups), widths(ahead)
     assert np.max(np.abs(b / a - 1)) < 1e-4
 
 
@@ -254,14 +294,14 @@ def test_a_surrogate_comes_back_from_its_file(tmp_path):
 
 
 def test_a_surrogate_of_every_contact_comes_back_from_the_one_form(tmp_path):
-    """Files of the package have four forms of their own; all are written in one."""
+    """Files of the package have three forms; all are written in one."""
     random = np.random.default_rng(5)
-    for name, file in store.FILES.items():
+    for name in store.FILES:
         one, path = shipped(name), tmp_path / f"{name}.npz"
         store.save(one, path, {"made": "today"})
         again, facts = store.load(path), store.facts(path)
         assert again.contact is one.contact and facts["contact"] == name
-        assert facts["form"] == "viscotack surrogate 3" != store.facts(file)["form"]
+        assert facts["form"] == "viscotack surrogate 4"
         assert set(again.networks) == set(one.networks)
         for each, networks in one.networks.items():
             inputs = random.normal(size=(3, networks.ends[0]))
@@ -270,6 +310,7 @@ def test_a_surrogate_of_every_contact_comes_back_from_the_one_form(tmp_path):
             assert np.array_equal(again.constants[each], wanted)
         if one.trust is not None:
             assert np.array_equal(again.trust.levels, one.trust.levels)
+            assert np.array_equal(again.trust.joint, one.trust.joint)
 
 
 def test_a_correction_of_other_power_laws_is_refused(tmp_path):

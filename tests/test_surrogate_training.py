@@ -16,7 +16,7 @@ from viscotack.result import trajectory  # noqa: E402
 from viscotack.surrogate import contact, line, physics, store  # noqa: E402
 from viscotack.surrogate.network import added  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
-from viscotack.surrogate.trust import CONFIDENCES, OF, error_inputs  # noqa: E402
+from viscotack.surrogate.trust import CONFIDENCES, OF  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 
@@ -164,7 +164,7 @@ def test_intervals_hold_the_share_that_they_promise():
     def apart(count):
         u = random.random((count, 5))
         groups = physics.LOW * (physics.HIGH / physics.LOW) ** u
-        inputs = error_inputs(physics.scaled(groups), shipped().evaluate(groups))
+        inputs = shipped().tests(groups).told_of_errors(shipped().evaluate(groups))
         usual = shipped().trust.widths(inputs, 0.9)
         error = random.standard_t(4, (count, len(OF))) * np.array(usual).T
         # a start in tension has no travel to zero force

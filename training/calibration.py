@@ -33,6 +33,8 @@ from .scores import curve_errors, travel_errors
 REACH, LEAST = 0.98, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 WEIGHT = 8.0
+# How often it is decided which rows are certain.
+_ROUNDS = 3
 HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
 
 
@@ -88,6 +90,7 @@ def trusted(
     fits: Fits,
     *,
     hard: Sequence[Apart] = (),
+    fresh: Sequence[Apart] = (),
     how: Fit = HOW,
     weight: float = WEIGHT,
     seeds: tuple[Sequence[int], Sequence[int]] = ((0,), (1,)),
@@ -107,6 +110,8 @@ def trusted(
     hard : sequence of Apart
         Of others, that were sought where errors are large: they tell how far errors reach there,
         and nothing of how often.
+    fresh : sequence of Apart
+        Of further ones for which intervals are to hold; they tell nothing of how far errors reach.
     how : Fit
         Of the networks of the reach.
     weight : float
@@ -119,12 +124,49 @@ def trusted(
     jobs = [(task, how, seed) for task, some in zip(tasks, seeds, strict=True) for seed in some]
     found, first = fits(jobs), len(seeds[0])
     members = [together(some) for some in (found[:first], found[first:])]
-    of_each = [
-        [scored(Trust(one, untested()), some) for some in half]
+    # the sets whose scores come from networks that have not seen them
+    pairs = [
+        (Trust(one, untested()), some)
         for one, half in zip(members, halves[::-1], strict=True)
+        for some in half
     ]
-    levels = [levels_of(np.concatenate(scores)) for scores in zip(*of_each, strict=True)]
-    return replace(surrogate, trust=Trust(together(members), np.max(levels, axis=0)))
+    sets = [pairs[i :: len(kept)] for i in range(len(kept))]
+    whole = Trust(together(members), untested())
+    sets += [[(whole, one)] for one in fresh]
+    with_second = "second" in surrogate.networks
+    return replace(surrogate, trust=levelled(whole, sets, with_second=with_second))
+
+
+def levelled(
+    trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]], *, with_second: bool = True
+) -> Trust:
+    """Return a trust with levels, single and joint, for the rows of each set that are certain.
+
+    Of the sets the largest level counts. Which rows are certain depends on the widths, so it is
+    decided with the levels of all rows first; all are without second networks.
+    """
+    found, kept = trust, [[np.ones(len(rows.told), dtype=bool) for _, rows in one] for one in sets]
+    for _ in range(_ROUNDS if with_second else 1):
+        scores = [
+            np.concatenate([scored(of, r)[k] for (of, r), k in zip(one, some, strict=True)])
+            for one, some in zip(sets, kept, strict=True)
+        ]
+        levels = np.max([levels_of(one) for one in scores], axis=0)
+        joint = np.max([_joint(one, levels) for one in scores], axis=0)
+        found = replace(trust, levels=levels, joint=joint)
+        if with_second:
+            kept = [
+                [~replace(of, levels=levels).doubtful(rows.told)[:, 1] for of, rows in one]
+                for one in sets
+            ]
+    return found
+
+
+def _joint(scores: Array, levels: Array) -> Array:
+    """Return the factors with which force, work and curve of rows are inside together."""
+    with_all = scores[np.isfinite(scores[:, :3]).all(axis=1), :3]
+    worst = (with_all[:, :, None] / levels[:3]).max(axis=1)
+    return np.array([_level(one)[i] for i, one in enumerate(worst.T)])
 
 
 def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = WEIGHT) -> Task:

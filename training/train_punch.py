@@ -124,6 +124,20 @@ def scored(made: Surrogate, rows: Rows) -> dict[str, Any]:
     return {"stress" if name == "force" else name: each for name, each in found.items()}
 
 
+def judging() -> list[Rows]:
+    """Return the rows of each set that judge."""
+    sets = [read(name) for name in LEARNED]
+    return [rows.chosen(parts(len(rows))[1]) for rows in sets]
+
+
+def scores(made: Surrogate) -> dict[str, Any]:
+    """Return what a surrogate is worth on the rows that judge, by set."""
+    each = judging()
+    found = {"all": scored(made, joined(each))}
+    found |= {name: scored(made, rows) for name, rows in zip(LEARNED, each, strict=True)}
+    return found | {"faces": scored(made, faces().chosen(slice(1, None, 2)))}
+
+
 def parts(count: int) -> tuple[Mask, Mask]:
     """Return which of so many rows measure intervals, and which judge: the same in every run.
 
@@ -147,9 +161,9 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
 
     sets = [read(name) for name in LEARNED]
     masks = [parts(len(rows)) for rows in sets]
-    learned, measuring, judging = (
+    learned, measuring = (
         joined([rows.chosen(mask) for rows, mask in zip(sets, some, strict=True)])
-        for some in ([~(m | j) for m, j in masks], [m for m, _ in masks], [j for _, j in masks])
+        for some in ([~(m | j) for m, j in masks], [m for m, _ in masks])
     )
     ends = faces()
     measuring = joined([measuring, ends.chosen(slice(0, None, 2))])
@@ -157,17 +171,16 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
         made = learn(learned, read(LIMITS), shop, say)
         made = trusted(made, judged(made, learned), [judged(made, measuring)], shop.fit_all)
         say("intervals")
-    scores = {"all": scored(made, judging)} | {
-        name: scored(made, rows.chosen(j))
-        for name, rows, (_, j) in zip(LEARNED, sets, masks, strict=True)
-    }
-    scores["faces"] = scored(made, ends.chosen(slice(1, None, 2)))
     facts = {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
         "sets": {n: checksum(datasets.path(n).read_bytes()) for n in (*LEARNED, LIMITS, FACES)},
-        "rows": {"learned": len(learned), "measuring": len(measuring), "judging": len(judging)},
-        "scores": scores,
+        "rows": {
+            "learned": len(learned),
+            "measuring": len(measuring),
+            "judging": len(joined(judging())),
+        },
+        "scores": scores(made),
     }
     store.save(made, folder / "punch.npz", facts)
     say("done")

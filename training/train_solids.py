@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -116,7 +117,11 @@ def read(table: Any) -> Tests:
 
 def power_laws(every: int) -> Tests:
     """Return every so many rows of `broad`, as tests on solids like others."""
-    rows = of_table(datasets.load("broad")).chosen(slice(None, None, every))
+    return as_solids(of_table(datasets.load("broad")).chosen(slice(None, None, every)))
+
+
+def as_solids(rows: Rows) -> Tests:
+    """Return tests on power laws as tests on solids like others."""
     mu, k, n, preload, rate = rows.groups.T
     crept = np.array([spectrum.crept(e, TIMES / r) for e, r in zip(n, rate, strict=True)])
     creep = k[:, None] + (1 - k[:, None]) * crept
@@ -132,6 +137,12 @@ def parts(tests: Tests) -> dict[str, Mask]:
     place = number % np.where(number < _FIRST, _EVEN, every)
     found = {"measure": kept & (place == 0), "judge": kept & (place == 1), "other": other}
     return {"learn": ~(found["measure"] | found["judge"] | other), **found}
+
+
+def parted(table: Any) -> dict[str, Tests]:
+    """Return the tests of a table by what they are for: :func:`parts`."""
+    tests = read(table)
+    return {name: tests.chosen(mask) for name, mask in parts(tests).items()}
 
 
 def unbent() -> Surrogate:
@@ -207,21 +218,47 @@ def across(made: Surrogate, tests: Tests) -> list[Apart]:
 
 def make(table: Any) -> tuple[Surrogate, dict[str, Any]]:
     """Return what was learned from a table, and what it is worth."""
-    tests = read(table)
-    part = {name: tests.chosen(mask) for name, mask in parts(tests).items()}
+    part = parted(table)
     made = with_range(bent(unbent(), part["learn"]), part["learn"])
-    known = [*across(made, part["learn"]), judged(made, power_laws(_THINNED))]
-    both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
-    made = trusted(made, both, [judged(made, part["measure"])], fit_all, how=HOW, weight=1.0)
+    made = measured(made, part)
+    counts = {name: len(some) for name, some in part.items()}
+    return made, {"rows": counts, "scores": scores(made, part)}
+
+
+def scores(made: Surrogate, part: Mapping[str, Tests]) -> dict[str, Any]:
+    """Return what a surrogate is worth on the tests that judge, ready for JSON."""
     judge = part["judge"]
     even = judge.number < CHOSEN
-    found = {
+    return {
         "judged by, drawn evenly": worth(made, judged(made, judge.chosen(even))),
         "judged by, chosen": worth(made, judged(made, judge.chosen(~even))),
         "stretched exponentials": worth(made, judged(made, part["other"])),
     }
-    counts = {name: len(some) for name, some in part.items()}
-    return made, {"rows": counts, "scores": found}
+
+
+def measured(
+    made: Surrogate,
+    part: Mapping[str, Tests],
+    further: Sequence[Tests] = (),
+    fresh: Sequence[Apart] = (),
+) -> Surrogate:
+    """Return a surrogate with intervals.
+
+    Parameters
+    ----------
+    made : Surrogate
+    part : mapping of str to Tests
+        Those that it has learned from, and that measure intervals: :func:`parted`.
+    further : sequence of Tests
+        Tests that it has not learned from, beside its own; they tell how far errors reach.
+    fresh : sequence of Apart
+        Sets for which intervals are to hold, beside those of the rows that measure.
+    """
+    known = [*across(made, part["learn"]), *(judged(made, x) for x in further)]
+    known.append(judged(made, power_laws(_THINNED)))
+    both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
+    kept = [judged(made, part["measure"])]
+    return trusted(made, both, kept, fit_all, fresh=fresh, how=HOW, weight=1.0)
 
 
 def tables(path: Path | None, *, rows: int | None) -> Any:

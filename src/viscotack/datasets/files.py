@@ -22,6 +22,8 @@ NAMES = (
     "hard",
     "solids",
     "rough",
+    "deep",
+    "sharp",
     "punch",
     "punch_limits",
     "punch_starts",
@@ -96,6 +98,8 @@ def load(name: str) -> Any:
         ``unseen``: others of these designs, on which nothing was measured. ``hard``: those of an
         adversary that looked for the furthest out of their intervals. ``solids``: spheres on as
         many random linear solids; ``rough``: others, simulated less finely, to learn from.
+        ``deep`` and ``sharp``: spheres on power laws and on random solids, pulled from deep starts
+        about as fast as the bulk relaxes.
         ``punch``: 2,000 flat punches on a layer. ``punch_limits``: such punches on elastic layers,
         and retracted so fast that nothing relaxes. ``punch_starts``: such punches from starts of
         any stress. ``punch_faces``: such at the ends of the range.

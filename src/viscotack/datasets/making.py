@@ -53,6 +53,8 @@ _OF_SETS = {
     # surrogates trained on it have larger errors; rows state their uncertainty
     "solids": (1, Targets(force=4e-3, work=2e-2)),
     "rough": (1, Targets(force=2e-2, work=1e-1)),
+    "deep": (1, Targets(force=2e-2, work=1e-1)),
+    "sharp": (1, Targets(force=2e-2, work=1e-1)),
 }
 
 
@@ -82,7 +84,8 @@ def make(
         Number of processes.
     targets : Targets, optional
         Errors above which a case is run again; by default 0.2 % and 0.5 %; for `fresh` and
-        `hard` 0.4 % and 2 %, with one refined pass; `solids` and `rough` have none.
+        `hard` 0.4 % and 2 %, with one refined pass; `solids`, `rough`, `deep` and `sharp` have
+        none.
     cases : int, optional
         Compute only the first cases of the plan, which for a Sobol plan cover the whole range.
     report : callable, optional

@@ -21,6 +21,7 @@ def predict(
     problem: Case,
     *,
     confidence: float = 0.9,
+    joint: bool = False,
     shift_deviation: float = 0.0,
     budget: float = SOON,
     exact: bool = False,
@@ -34,15 +35,18 @@ def predict(
     confidence : float
         Fraction of cases inside the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98, for
         which they were measured. Bands of theories and simulations exist for 0.9 only.
+    joint : bool
+        Whether force, work and curve of a surrogate are inside together with this confidence,
+        instead of each alone; :attr:`Prediction.joint` is true where such intervals were measured.
     shift_deviation : float
         Standard deviation of log10 a_T, the uncertainty of the material's times, from
         :meth:`viscotack.materials.passport.Passport.shift_deviation`. It widens the
         intervals: the problem is also predicted for slower and faster material.
     budget : float
         Largest time of the prediction [s]. Up to 0.01 s only surrogates are used; from 0.02 s also
-        closed forms, from 0.5 s the contact whose edge is a steady crack, from 3 s the simulation
-        if no surrogate applies. The cost of a tier is a fixed number, so the same
-        budget gives the same result on every machine.
+        closed forms, from 0.5 s the contact whose edge is a steady crack, from 1 s the simulation
+        where a surrogate is not certain, from 3 s also where none applies. The cost of a tier is a
+        fixed number, so the same budget gives the same result on every machine.
     exact : bool
         Whether to simulate regardless of the time: the result of :func:`viscotack.solve`.
 
@@ -82,7 +86,7 @@ def predict(
     >>> f"{answer.pull_off_force:.1f} by {answer.method}"
     '7.3 by surrogate'
     """
-    asked = Question(problem, confidence)
+    asked = Question(problem, confidence, joint)
     check_confidence(confidence)
     if not budget > 0:
         raise InputError(f"budget must be a positive time in seconds, got {budget!r}")
@@ -91,7 +95,13 @@ def predict(
         return found
     decades = NormalDist().inv_cdf((1 + confidence) / 2) * shift_deviation
     others = [
-        predict(_slower(problem, factor), confidence=confidence, budget=budget, exact=exact)
+        predict(
+            _slower(problem, factor),
+            confidence=confidence,
+            joint=joint,
+            budget=budget,
+            exact=exact,
+        )
         for factor in (10.0**-decades, 10.0**decades)
     ]
     return _widened_by(found, others, shift_deviation)

@@ -76,7 +76,8 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
     Returns
     -------
     Beyond or None
-        None if the row exceeds another limit, or exceeds these too far.
+        None if the row exceeds another limit, exceeds these too far, or if the surrogate is not
+        certain at the limit.
     """
     from viscotack.surrogate import physics
 
@@ -91,6 +92,9 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         return None
     tests = learned.tests(at_end)
     said = learned.evaluate(tests)
+    force_doubtful, work_doubtful = learned.doubtful(tests, said)[0].tolist()
+    if force_doubtful:
+        return None
     held = learned.intervals(tests, said, confidence=confidence)
     why = []
     if rate > high:
@@ -115,7 +119,7 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         why.append(
             f"below a modulus ratio of {least:g} the force is extrapolated by its slope there"
         )
-    return Beyond(at_end, said, held, mu >= low, "; ".join(why))
+    return Beyond(at_end, said, held, mu >= low and not work_doubtful, "; ".join(why))
 
 
 def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.errors import OutOfRange
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
 from viscotack.methods.crack_band import band_parts, not_measured
 from viscotack.problem import Case, Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.theory.elastic.relaxed import contact_in_groups
 from viscotack.traction import LennardJones
 
@@ -23,7 +25,6 @@ from .equivalent_power_law import alike_words, like_of, unlike_words
 from .prediction import MEASURED, Prediction, of_theory, with_curve
 from .question import Question
 from .training_range import out_of_range
-from .two_peaks import two_peaks
 
 if TYPE_CHECKING:
     from viscotack.surrogate.alike import Alike
@@ -49,6 +50,8 @@ OTHER_SOLIDS = Verified(
     starts=(AtDepth, AtForce, AtRadius),
 )
 INSIDE = "every input is in the training range"
+# Tabor number from which the theory of the crack is used as it is.
+_FADED = 20.0
 # Units of the inputs with units.
 _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
@@ -105,9 +108,7 @@ def inputs_of_sphere(asked: Question) -> Inputs:
     if isinstance(material, RetardationPowerLaw) or not np.isfinite(row[[0, 1, 3]]).all() or out:
         return Inputs(row[None], out)
     like = like_of(groups, float(row[3]))
-    tabor, k, _, depth, rate = like.groups[0].tolist()
-    doubts = (*unlike_words(like), two_peaks(tabor, k, depth, rate))
-    return Inputs(like.groups, tuple(words for words in doubts if words), like)
+    return Inputs(like.groups, tuple(unlike_words(like)), like)
 
 
 # Power laws ----------------------------------------------------------------------------------
@@ -156,17 +157,48 @@ def by_solids(asked: Question) -> Prediction:
     return within(asked, solids, solids.tests(inputs.like), SOLIDS, why)
 
 
+def not_certain(method: str, force: float, end: float, second: float) -> str:
+    """Return why a surrogate abstains, from its force, the end of its interval, and the second."""
+    return (
+        f"the networks of the {method} are not certain here: they predict a pull-off force of "
+        f"{force:.4g} within {end / force - 1:.2g} of it, the independent second ones {second:.4g}"
+    )
+
+
 def within(
     asked: Question, learned: Surrogate, tests: Contact, method: str, why: str
 ) -> Prediction:
-    """Return a prediction inside the range, with its curve and the uncertainty of its start."""
+    """Return a prediction inside the range, with its curve and the uncertainty of its start.
+
+    Without work and curve if only these are uncertain, as where two maxima of the force are equal.
+
+    Raises
+    ------
+    OutOfRange
+        If the force is uncertain: the second networks contradict it, or its interval is wide.
+    """
     start, answers = asked.groups.start, learned.evaluate(tests)
-    held = learned.intervals(tests, answers, confidence=asked.confidence)
+    force_doubtful, work_doubtful = learned.doubtful(tests, answers)[0].tolist()
+    if force_doubtful:
+        force, end = (
+            answers.pull_off_force[0],
+            learned.intervals(tests, answers).pull_off_force[0, 1],
+        )
+        raise OutOfRange(not_certain(method, force, end, 10 ** tests.second[0][0]))
+    held = learned.intervals(tests, answers, confidence=asked.confidence, joint=asked.joint)
     if not isinstance(start, AtDepth):
         by = "force" if isinstance(start, AtForce) else "contact_radius"
         half = NormalDist().inv_cdf((1 + asked.confidence) / 2)
         held = learned.with_start_doubt(tests, answers, held, by=by, quantile=half)
-    found = _prediction(asked, answers, held, method, why)
+    found = replace(_prediction(asked, answers, held, method, why), joint=asked.joint)
+    if work_doubtful:
+        why += (
+            f"; no work and no curve: the networks predict a work of "
+            f"{answers.work_to_pull_off[0]:.4g}, the independent second ones "
+            f"{10 ** tests.second[1][0]:.4g}; the force may have two maxima of about the same "
+            "height"
+        )
+        return replace(found, work_to_pull_off=None, work_interval=None, joint=False, why=why)
     return with_curve(found, learned.curves(tests, answers), held)
 
 
@@ -216,7 +248,34 @@ def by_learned_crack(asked: Question) -> Prediction:
         f"within {error:.2%} of it: effective Tabor number {effective:.3g}, travel of "
         f"{zones:.3g} zones to the pull-off"
     )
-    return of_theory(asked, float(said.pull_off_force[0]), band, LEARNED_CRACK, why, inside=True)
+    factor = _at_seam(asked)
+    if factor != 1:
+        why += f"; times {factor:.4g}, with which it meets the simulations at a Tabor number of 10"
+    force = factor * float(said.pull_off_force[0])
+    found = of_theory(asked, force, band, LEARNED_CRACK, why, inside=True)
+    low, high = found.interval
+    least = min(force, float(pull_off_ratio(asked.groups.tabor)))
+    return replace(found, interval=(max(low, least), high))
+
+
+def _at_seam(asked: Question) -> float:
+    """Return the factor that makes the force continuous at a Tabor number of 10.
+
+    It is the ratio of the surrogate of simulations to that of the theory there, for the same depth
+    and rate, and tends to 1 at ``_FADED``; 1 without both.
+    """
+    from viscotack.surrogate import physics
+
+    seam, rows = physics.LIMITS["tabor"][1], asked.once(inputs_of_sphere).rows.copy()
+    mu, rows[0, physics.TABOR] = asked.groups.tabor, seam
+    simulated, theory = _learned(), _learned("short range")
+    if mu >= _FADED or not (simulated.inside(rows).all() and theory.inside(rows).all()):
+        return 1.0
+    answers, said = simulated.evaluate(rows), theory.evaluate(rows)
+    if simulated.doubtful(rows, answers)[0, 0] or not theory.holds(rows, said)[0]:
+        return 1.0
+    ratio = float(answers.pull_off_force[0] / said.pull_off_force[0])
+    return ratio ** float(1 - np.log(mu / seam) / np.log(_FADED / seam))
 
 
 def said_of_crack(asked: Question) -> Answers | str:

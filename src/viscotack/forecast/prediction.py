@@ -73,6 +73,8 @@ class Prediction:
         Interval of the depth at pull-off, the last one of the curve [h0]; None without a curve.
     problem : Problem or Groups
         The problem of the prediction.
+    joint : bool
+        Whether force, work and curve are inside together with this confidence, not each alone.
     """
 
     pull_off_force: float
@@ -90,6 +92,7 @@ class Prediction:
     zero_force_depth: float | None = None
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
+    joint: bool = False
 
     value = Renamed("pull_off_force")
 

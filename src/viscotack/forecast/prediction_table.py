@@ -13,7 +13,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
-from .learned import SURROGATE
+from .learned import SURROGATE, not_certain
 from .prediction import MEASURED
 from .punches import LEARNED_PUNCH
 
@@ -85,8 +85,8 @@ def predict_table(
         [1.5 pi R dg0 h0], for punches `pull_off_stress` [sigma0] and the work [dg0], their
         intervals `..._low` and `..._high`, `method`, `inside` (the training range), `band`
         (measured or not) and `why` it is not inside. Spheres outside are predicted by a theory,
-        without work. If no theory applies, or the case is invalid, numbers are nan, `method` is ""
-        and `why` states the reason.
+        without work. If no theory applies, the surrogate is not certain, or the case is invalid,
+        numbers are nan, `method` is "" and `why` states the reason; nothing is simulated.
 
     Raises
     ------
@@ -116,14 +116,25 @@ def predict_table(
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
-    at, answers, held = _learned(kind, given, confidence)
+    at, answers, held, certain, second = _learned(kind, given, confidence)
+    abstained = at[~certain[:, 0]]
     if at.size:
-        _put(table, force, at, answers.pull_off_force, held.pull_off_force.T)
-        _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
+        forces = answers.pull_off_force, held.pull_off_force
+        works = answers.work_to_pull_off, held.work_to_pull_off
+        for names, (values, pairs), some in zip(
+            (force, WORK), (forces, works), certain.T, strict=True
+        ):
+            _put(table, names, at[some], values[some], pairs[some].T)
+        parts = answers.pull_off_force, held.pull_off_force[:, 1], second
+        doubtful = (x[~certain[:, 0]].tolist() for x in parts)
+        for i, *numbers in zip(abstained.tolist(), *doubtful, strict=True):
+            table["why"][i] = not_certain(METHOD[kind.name], *numbers)
+        at = at[certain[:, 0]]
         table["method"][at], table["band"][at] = METHOD[kind.name], MEASURED
         table["inside"][at] = True
-    done = int(table["inside"].sum())
-    for case, at in _equal_rows(given, np.flatnonzero(~table["inside"])).items():
+    done = int(table["inside"].sum()) + len(abstained)
+    others = np.setdiff1d(np.flatnonzero(~table["inside"]), abstained)
+    for case, at in _equal_rows(given, others).items():
         try:
             found = predict(
                 kind.problem(dict(zip(given, case, strict=True))), confidence=confidence
@@ -166,8 +177,12 @@ def _equal_rows(
 
 def _learned(
     kind: Kind, given: dict[str, Array], confidence: float
-) -> tuple[npt.NDArray[np.intp], Answers, Intervals]:
-    """Return the indices of rows that a surrogate covers, its predictions and their intervals."""
+) -> tuple[npt.NDArray[np.intp], Answers, Intervals, npt.NDArray[np.bool_], Array]:
+    """Return the indices of rows in the range of a surrogate, its predictions and intervals.
+
+    Then which forces and works are certain, shape (rows, 2), and the forces of the second
+    networks.
+    """
     from viscotack.surrogate import store
 
     learned = store.shipped(kind.name)
@@ -187,7 +202,7 @@ def _learned(
     if start is not None and at.size:
         half = NormalDist().inv_cdf((1 + confidence) / 2)
         held = learned.with_start_doubt(inside, answers, held, by=_BY[start], quantile=half)
-    return at, answers, held
+    return at, answers, held, ~learned.doubtful(inside, answers), 10 ** inside.second[0]
 
 
 def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array:
@@ -207,8 +222,7 @@ def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array
 def _put(
     table: dict[str, Any], names: tuple[str, str, str], at: Any, value: Any, pair: Any
 ) -> None:
-    if value is None:
-        return  # theories do not predict the work
     value_name, low, high = names
-    table[value_name][at] = value
-    table[low][at], table[high][at] = pair
+    # most theories do not predict the work, and none its interval
+    table[value_name][at] = np.nan if value is None else value
+    table[low][at], table[high][at] = (np.nan, np.nan) if pair is None else pair

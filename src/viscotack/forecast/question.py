@@ -22,10 +22,13 @@ class Question:
         Problem as stated by the user.
     confidence : float
         Fraction of cases inside the intervals.
+    joint : bool
+        Whether force, work and curve of a surrogate are to be inside together.
     """
 
     problem: Case
     confidence: float = 0.9
+    joint: bool = False
     _known: dict[Callable[[Question], Any], Any] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:

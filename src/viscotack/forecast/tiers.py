@@ -143,11 +143,24 @@ EXACT = Tier(SIMULATION, 3.0, (), _no_limits, by_simulation)
 TIERS = (*LEARNED, *THEORIES, EXACT)
 
 
+def _abstention_limits(asked: Question) -> str:
+    """Return a reason unless a surrogate covers the problem, so that the time is known."""
+    covered = any(not tier.refuses(asked) for tier in LEARNED)
+    return "" if covered else "outside the ranges of the surrogates a simulation may take longer"
+
+
+# The simulation in the ranges of the surrogates, for cases in which these are not certain.
+_ABSTAINED = Tier(
+    SIMULATION, SOON, (POWER_LAWS, OTHER_SOLIDS, PUNCHES), _abstention_limits, by_simulation
+)
+
+
 def best(asked: Question, budget: float) -> Prediction:
     """Predict by the best tier within a budget.
 
     Surrogates come first, because their intervals are the narrowest and they are fastest; then, if
-    the budget allows it, the simulation; then the theory with the narrowest band.
+    the budget allows it, the simulation, from 1 s where a surrogate abstains; then the theory with
+    the narrowest band.
 
     Parameters
     ----------
@@ -174,7 +187,7 @@ def best(asked: Question, budget: float) -> Prediction:
         raise InputError(
             f"there is no contact to pull off: no relaxed one exists at {asked.groups.start}"
         )
-    for found in _answers((EXACT,), asked, budget, refused):
+    for found in _answers((_ABSTAINED, EXACT), asked, budget, refused):
         return found.because(out)
     theories = list(_answers(THEORIES, asked, budget, refused))
     if theories:

@@ -93,7 +93,8 @@ class Predict(Operation):
         float | None,
         Number(
             "Time budget: from 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the "
-            "steady-crack contact model, from 3 s the simulation. Default: 1 s.",
+            "steady-crack contact model, from 1 s the simulation where a surrogate is not certain, "
+            "from 3 s the simulation. Default: 1 s.",
             unit="s",
             above=0,
             bare=True,

@@ -86,12 +86,15 @@ class Alike:
         over that of the modulus ratio.
     counts : ndarray, shape (n, 15)
         Weights of the samples.
+    climb : ndarray, shape (n, 15)
+        Creep of the solids at ``TIMES`` on a scale from 0 (rubber) to 1 (glass), :func:`climbed`.
     """
 
     groups: Array
     modulus_ratio: Array
     over: Array
     counts: Array
+    climb: Array
 
     @property
     def unlike(self) -> Array:
@@ -146,7 +149,7 @@ def alike(
         whole = np.log(k[some])[:, None]
         x[some], over[some] = _sought(whole, share[some], begun[some], counts[some], enough)
     groups = np.column_stack([tabor, np.exp(x[:, :2]), preload, 10 ** x[:, 2]])
-    return Alike(groups, k, over, counts)
+    return Alike(groups, k, over, counts, share)
 
 
 def _sought(

@@ -28,11 +28,13 @@ from viscotack.arrays import Array
 from .answers import Answers
 from .line import Curves, curves
 from .network import Networks
-from .trust import error_inputs
+from .trust import disagreement_inputs, error_inputs
 
 # A network's output is zero where the fraction is one half.
 STEEP = 4.0
 LEAST_WAY = 1e-4
+# Least distance of the limits for the second networks, which learn the share as it is.
+SECOND_WAY = 0.05
 
 
 def share(output: Array) -> Array:
@@ -49,6 +51,11 @@ def share(output: Array) -> Array:
 def between(low: Array, high: Array, output: Array) -> Array:
     """Interpolate the logarithm between two limits at the fraction of an output."""
     return low + np.maximum(high - low, LEAST_WAY) * share(output)
+
+
+def mean_limit(limit: Array) -> Array:
+    """Average a limit over its networks, if there are several."""
+    return limit if limit.ndim == 1 else limit.mean(axis=0)
 
 
 def scaled_logarithms(values: Array, low: Array, high: Array) -> Array:
@@ -89,7 +96,8 @@ class Contact:
     networks : mapping of str to Networks
         The networks by name: ``force`` interpolates between the limits; ``work`` predicts
         log10 of work over force; ``start`` the relaxed start; ``give`` log10 of the travel to zero
-        force; ``line`` the shapes of a curve. Limits may be networks too.
+        force; ``line`` the shapes of a curve; ``second`` force and work again, independently of
+        the others. Limits may be networks too.
     constants : mapping of str to ndarray
         Further fitted numbers.
     rows : ndarray, shape (n, inputs)
@@ -174,6 +182,11 @@ class Contact:
         """log10 of the slow limit of the force, shape (n,), or (m, n) for m networks."""
         raise NotImplementedError
 
+    @property
+    def least(self) -> Array | None:
+        """log10 of a proven lower bound of the force, shape (n,); None if there is none."""
+        return None
+
     @cached_property
     def fast(self) -> Array:
         """log10 of the fast limit of the force, shape (n,), or (m, n) for m networks."""
@@ -188,9 +201,34 @@ class Contact:
         """Return corrections, from the outputs of the networks of the force, shape (m, n)."""
         return Further()
 
+    @cached_property
+    def second_limits(self) -> tuple[Array, Array]:
+        """log10 of the limits of the force for the second networks, shape (n,) each."""
+        return mean_limit(self.slow), mean_limit(self.fast)
+
+    @cached_property
+    def told_of_second(self) -> Array:
+        """Inputs of the second networks, shape (n, columns)."""
+        return np.column_stack([self.scaled, *self.second_limits])
+
+    @cached_property
+    def second(self) -> tuple[Array, Array]:
+        """log10 of force and work by the second networks, shape (n,) each.
+
+        Their outputs are the share of the way between the limits, and log10 of work over force.
+        """
+        said = self.networks["second"](self.told_of_second).mean(axis=0)
+        low, high = self.second_limits
+        part = np.minimum(np.maximum(said[:, 0], 0.0), 1.0)
+        force = low + part * np.maximum(high - low, SECOND_WAY)
+        return force, force + said[:, 1]
+
     def told_of_errors(self, answers: Answers) -> Array:
         """Return the inputs of the networks of the errors, shape (n, columns)."""
-        return error_inputs(self.scaled, answers)
+        told = error_inputs(self.scaled, answers)
+        if "second" not in self.networks:
+            return told
+        return np.column_stack([told, *disagreement_inputs(answers, self.second)])
 
     # Start, work and curve ------------------------------------------------------------------
 

@@ -30,10 +30,10 @@ from viscotack.arrays import Array
 
 from .alike import DECADES, Alike, alike, climbed
 from .answers import Answers
-from .contact import Contact, Further, share
+from .contact import Contact, Further, mean_limit, share
 from .model import Surrogate
 from .network import Networks
-from .physics import SphereContact
+from .physics import MODULUS_RATIO, PRELOAD, TABOR, SphereContact
 from .trust import INPUTS, OF
 
 SAMPLES = len(DECADES)
@@ -47,6 +47,10 @@ BEND_INPUTS = 7 + SAMPLES
 # distance from the training data, size of the corrections of force and work, and their network
 # spread.
 TRUST_INPUTS = INPUTS + 6
+# Times over depth over speed at which the second networks know the creep [decades], and the number
+# of their inputs: Tabor number, depth, modulus ratio, both limits, and creep at all samples.
+_AROUND_DEPTH = np.array([-1.5, -1.0, -0.5, -0.25, 0.0, 0.25, 0.5])
+SECOND_INPUTS = 5 + SAMPLES + len(_AROUND_DEPTH)
 # Values below which dissimilarity and corrections have no effect.
 _LEAST_UNLIKE, _LEAST_BEND = 1e-4, 1e-4
 # Allowed logarithms of the widths of the bell [decades].
@@ -75,6 +79,7 @@ class SolidContact(SphereContact):
         "bend_force": (BEND_INPUTS, SAMPLES),
         "bend_work": (BEND_INPUTS, SAMPLES),
         "trust": (TRUST_INPUTS, len(OF)),
+        "second": (SECOND_INPUTS, 2),
     }
     sizes = {"floor": (), "usual": (SAMPLES,), "spread": (SAMPLES, SAMPLES), "farthest": (2,)}
     limiting = ()
@@ -108,6 +113,27 @@ class SolidContact(SphereContact):
         force, work = (one.mean(axis=0) for one in each)
         bends = [np.abs(force), np.abs(work), *(one.std(axis=0) for one in each)]
         return Further(force, work, {"bends": np.column_stack(bends)})
+
+    @cached_property
+    def second_limits(self) -> tuple[Array, Array]:
+        """log10 of the limits of the force with the modulus ratio of the solid, shape (n,) each."""
+        rows = self.rows.copy()
+        rows[:, MODULUS_RATIO] = self.like.modulus_ratio
+        return self.slow, mean_limit(SphereContact(self.networks, self.constants, rows).fast)
+
+    @cached_property
+    def told_of_second(self) -> Array:
+        """Inputs of the second networks, without the equivalent power law; (n, SECOND_INPUTS)."""
+        depth = self.rows[:, PRELOAD]
+        return np.column_stack(
+            [
+                *_test(self.rows[:, TABOR], depth),
+                np.log10(self.like.modulus_ratio) / 2 + 1,
+                *self.second_limits,
+                2 * self.like.climb - 1,
+                2 * _at_times(self.like.climb, np.log10(depth)[:, None] + _AROUND_DEPTH) - 1,
+            ]
+        )
 
     def told_of_errors(self, answers: Answers) -> Array:
         """Return the inputs of the networks of the errors, shape (n, TRUST_INPUTS)."""
@@ -207,6 +233,19 @@ def features(like: Alike, output: Array) -> Array:
             np.log10(like.modulus_ratio) / 2 + 1,
         ]
     )
+
+
+def _at_times(climb: Array, decades: Array) -> Array:
+    """Interpolate the creep of each solid to log10 of times over h0/v, shape (n, times)."""
+    place = np.clip((decades - DECADES[0]) / (DECADES[1] - DECADES[0]), 0, SAMPLES - 1)
+    i = np.clip(place.astype(int), 1, SAMPLES - 3)
+    f, (before, a, b, after) = (
+        place - i,
+        (np.take_along_axis(climb, i + j, axis=1) for j in (-1, 0, 1, 2)),
+    )
+    # a cubic through the values, with the mean slopes of both neighbours (Catmull and Rom)
+    rise, bend = b - before, 2 * before - 5 * a + 4 * b - after
+    return a + 0.5 * f * (rise + f * (bend + f * (3 * (a - b) + after - before)))
 
 
 def _test(tabor: Array, preload: Array) -> tuple[Array, Array]:

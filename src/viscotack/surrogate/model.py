@@ -16,7 +16,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .answers import Answers, Intervals
-from .contact import LEAST_WAY, Contact, between
+from .contact import LEAST_WAY, Contact, between, mean_limit
 from .line import Curves
 from .network import Networks
 from .slopes import Sloped, by_logarithms
@@ -110,7 +110,7 @@ class Surrogate:
         if further.force is not None:
             output = output + further.force
         forces = between(slow, fast, output)
-        force, slow, fast = forces.mean(axis=0), _mean(slow), _mean(fast)
+        force, slow, fast = forces.mean(axis=0), mean_limit(slow), mean_limit(fast)
         way = np.maximum(fast - slow, LEAST_WAY)
         work = work_spread = np.full(len(tests.rows), np.nan)
         if "work" in self.networks:
@@ -132,8 +132,12 @@ class Surrogate:
         """Return the unloading curves of the predictions of the same tests."""
         return self.tests(given).curves(answers)
 
-    def intervals(self, given: Any, answers: Answers, *, confidence: float = 0.9) -> Intervals:
+    def intervals(
+        self, given: Any, answers: Answers, *, confidence: float = 0.9, joint: bool = False
+    ) -> Intervals:
         """Return intervals with a measured coverage on validation cases.
+
+        Joint ones are wider: force, work and curve together are inside with this confidence.
 
         Raises
         ------
@@ -142,7 +146,24 @@ class Surrogate:
         """
         if self.trust is None:
             raise InputError(f"no intervals were measured for a {self.contact.name}")
-        return self.trust.intervals(self.tests(given).told_of_errors(answers), answers, confidence)
+        tests = self.tests(given)
+        told = tests.told_of_errors(answers)
+        found = self.trust.intervals(told, answers, confidence, joint=joint)
+        if tests.least is None:
+            return found
+        ends = found.pull_off_force
+        force = np.column_stack([np.maximum(ends[:, 0], 10**tests.least), ends[:, 1]])
+        return replace(found, pull_off_force=force)
+
+    def doubtful(self, given: Any, answers: Answers) -> npt.NDArray[np.bool_]:
+        """Return a mask of the forces and works that are not certain, shape (n, 2).
+
+        :meth:`.trust.Trust.doubtful` has the conditions.
+        Without intervals or second networks no number is doubtful.
+        """
+        if self.trust is None or "second" not in self.networks:
+            return np.column_stack([answers.pull_off_force] * 2) < 0  # none, also in an export
+        return self.trust.doubtful(self.tests(given).told_of_errors(answers))
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
         """Return the exact derivatives of log force and log work by the logarithms of the inputs.
@@ -280,8 +301,3 @@ def _start_doubt(tests: Contact, *, by: str, step: float = 1e-3) -> Array:
 
 def _by_name(names: tuple[str, ...], low: Array, high: Array) -> dict[str, tuple[float, float]]:
     return {n: (float(a), float(b)) for n, a, b in zip(names, low, high, strict=True)}
-
-
-def _mean(limit: Array) -> Array:
-    """Average over the networks, if there are several."""
-    return limit if limit.ndim == 1 else limit.mean(axis=0)

@@ -111,6 +111,7 @@ class SphereContact(Contact):
         "give": (len(INPUTS) + 5, 1),
         "line": (len(INPUTS) + 5, OUTPUTS),
         "trust": (ERROR_INPUTS, len(OF)),
+        "second": (len(INPUTS) + 2, 2),
     }
     limiting, start_inputs, search = ("fast",), START, (64, 4)
     no_start = (
@@ -122,6 +123,11 @@ class SphereContact(Contact):
     def slow(self) -> Array:
         """log10 of the elastic pull-off force of the relaxed solid, shape (n,)."""
         return slow_limit(self.rows)
+
+    @property
+    def least(self) -> Array:
+        """log10 of the elastic pull-off force of the relaxed solid, shape (n,)."""
+        return self.slow
 
     @cached_property
     def fast(self) -> Array:

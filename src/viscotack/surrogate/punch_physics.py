@@ -125,6 +125,7 @@ class PunchContact(Contact):
         "give": (len(INPUTS) + 2, 1),
         "line": (len(INPUTS) + 3, OUTPUTS),
         "trust": (ERROR_INPUTS, len(OF)),
+        "second": (len(INPUTS) + 2, 2),
     }
     limiting, start_inputs, search = ("slow", "fast"), START, (24, 3)
     no_start = (

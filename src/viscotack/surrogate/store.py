@@ -19,7 +19,7 @@ from .network import Networks, from_arrays
 from .physics import SphereContact
 from .punch_physics import PunchContact
 from .short_range import ShortRangeContact
-from .trust import CONFIDENCES, OF, Trust
+from .trust import CONFIDENCES, DIFFERENCES, OF, Trust
 
 _FOLDER = Path(__file__).parent
 # Files of the package, by the names of their contacts.
@@ -33,8 +33,10 @@ SHIPPED = FILES["sphere"]
 _CONTACTS: dict[str, type[Contact]] = {
     each.name: each for each in (SphereContact, SolidContact, PunchContact, ShortRangeContact)
 }
-_FORM = "viscotack surrogate 3"
-# Earlier formats, each of one contact, and prefixes of names that have changed since.
+_FORM = "viscotack surrogate 4"
+# The format without second networks; and earlier ones, each of one contact, with the prefixes of
+# names that have changed since.
+_WITHOUT_SECOND = "viscotack surrogate 3"
 _BEFORE = {
     "viscotack surrogate 2": ("sphere", {}),
     "viscotack solids 2": ("solids", {"force.": "bend_force.", "work.": "bend_work."}),
@@ -72,6 +74,7 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str,
             arrays |= networks.arrays(f"{name}.")
     if trust is not None:
         arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
+        arrays |= {} if trust.joint is None else {"trust.joint": trust.joint}
     words = {"contact": contact.name, **facts}
     if contact.shared:
         words["power law"] = _checksum(surrogate.networks, contact.shared)
@@ -114,17 +117,20 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 
 
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
-    with sealed.opened(path, (_FORM, *_BEFORE), "the file of a surrogate", _MOST) as (found, words):
+    forms = (_FORM, _WITHOUT_SECOND, *_BEFORE)
+    with sealed.opened(path, forms, "the file of a surrogate", _MOST) as (found, words):
         arrays, words = _upgraded(found, words)
         contact = _CONTACTS[words["contact"]]
         _check_numbers(arrays)
-        networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes}
+        networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes if _stored(n, arrays)}
         for name, each in networks.items():
-            _check_layers(name, each, *contact.shapes[name])
+            _check_layers(name, each, *_ends(contact, name, "second" in networks))
         trust = None
         if reach := networks.pop("trust", None):
-            trust = Trust(reach, arrays["trust.levels"])
+            trust = Trust(reach, arrays["trust.levels"], arrays.get("trust.joint"))
             _check_shape("trust.levels", trust.levels, (len(OF), len(CONFIDENCES)))
+            if trust.joint is not None:
+                _check_shape("trust.joint", trust.joint, (len(CONFIDENCES),))
         constants = {name: arrays[name] for name in contact.sizes}
         for name, shape in contact.sizes.items():
             _check_shape(name, constants[name], shape)
@@ -137,9 +143,20 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
         return Surrogate(contact, networks, trust, constants), words
 
 
+def _ends(contact: type[Contact], name: str, with_second: bool) -> tuple[int, int]:
+    """Return the numbers of inputs and outputs of networks."""
+    inputs, outputs = contact.shapes[name]
+    return inputs - (DIFFERENCES if name == "trust" and not with_second else 0), outputs
+
+
+def _stored(name: str, arrays: Arrays) -> bool:
+    """Return whether a file must have networks; those that may abstain came later."""
+    return name != "second" or f"{name}.weight.0" in arrays
+
+
 def _upgraded(arrays: Arrays, words: dict[str, Any]) -> tuple[Arrays, dict[str, Any]]:
     """Rename arrays and metadata of a file of an earlier format to the current names."""
-    if words["form"] == _FORM:
+    if words["form"] in (_FORM, _WITHOUT_SECOND):
         return arrays, words
     contact, renamed = _BEFORE[words["form"]]
 

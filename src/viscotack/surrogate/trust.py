@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -21,19 +22,25 @@ from .network import Networks
 
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
 # Outputs of the network, and number of its inputs: five groups, their proximity to the ends of
-# their ranges, the spreads of two predictions, and position and slope of the force between its
-# limits.
-OF, INPUTS = ("force", "work", "curve", "travel"), 10
+# their ranges, the spreads of two predictions, position and slope of the force between its limits,
+# and the differences of two predictions from those of the second networks, which older files lack.
+OF, DIFFERENCES = ("force", "work", "curve", "travel"), 2
+INPUTS = 10 + DIFFERENCES
 # Distance from an end below which an input is near it, relative to half its range.
 _NEAR = 0.03
 # Spreads of log10 below this have no effect; their logarithms are of order one.
 _LEAST_SPREAD, _DECADES = 1e-5, 2.0
+# Differences of log10 below this have no effect, and their columns in the inputs.
+_LEAST_DIFFERENCE, _COMPARED = 1e-3, slice(10, INPUTS)
+# Differences of log10 of force and work between both models below which they agree, and the
+# largest half widths of the 90 % intervals of a prediction that is given.
+AGREED, WIDEST = np.log10([1.02, 1.06]), np.log10([1.05, 1.15])
 # Smallest distinguished distance of the fraction from 0 and 1, and smallest slope.
 _LEAST_SHARE = 1e-6
 
 
 def error_inputs(scaled: Array, answers: Answers) -> Array:
-    """Return the inputs of the network of the errors, shape (n, INPUTS).
+    """Return the inputs of the network of the errors but the differences, shape (n, 10).
 
     An error of the output of the network for the fraction s changes the force by s (1 - s) times
     the distance between its limits.
@@ -56,6 +63,13 @@ def error_inputs(scaled: Array, answers: Answers) -> Array:
     return np.column_stack([scaled, faces - 1, *apart, climb, place])
 
 
+def disagreement_inputs(answers: Answers, second: tuple[Array, Array]) -> list[Array]:
+    """Return the inputs that compare force and work with the second networks, shape (n,) each."""
+    values = answers.pull_off_force, answers.work_to_pull_off
+    apart = [np.abs(other - np.log10(x)) for x, other in zip(values, second, strict=True)]
+    return [np.log10(x + _LEAST_DIFFERENCE) + 2 for x in apart]
+
+
 @dataclass(frozen=True, eq=False)
 class Trust:
     """Half-widths of intervals.
@@ -67,12 +81,30 @@ class Trust:
         Errors of a curve are relative to the pull-off force, the others are in log10.
     levels : ndarray, shape (4, confidences)
         Calibrated factors on the half-widths.
+    joint : ndarray, shape (confidences,), or None
+        Further factors with which force, work and curve together are inside; None if they were
+        not measured.
     """
 
     reach: Networks
     levels: Array
+    joint: Array | None = None
 
-    def widths(self, inputs: Array, confidence: float) -> tuple[Array, ...]:
+    def doubtful(self, inputs: Array) -> npt.NDArray[np.bool_]:
+        """Return a mask of the forces and works that are not certain, shape (n, 2).
+
+        A number is doubtful if that of the second networks, which have other inputs, another form
+        and further training rows, lies outside of its 90 % interval widened to at least
+        ``AGREED``, or if half of this interval exceeds ``WIDEST``; a work also if its force is.
+        Where the force has two maxima of about the same height, both models are wrong in
+        different ways.
+        """
+        half = np.column_stack(self.widths(inputs, 0.9)[:2])
+        apart = 10 ** (inputs[:, _COMPARED] - 2) - _LEAST_DIFFERENCE
+        excess = np.maximum(apart / np.maximum(half, AGREED), half / WIDEST)
+        return np.column_stack([excess[:, 0], np.maximum(excess[:, 0], excess[:, 1])]) > 1
+
+    def widths(self, inputs: Array, confidence: float, *, joint: bool = False) -> tuple[Array, ...]:
         """Return the half-widths of the intervals of ``OF``, arrays of shape (n,).
 
         Parameters
@@ -81,6 +113,8 @@ class Trust:
             As from :func:`error_inputs`.
         confidence : float
             One of ``CONFIDENCES``.
+        joint : bool
+            Whether force, work and curve together are to be inside with this confidence.
         """
         if confidence not in CONFIDENCES:
             raise InputError(
@@ -89,11 +123,17 @@ class Trust:
             )
         usual = 10.0 ** self.reach(inputs).mean(axis=0)
         level = self.levels[:, CONFIDENCES.index(confidence)]
+        if joint:
+            if self.joint is None:
+                raise InputError("no joint intervals were measured for this surrogate")
+            level = level * self.joint[CONFIDENCES.index(confidence)]
         return tuple(usual[:, i] * level[i] for i in range(len(OF)))
 
-    def intervals(self, inputs: Array, answers: Answers, confidence: float) -> Intervals:
+    def intervals(
+        self, inputs: Array, answers: Answers, confidence: float, *, joint: bool = False
+    ) -> Intervals:
         """Return intervals around predictions, from the inputs of the network of the errors."""
-        *halves, curve, travel = self.widths(inputs, confidence)
+        *halves, curve, travel = self.widths(inputs, confidence, joint=joint)
         values = answers.pull_off_force, answers.work_to_pull_off
         force, work = (
             np.column_stack([v / 10**half, v * 10**half])

@@ -40,6 +40,7 @@ OUTPUTS = {
     "force_interval": ((2,), f"between which the simulated pull-off force is [{_FORCE}]"),
     "work_interval": ((2,), f"between which the simulated work to pull-off is [{_WORK}]"),
     "inside": ((5,), "which inputs are in the range learned from, in their order"),
+    "doubtful": ((2,), "whether force and work are not certain and should not be used"),
     "force_slopes": ((5,), "derivatives of ln pull-off force by ln of the inputs, in their order"),
     "work_slopes": ((5,), "derivatives of ln work to pull-off by ln of the inputs"),
     "curve_depth": ((POINTS,), f"depth from start to pull-off [{_LENGTH}]"),
@@ -52,6 +53,8 @@ OUTPUTS = {
     ),
     "travel_interval": ((2,), "from a pressed start to zero force, over what the curve has"),
 }
+
+_MASKS = ("inside", "doubtful")
 
 
 def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
@@ -94,7 +97,7 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
             [helper.make_tensor_value_info("groups", double, ["n", len(INPUTS)], words)],
             [
                 helper.make_tensor_value_info(
-                    name, truth if name == "inside" else double, ["n", *columns], text
+                    name, truth if name in _MASKS else double, ["n", *columns], text
                 )
                 for name, (columns, text) in OUTPUTS.items()
             ],
@@ -124,6 +127,7 @@ def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, An
         "force_interval": between.pull_off_force,
         "work_interval": between.work_to_pull_off,
         "inside": surrogate.inside(groups),
+        "doubtful": surrogate.doubtful(groups, answers),
         "force_slopes": force_slopes,
         "work_slopes": work_slopes,
         "curve_depth": curves.depth,

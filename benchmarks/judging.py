@@ -1,0 +1,144 @@
+"""Judge the shipped surrogates once, by cases whose seed is drawn after their checksums are fixed.
+
+`python -m benchmarks.judging sums` writes the checksums of the files of the surrogates into
+`judging/models.sha256`, to be committed. `draw` draws a seed from the entropy of the system and
+writes it into a record, `judging/NAME.json`; it refuses if the committed checksums are not those of
+the files, or if these were judged before. `judge --labels FOLDER` simulates and judges these cases
+(`training/fresh_cases.py`), and writes the table, the worst cases and every result into the record
+and a CSV beside it, once. `page` writes the record into docs/surrogate.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import hashlib
+import json
+import secrets
+import subprocess
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from training.fresh_cases import ACCURACY, DESIGNS, drawn, labelled
+from viscotack.surrogate import store
+
+from .fresh_coverage import OF, Judged, judged, table
+from .surrogate_page import PAGE, replaced
+
+FOLDER = Path(__file__).with_name("judging")
+SUMS = FOLDER / "models.sha256"
+COUNTS, WORST = (300, 200, 100, 200), 5
+
+
+def sums() -> str:
+    """Return the checksums of the files of the surrogates, as `sha256sum` prints them."""
+    files = sorted(store.FILES.values())
+    return "".join(f"{hashlib.sha256(x.read_bytes()).hexdigest()}  {x.name}\n" for x in files)
+
+
+def record_path() -> Path:
+    """Return the record of the shipped files."""
+    return FOLDER / f"{hashlib.sha256(sums().encode()).hexdigest()[:12]}.json"
+
+
+def draw(counts: tuple[int, ...]) -> Path:
+    """Draw the seed of the cases that judge the shipped files, and begin their record."""
+    name = f"HEAD:./{SUMS.relative_to(Path.cwd())}"
+    committed = subprocess.run(["git", "show", name], capture_output=True, text=True, check=True)
+    if committed.stdout != sums():
+        raise SystemExit(f"commit {SUMS.name} first: it differs from the files")
+    path = record_path()
+    if path.exists():
+        raise SystemExit(f"these files have the record {path.name}")
+    begun = {
+        "drawn": datetime.now(UTC).isoformat(timespec="seconds"),
+        "seed": secrets.randbits(31),
+        "counts": counts,
+        "accuracy": ACCURACY,
+    }
+    path.write_text(json.dumps(begun, indent=1) + "\n", encoding="utf-8")
+    return path
+
+
+def judge(labels: Path) -> dict[str, Any]:
+    """Judge the cases of the record, and complete it."""
+    path = record_path()
+    record = json.loads(path.read_text(encoding="utf-8"))
+    if "table" in record:
+        raise SystemExit(f"{path.name} was judged on {record['judged']}")
+    pairs = list(labelled(drawn(record["seed"], tuple(record["counts"])), labels))
+    found = [judged(case, label) for case, label in pairs if "failed" not in label]
+    _write_cases(path.with_suffix(".csv"), found)
+    record |= {
+        "judged": datetime.now(UTC).isoformat(timespec="seconds"),
+        "without a label": len(pairs) - len(found),
+        "table": table(found),
+        "worst": [words(one) for one in worst(found)],
+    }
+    path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    return record
+
+
+def worst(found: list[Judged]) -> list[Judged]:
+    """Return the answered cases whose force or work lies furthest out of its interval."""
+    known = [one for one in found if one.method]
+    return sorted(known, key=lambda one: -max(x for x in one.ratio[:2] if x == x))[:WORST]
+
+
+def words(one: Judged) -> str:
+    """Return a case and its errors in words."""
+    inputs = ", ".join(f"{name} {value:g}" for name, value in one.case.inputs.items())
+    errors = ", ".join(
+        f"{name} off by {off:.2%} ({ratio:.1f} half widths)"
+        for name, off, ratio in zip(OF, one.off, one.ratio, strict=False)
+        if off == off
+    )
+    return f"{one.case.design}: {inputs}: {errors}"
+
+
+def page() -> str:
+    """Return the record in words."""
+    record = json.loads(record_path().read_text(encoding="utf-8"))
+    return (
+        f"Drawn {record['drawn']}, seed {record['seed']}, simulated at {record['accuracy']:g}; "
+        f"{record['without a label']} without an answer of the simulation:\n\n{record['table']}\n\n"
+        "The cases furthest out of their intervals:\n\n"
+        + "\n".join(f"- {each}" for each in record["worst"])
+    )
+
+
+def _write_cases(path: Path, found: list[Judged]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        over = [f"{name}, half widths" for name in OF]
+        writer.writerow(["design", "inputs", "method", *over, "force, off", "work, off"])
+        for one in found:
+            numbers = [f"{x:.4g}" if x == x else "" for x in (*one.ratio, *one.off)]
+            writer.writerow([one.case.design, json.dumps(one.case.inputs), one.method, *numbers])
+
+
+def main() -> None:
+    """Write checksums, draw or judge."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("step", choices=("sums", "draw", "judge", "page"))
+    parser.add_argument("--labels", type=Path, help="folder of the labels")
+    parser.add_argument("--counts", type=int, nargs=len(DESIGNS), default=COUNTS)
+    given = parser.parse_args()
+    if given.step == "sums":
+        FOLDER.mkdir(exist_ok=True)
+        SUMS.write_text(sums(), encoding="utf-8")
+    elif given.step == "draw":
+        print(draw(tuple(given.counts)))
+    elif given.step == "page":
+        text = PAGE.read_text(encoding="utf-8")
+        found = replaced(text, "<!-- judged -->", "<!-- end of judged -->", page())
+        PAGE.write_text(found, encoding="utf-8")
+    elif given.labels is None:
+        parser.error("judge needs --labels")
+    else:
+        print(judge(given.labels)["table"])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,268 @@
+"""Fresh cases of the surrogates with labels from simulation, drawn from a seed and kept on disk.
+
+`python -m training.fresh_cases --seed 41 --labels FOLDER [--counts 400 300 150 200]`: power laws,
+other solids and punches, even in the logarithms of their ranges, and the region in which a pull-off
+may have two maxima. Each case is simulated to its pull-off at an accuracy of 5e-4 and appended to a
+file of the folder; a run that was stopped continues. About half a second a case.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from viscotack import Groups, InputError, Outcome, peaks, pull_off, solve, work_to_pull_off
+from viscotack.campaign.case import retraction
+from viscotack.campaign.columns import KINDS
+from viscotack.campaign.random_solids import STRETCHED, creep_spectrum
+from viscotack.result.trajectory import PRESSED
+from viscotack.surrogate import linear_solids, physics, punch_physics
+from viscotack.surrogate.alike import TIMES
+from viscotack.surrogate.line import Curves
+from viscotack.surrogate.linear_solids import SolidContact
+from viscotack.surrogate.model import Surrogate
+
+from .calibration import Apart
+
+ACCURACY = 5e-4
+# Numbers of random solids that no data set has; one in eight solids is a stretched exponential.
+_SOLIDS, _STRETCHED = (600_000, STRETCHED), 0.125
+# Decades beyond the times of a solid within which a test may lie.
+_BEYOND = 2.5
+# Tabor number, modulus ratio, depth [h0], and rate times retardation time over depth.
+TWO_PEAKS = ((0.05, 5.0), (1e-4, 1e-2), (20.0, 500.0), (0.5, 2.0))
+Random = np.random.Generator
+_DIGITS = 8
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case of a campaign: its design, its kind and its inputs by name."""
+
+    design: str
+    kind: str
+    inputs: dict[str, float]
+
+    @property
+    def problem(self) -> Groups:
+        """The dimensionless problem."""
+        return KINDS[self.kind].problem(self.inputs)
+
+    @property
+    def key(self) -> str:
+        """Identifies the case in a file of labels."""
+        return json.dumps([self.kind, self.inputs])
+
+
+def between(random: Random, low: float, high: float) -> float:
+    """Return a number that is uniform in its logarithm."""
+    return float(f"{low * (high / low) ** random.random():.{_DIGITS}g}")
+
+
+def power_law(random: Random) -> Case:
+    """Draw a sphere on a power law in the range of the surrogate."""
+    inputs = {name: between(random, *ends) for name, ends in physics.LIMITS.items()}
+    return Case("power laws", "sphere", inputs)
+
+
+def solid(random: Random) -> Case:
+    """Draw a sphere on another solid, its test within or near the times of the solid."""
+    low, high = (STRETCHED, 2 * STRETCHED) if random.random() < _STRETCHED else _SOLIDS
+    number = int(random.integers(low, high))
+    test = {
+        name: between(random, *physics.LIMITS[name])
+        for name in ("tabor", "modulus_ratio", "preload")
+    }
+    _, times = creep_spectrum(number, test["modulus_ratio"])
+    rate = between(random, 10**-_BEYOND / times[-1], 10**_BEYOND / times[0])
+    return Case("other solids", "solid", {**test, "solid": number, "rate": rate})
+
+
+def punch(random: Random) -> Case:
+    """Draw a punch on a layer in the range of the surrogate."""
+    drawn = [
+        between(random, low, high)
+        for low, high in zip(punch_physics.LOW, punch_physics.HIGH, strict=True)
+    ]
+    row = np.array([drawn])
+    drawn[punch_physics.PRELOAD] *= float(punch_physics.compliance(row)[0])
+    inputs = dict(zip(punch_physics.INPUTS, drawn, strict=True))
+    return Case("punches", "punch", {"cohesion": 0.05, **inputs})
+
+
+def two_peaks(random: Random) -> Case:
+    """Draw a deep pull, about as fast as its bulk relaxes: two in three on standard solids."""
+    tabor, ratio, depth, part = (between(random, *ends) for ends in TWO_PEAKS)
+    test = {"tabor": tabor, "modulus_ratio": ratio, "preload": depth}
+    sort = random.random()
+    if sort < 1 / 6:
+        sharp = {"exponent": between(random, 0.7, 2.0), "rate": part * depth}
+        return Case("two peaks", "sphere", test | sharp)
+    number, time = _with_few_times(random, ratio, 1 if sort < 5 / 6 else 4)
+    return Case("two peaks", "solid", {**test, "solid": number, "rate": part * depth / time})
+
+
+def _with_few_times(random: Random, ratio: float, most: int) -> tuple[int, float]:
+    """Return a random solid of few retardation times, and their weighted mean."""
+    while True:
+        number = int(random.integers(*_SOLIDS))
+        weights, times = creep_spectrum(number, ratio)
+        if len(times) <= most and (most == 1 or len(times) > 1):
+            return number, float(np.exp(weights @ np.log(times)))
+
+
+DESIGNS: tuple[Callable[[Random], Case], ...] = (power_law, solid, punch, two_peaks)
+
+
+def drawn(seed: int, counts: tuple[int, ...]) -> list[Case]:
+    """Return cases of each design, in an order whose beginning has its share of each."""
+    found: list[tuple[float, Case]] = []
+    for number, (draw, count) in enumerate(zip(DESIGNS, counts, strict=True)):
+        random = np.random.default_rng([seed, number])
+        found += [((i + 0.5) / count, draw(random)) for i in range(count)]
+    return [case for _, case in sorted(found, key=lambda pair: pair[0])]
+
+
+def label(case: Case, accuracy: float = ACCURACY) -> dict[str, Any]:
+    """Return what a simulation has for a case, or why it has nothing.
+
+    Numbers are those of `viscotack.summary`; `travel` [h0] and `tension` are those of all steps
+    between zero force, or a start in tension, and the pull-off.
+    """
+    try:
+        result = solve(
+            case.problem, accuracy=accuracy, until="pull-off", estimate_error=False, throw=False
+        )
+        if result.outcome is Outcome.STOPPED:
+            return {"failed": result.status}
+        found, work = pull_off(result), work_to_pull_off(result)
+    except InputError as error:
+        return {"failed": str(error)}
+    depth, force, _ = retraction(result)
+    before = depth >= found.depth
+    depth, force = depth[before], force[before]
+    zero, first = depth[0], 0
+    if force[0] > 0:
+        first = int(np.flatnonzero(force > 0)[-1]) + 1
+        if first == len(depth):
+            return {"failed": "the pull-off follows a compressed step at once"}
+        part = force[first - 1] / (force[first - 1] - force[first])
+        zero = depth[first - 1] + part * (depth[first] - depth[first - 1])
+    return {
+        "force": found.force,
+        "work": work,
+        "peaks": [[peak.force, peak.depth] for peak in peaks(result)],
+        "depth": found.depth,
+        "to_zero": float(depth[0] - zero),
+        "travel": (zero - depth[first:]).round(9).tolist(),
+        "tension": (-force[first:]).round(9).tolist(),
+    }
+
+
+def labelled(
+    cases: list[Case], folder: Path, accuracy: float = ACCURACY, *, missing: bool = True
+) -> Iterator[tuple[Case, dict[str, Any]]]:
+    """Iterate over cases with their labels; missing ones are simulated, or skipped."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"labels-{accuracy:g}.jsonl"
+    known = {}
+    if path.exists():
+        for line in path.read_text(encoding="utf-8").splitlines():
+            entry = json.loads(line)
+            known[entry["key"]] = entry["label"]
+    with path.open("a", encoding="utf-8") as file:
+        for case in cases:
+            if case.key not in known:
+                if not missing:
+                    continue
+                known[case.key] = label(case, accuracy)
+                file.write(json.dumps({"key": case.key, "label": known[case.key]}) + "\n")
+                file.flush()
+            yield case, known[case.key]
+
+
+def curve_error(curve: Curves, label: dict[str, Any]) -> float:
+    """Return the largest error of the tension of one curve at a simulated step.
+
+    At the same travel from zero force, or from a start in tension, by monotone cubics between the
+    points of the curve; steps beyond its end are compared with its last force.
+    """
+    first = PRESSED if curve.force[0] > 0 else 0
+    travel, tension = curve.depth[first] - curve.depth[first:], -curve.force[first:]
+    kept = np.append(True, np.diff(travel) > 0)
+    if kept.sum() == 1:
+        return float(np.max(np.abs(tension[0] - label["tension"])))
+    at = np.clip(label["travel"], 0.0, travel[-1])
+    read = PchipInterpolator(travel[kept], tension[kept])(at)
+    return float(np.max(np.abs(read - label["tension"])))
+
+
+def apart(made: Surrogate, given: Any, labels: list[dict[str, Any]]) -> Apart:
+    """Return how far a surrogate is off; of a curve at any simulated step."""
+    tests = made.tests(given)
+    said = made.evaluate(tests)
+    curves = made.curves(tests, said)
+    force, work, to_zero = (np.array([x[n] for x in labels]) for n in ("force", "work", "to_zero"))
+    each = [
+        Curves(*one) for one in zip(curves.depth, curves.force, curves.contact_radius, strict=True)
+    ]
+    off = [
+        curve_error(curve, label) / label["force"]
+        for curve, label in zip(each, labels, strict=True)
+    ]
+    travel = curves.depth[:, 0] - curves.depth[:, PRESSED]
+    pressed = (curves.force[:, 0] > 0) & (to_zero > 0)
+    travel = np.where(pressed, np.log10(travel / np.where(pressed, to_zero, 1.0)), np.nan)
+    errors = np.log10(said.pull_off_force / force), np.log10(said.work_to_pull_off / work)
+    return Apart(tests.told_of_errors(said), np.column_stack([*errors, off, travel]))
+
+
+def given_of(made: Surrogate, cases: list[Case]) -> Any:
+    """Return what a surrogate is given for cases of its kind."""
+    if made.contact is not SolidContact:
+        return np.array([[case.inputs[name] for name in made.contact.inputs] for case in cases])
+    tabor, k, depth = (
+        np.array([case.inputs[n] for case in cases]) for n in ("tabor", "modulus_ratio", "preload")
+    )
+    creep = np.array(
+        [case.problem.material.creep(TIMES / case.inputs["rate"]) for case in cases], dtype=float
+    )
+    return linear_solids.like(made, tabor, k, depth, np.clip(creep, k[:, None], 1.0))
+
+
+def add_draw(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a draw."""
+    parser.add_argument("--seed", type=int, required=True)
+    parser.add_argument("--labels", type=Path, required=True, help="folder of the labels")
+    parser.add_argument(
+        "--counts",
+        type=int,
+        nargs=len(DESIGNS),
+        default=(240, 192, 96, 192),
+        help="power laws, other solids, punches, two peaks",
+    )
+    parser.add_argument("--accuracy", type=float, default=ACCURACY)
+
+
+def main() -> None:
+    """Simulate what is missing."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_draw(parser)
+    given = parser.parse_args()
+    cases = drawn(given.seed, tuple(given.counts))
+    failed = 0
+    for number, (_, found) in enumerate(labelled(cases, given.labels, given.accuracy), 1):
+        failed += "failed" in found
+        if number % 50 == 0:
+            print(f"{number} of {len(cases)}, {failed} without an answer", flush=True)
+
+
+if __name__ == "__main__":
+    main()

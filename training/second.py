@@ -1,0 +1,160 @@
+"""Second networks of force and work, with which the first ones must agree, and intervals anew.
+
+``python -m training.second CONTACT --out DIR --labels DIR`` fits those of `sphere`, `solids` or
+`punch`, adds them to the file of the package, measures its intervals again and writes it into the
+folder. They know other inputs, have another form, and learn from further rows: where the force has
+two maxima of about the same height (`deep`, `sharp`), and where an adversary found errors (`hard`,
+`steep`, `punch_faces`). Rows that measure intervals or judge are left out. Intervals hold the rows
+of the sets that measure, and fresh cases of a seed (:mod:`training.fresh_cases`), of which curves
+are known at all steps of the simulations.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from viscotack import datasets
+from viscotack.surrogate import store
+from viscotack.surrogate.contact import SECOND_WAY
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks
+from viscotack.version import __version__
+
+from . import fresh_cases, make, scores
+from . import train_punch as punches
+from . import train_solids as solids
+from .calibration import Apart, judged, trusted
+from .fitting import Fit, fit_all
+from .recipe import scaled_task
+from .rows import FAR_OFF, LEARNED, Rows, certain, joined, read
+from .shop import Shop
+
+HOW = {
+    "sphere": Fit(hidden=(48, 48, 48), steps=2500, penalty=1e-8, scale=1.0),
+    "solids": Fit(hidden=(48, 48, 48), steps=4000, penalty=5e-7, scale=1.0),
+    "punch": Fit(hidden=(32, 32, 32), steps=3000, penalty=1e-7, scale=1.0),
+}
+# Every so many rows of `broad` are learned from as solids too.
+_THINNED = 10
+# Seed and numbers of the fresh cases that measure intervals; fewer of a design do not.
+SEED, COUNTS, _ENOUGH = 41, (240, 192, 96, 192), 60
+Rowed = tuple[Any, Rows]
+
+
+def learned(contact: str) -> Rowed:
+    """Return what a surrogate is given in the rows that second networks learn from, and these."""
+    if contact == "punch":
+        return _given(joined([*_parted_punches()[0], punches.faces().chosen(slice(0, None, 2))]))
+    if contact == "sphere":
+        whole = make.parted()[0]
+        varied = whole.chosen(whole.origin != LEARNED.index("thesis"))
+        return _given(joined([varied, read(*FAR_OFF, "deep")]))
+    some = [
+        solids.parted(solids.tables(None, rows=None))["learn"],
+        solids.read(datasets.load("sharp")),
+        solids.power_laws(_THINNED),
+        solids.as_solids(read("deep")),
+    ]
+    likes = [one.like(store.shipped("solids")) for one in some]
+    names = likes[0].__dataclass_fields__
+    like = type(likes[0])(**{n: np.concatenate([getattr(x, n) for x in likes]) for n in names})
+    return like, joined([one.rows for one in some])
+
+
+def fitted(made: Surrogate, of: Rowed, how: Fit, shop: Shop) -> Networks:
+    """Return second networks that have learned the share of the way, and work over force."""
+    given, rows = of
+    tests = made.tests(given)
+    low, high = tests.second_limits
+    share = (np.log10(rows.force) - low) / np.maximum(high - low, SECOND_WAY)
+    work = np.log10(rows.work / rows.force)
+    task = scaled_task(tests.told_of_second, np.column_stack([share, work]))
+    return task.of(shop.fit(task.task, how).result())
+
+
+def measured(made: Surrogate, fresh: Sequence[Apart]) -> Surrogate:
+    """Return a surrogate with intervals from its errors on the sets, and on fresh cases."""
+    match made.contact.name:
+        case "sphere":
+            known, test = make.parted()
+            kept = [judged(made, rows) for rows in make.measuring_rows(test)]
+            # networks have not learned from `deep`, and force has two maxima there
+            far = [read(name).chosen(certain(name)) for name in FAR_OFF]
+            hard = [judged(made, joined(far)), judged(made, read("deep"))]
+            some = judged(made, known.chosen(slice(None, None, 2)))
+            seeds = (0, 1), (0, 1)
+            return trusted(made, some, kept, fit_all, hard=hard, fresh=fresh, seeds=seeds)
+        case "punch":
+            known, measuring = (joined(rows) for rows in _parted_punches())
+            kept = joined([measuring, punches.faces().chosen(slice(0, None, 2))])
+            return trusted(made, judged(made, known), [judged(made, kept)], fit_all, fresh=fresh)
+    part, sharp = solids.parted(solids.tables(None, rows=None)), datasets.load("sharp")
+    return solids.measured(made, part, [solids.read(sharp)], fresh)
+
+
+def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
+    """Return the scores of a surrogate, in the form of its file, from those before."""
+    match made.contact.name:
+        case "sphere":
+            return before | {"kept apart at random": scores.scores(made, make.parted()[1])}
+        case "punch":
+            return punches.scores(made)
+    return solids.scores(made, solids.parted(solids.tables(None, rows=None)))
+
+
+def _given(rows: Rows) -> Rowed:
+    return rows.groups, rows
+
+
+def _parted_punches() -> tuple[list[Rows], list[Rows]]:
+    """Return the rows of punches that networks learn from, and those that measure intervals."""
+    sets = [punches.read(name) for name in punches.LEARNED]
+    masks = [punches.parts(len(rows)) for rows in sets]
+    learn = [rows.chosen(~(m | j)) for rows, (m, j) in zip(sets, masks, strict=True)]
+    return learn, [rows.chosen(m) for rows, (m, _) in zip(sets, masks, strict=True)]
+
+
+def fresh_apart(made: Surrogate, folder: Path, *, missing: bool) -> list[Apart]:
+    """Return how far a surrogate is off on the fresh cases of its kind, a set for each design."""
+    kind = {"sphere": "sphere", "solids": "solid", "punch": "punch"}[made.contact.name]
+    cases = [c for c in fresh_cases.drawn(SEED, COUNTS) if c.kind == kind]
+    pairs = fresh_cases.labelled(cases, folder, missing=missing)
+    known = [pair for pair in pairs if "failed" not in pair[1]]
+    found = []
+    for design in dict.fromkeys(case.design for case, _ in known):
+        some, labels = zip(*(pair for pair in known if pair[0].design == design), strict=True)
+        given = fresh_cases.given_of(made, list(some))
+        if len(some) >= _ENOUGH:
+            found.append(fresh_cases.apart(made, given, list(labels)))
+    return found
+
+
+def main() -> None:
+    """Fit, measure and write."""
+    parser = argparse.ArgumentParser(prog="python -m training.second")
+    parser.add_argument("contact", choices=tuple(HOW))
+    parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
+    parser.add_argument("--labels", type=Path, required=True, help="folder of the fresh labels")
+    parser.add_argument("--known", action="store_true", help="only cases with a stored label")
+    chosen = parser.parse_args()
+    path = store.FILES[chosen.contact]
+    made = store.load(path)
+    with Shop(chosen.out / "networks") as shop:
+        found = fitted(made, learned(chosen.contact), HOW[chosen.contact], shop)
+    made = made.having(second=found)
+    made = measured(made, fresh_apart(made, chosen.labels, missing=not chosen.known))
+    sealed = ("form", "sha256", "contact", "power law")
+    facts = {name: each for name, each in store.facts(path).items() if name not in sealed}
+    facts["scores"] = scores_of(made, facts["scores"])
+    facts["second"] = {"fresh": {"seed": SEED, "counts": COUNTS}, "made": __version__}
+    store.save(made, chosen.out / path.name, facts)
+    print(chosen.out / path.name)
+
+
+if __name__ == "__main__":
+    main()
