@@ -274,7 +274,7 @@ class Body:
         return Frozen(self.contact.law, bonds.factor(self.growing))
 
     def transferred(self, before: State, after: State) -> float:
-        """Return the heat in an interface that ages when it is balanced anew on other nodes."""
+        """Return the heat in an interface that ages when its gaps are balanced on other nodes."""
         if after.extra is None or not isinstance(after.extra.bonds, Contacted):
             return 0.0
         gap = CubicSpline(before.surface.position, before.gap)(after.surface.position)
