@@ -39,6 +39,7 @@ ROOMS = (
     "surrogate",
     "forecast",
     "series",
+    "pads",
     "identify",
     "pictures",
     "operations",

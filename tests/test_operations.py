@@ -40,6 +40,7 @@ FILES = [
     *(ROOT / "examples").glob("from_*/*.csv"),
     *(ROOT / "examples").glob("from_toml/*.toml"),
     *(ROOT / "examples").glob("window/*.toml"),
+    *(ROOT / "examples").glob("array/*.toml"),
     ROOT / "examples/own/plan.toml",
 ]
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
@@ -90,6 +91,7 @@ NOT_DRAWN = {
     "show": [{"file": "lens.npz"}],
     "simulate": [{"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"}],
     "sweep": [SWEEP],
+    "array": [{"file": "wafer_pad.toml", "accuracy": 0.01}],
     "window": [{"file": "kinetic_stamp.toml", "simulate": True}],
 }
 

@@ -52,6 +52,13 @@ if TYPE_CHECKING:
     from .methods import crack_contact as crack_contact
     from .methods import solve as solve
     from .operations import ask as ask
+    from .pads import ArrayPull as ArrayPull
+    from .pads import ArrayYield as ArrayYield
+    from .pads import Backing as Backing
+    from .pads import PadArray as PadArray
+    from .pads import Scatter as Scatter
+    from .pads import array_yield as array_yield
+    from .pads import pull_array as pull_array
     from .pictures.forecast import draw_prediction as draw_prediction
     from .pictures.lab import draw_fit as draw_fit
     from .pictures.plot import draw_energy as draw_energy
@@ -228,6 +235,15 @@ _NAMES = {
         "window",
         "Window",
         "CriticalSpeed",
+    ),
+    "pads": (
+        "PadArray",
+        "Backing",
+        "pull_array",
+        "ArrayPull",
+        "Scatter",
+        "array_yield",
+        "ArrayYield",
     ),
     "pictures.forecast": ("draw_prediction",),
     "operations": ("ask",),

@@ -1,0 +1,169 @@
+r"""Holding with an array: payload, time under a dead load, and release.
+
+A mass m that is lifted with the acceleration a needs the force :math:`S m (g + a)` with the safety
+factor S. Under that force at rest viscoelastic pads creep off if it exceeds their elastic pull-off
+force. The time is that of one pad under its share, that of the pad that carries most at the
+pull-off: the force over the number of pads and over the load sharing factor.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from viscotack.errors import InputError, OutOfRange
+from viscotack.methods import crack_contact, solve
+from viscotack.problem import Problem
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.protocol import AtForce, Dwell, LoadTo, Retraction
+from viscotack.result import Outcome
+from viscotack.result.dead_load import time_to_detachment
+
+from .pulling import ArrayPull, PadArray
+
+GRAVITY = 9.80665
+# Longest time of a dead load [s]: one day.
+LONGEST = 86_400.0
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A load that an array has to hold.
+
+    Parameters
+    ----------
+    mass : float
+        Mass [kg].
+    acceleration : float
+        Largest acceleration besides gravity [m/s^2].
+    safety_factor : float
+        Factor on the force, at least 1.
+
+    Examples
+    --------
+    >>> f"{Hold(mass=1e-3, acceleration=10.0, safety_factor=2.0).force * 1e3:.1f} mN"
+    '39.6 mN'
+    """
+
+    mass: float
+    acceleration: float = 0.0
+    safety_factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0 < self.mass < inf or not self.acceleration >= 0 or not self.safety_factor >= 1:
+            raise InputError(
+                "a load has a positive mass, an acceleration of at least 0 and a safety factor of "
+                f"at least 1, got {self.mass:.4g} kg, {self.acceleration:.4g} m/s^2 and "
+                f"{self.safety_factor:.4g}"
+            )
+
+    @property
+    def force(self) -> float:
+        """Force that the array has to hold [N]."""
+        return self.safety_factor * self.mass * (GRAVITY + self.acceleration)
+
+    @property
+    def weight(self) -> float:
+        """Weight of the mass at rest [N]."""
+        return self.mass * GRAVITY
+
+
+@dataclass(frozen=True)
+class Holding:
+    """How an array holds a load.
+
+    Attributes
+    ----------
+    holds : bool or None
+        Whether the array reaches the force of the load; None within the interval.
+    force : float
+        Force of the load with acceleration and safety factor [N].
+    payload : float
+        Largest mass with the same acceleration and safety factor, by the lower end of the interval
+        of the pull-off force [kg].
+    time : float
+        Time under the weight at rest until the array comes off [s]; inf if it never does or lasts
+        longer than a day.
+    release_time : float
+        Time from the start of the pull until the last pad has let go [s].
+    why : str
+        Where the time comes from.
+    """
+
+    holds: bool | None
+    force: float
+    payload: float
+    time: float
+    release_time: float
+    why: str
+
+
+def holding(
+    array: PadArray,
+    found: ArrayPull,
+    load: Hold,
+    *,
+    speed: float,
+    preload: float,
+    accuracy: float = DEFAULT_ACCURACY,
+    time_limit: float | None = None,
+) -> Holding:
+    """Return how an array that was pulled with a speed and a preload holds a load.
+
+    Parameters
+    ----------
+    array, found : PadArray and ArrayPull
+        The array and its pull.
+    load : Hold
+        Mass, acceleration and safety factor.
+    speed, preload : float
+        Those of the pull.
+    accuracy, time_limit : float
+        Of a simulation of the dead load on one pad.
+    """
+    low, high = found.interval
+    holds = True if load.force <= low else False if load.force > high else None
+    payload = low / (load.safety_factor * (GRAVITY + load.acceleration))
+    release = float(np.nanmax(found.released)) / speed
+    if load.weight > found.pull_off_force:
+        why = "the weight exceeds the pull-off force"
+        return Holding(holds, load.force, payload, 0.0, release, why)
+    if array.pad.groups().modulus_ratio == 1:
+        return Holding(holds, load.force, payload, inf, release, "elastic pads do not creep")
+    each = load.weight / (len(array.positions) * found.load_sharing)
+    start = preload / len(array.positions)
+    time, why = _time(array.pad, each, start, speed, accuracy, time_limit)
+    return Holding(holds, load.force, payload, time, release, why)
+
+
+def _time(
+    pad: Problem,
+    tension: float,
+    preload: float,
+    speed: float,
+    accuracy: float,
+    time_limit: float | None,
+) -> tuple[float, str]:
+    """Return the time until a pad comes off under a tension [s], and its tier."""
+    si = pad.scales()
+    # the pad is loaded as fast as the pull unloads it
+    loading = si.length * max(pad.groups().tabor or 1.0, 1.0) / speed
+    moves = (LoadTo(-tension, loading), Dwell(LONGEST, hold="force"))
+    problem = replace(pad, protocol=Retraction(AtForce(preload), None, moves=moves))
+    try:
+        found = crack_contact(problem)
+    except OutOfRange:
+        result = solve(
+            problem, accuracy=accuracy, estimate_error=False, time_limit=time_limit, throw=False
+        )
+        if result.outcome in (Outcome.JUMPED, Outcome.DETACHED):
+            return time_to_detachment(result), "simulation of one pad under its share"
+        if result.outcome is Outcome.STOPPED:
+            return float("nan"), f"the simulation of the dead load stopped: {result.status}"
+        return inf, "simulation of one pad under its share, for a day"
+    if found.status != "detached":
+        return inf, "steady crack of one pad under its share, for a day"
+    held = float(found.time[-1]) * si.time - loading
+    return max(held, 0.0), "steady crack of one pad under its share"

@@ -1,0 +1,181 @@
+"""Tests of the operation ``array``: its file, command, tables, picture, payload and yield."""
+
+import csv
+from math import inf
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from front_ends import Http, Question, through_all
+from viscotack.app.cli import application
+from viscotack.errors import InputError
+from viscotack.operations import ask
+from viscotack.pads import Hold, holding, pull_array, read_array
+from viscotack.pictures.array import draw_array
+
+EXAMPLES = Path(__file__).parents[1] / "examples" / "array"
+SMALL = """
+[array]
+rows = 1
+columns = 3
+spacing = "4 mm"
+heights = ["0 um", "-1 um", "1 um"]
+
+[backing]
+stiffness = "2 kN/m"
+tilt = "0.01 degree"
+
+[pull]
+speed = "10 um/s"
+preload = "6 mN"
+
+[hold]
+mass = "0.3 g"
+safety_factor = 2
+
+[pad.material]
+model = "elastic"
+rubbery_modulus = "1.5 MPa"
+poisson_ratio = 0.5
+
+[pad.interface]
+law = "lennard-jones"
+work_of_adhesion = "150 mJ/m^2"
+equilibrium_gap = "10 nm"
+
+[pad.sphere]
+radius = "5 mm"
+"""
+
+
+@pytest.fixture
+def small(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("small.toml").write_text(SMALL)
+    return Path("small.toml")
+
+
+def test_a_file_states_pads_backing_pull_and_load(small):
+    found = read_array(small)
+    assert found.array.positions == ((0.0, 0.0), (4e-3, 0.0), (8e-3, 0.0))
+    assert found.array.heights == (0.0, -1e-6, 1e-6)
+    assert found.array.backing.stiffness == 2e3
+    assert found.array.backing.tilt == pytest.approx(np.radians(0.01))
+    assert (found.speed, found.preload) == (1e-5, 6e-3)
+    assert found.hold == Hold(3e-4, 0.0, 2.0)
+    assert found.scatter is None
+
+
+@pytest.mark.parametrize("name, count", [("gripper_finger", 12), ("wafer_pad", 19)])
+def test_the_examples_are_read(name, count):
+    assert len(read_array(EXAMPLES / f"{name}.toml").array.positions) == count
+
+
+@pytest.mark.slow
+def test_the_gripper_finger_holds_its_load_in_nine_of_ten_draws():
+    record = ask("array", file=str(EXAMPLES / "gripper_finger.toml")).record()
+    assert record["holds"] is True
+    # docs/arrays.md
+    assert record["pull_off_force_N"] == pytest.approx(0.1025, rel=0.01)
+    assert record["yield"] == pytest.approx(0.907, abs=0.03)
+
+
+@pytest.mark.parametrize(
+    "old, new, words",
+    [
+        ("[backing]", "[baking]", "did you mean backing"),
+        ("rows = 1", "rows = 0", "rows must be a number"),
+        ("rows = 1", "rows = 900\ncolums = 9", "1 to 2,000 pads"),
+        ("rows = 1", "rows = 1\nroes = 1", "unknown key 'roes'"),
+        ('["0 um", "-1 um", "1 um"]', '["0 um"]', "one for each pad"),
+        ('["0 um", "-1 um", "1 um"]', '["0 um", "-1 um", "1 s"]', "heights"),
+        ('tilt = "0.01 degree"', 'tilt = "20 degree"', "below 10 degrees"),
+        ('preload = "6 mN"', "", "preload is missing"),
+        ('mass = "0.3 g"', "", "mass is missing"),
+        ("safety_factor = 2", "safety_factor = 0.5", "safety factor of at least 1"),
+        ("[pad.sphere]", "[pad.protocol]\n[pad.sphere]", "is stated by"),
+        ("rows = 1", 'work_scatter = 0.1\nseed = "a"\nrows = 1', "whole numbers"),
+        ("rows = 1", 'positions = ["1 mm"]', "list of pairs"),
+    ],
+)
+def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
+    assert old in SMALL
+    text = SMALL.replace(old, new)
+    if "positions" in new:
+        text = text.replace("columns = 3\n", "").replace('spacing = "4 mm"\n', "")
+    small.write_text(text)
+    with pytest.raises(InputError, match=words):
+        read_array(small)
+
+
+def test_all_front_ends_answer_alike(small):
+    client = Http()
+    try:
+        found = through_all(Question("array", {"file": "small.toml"}), client)
+    finally:
+        client.close()
+    record = found["Python"].record
+    assert record["count"] == 3
+    assert record["holds"] is True
+    for other in found.values():
+        assert other.record == record
+
+
+def test_the_command_writes_tables_and_a_picture(small):
+    line = ["array", "small.toml", "--csv", "f.csv", "--pads", "p.csv", "--plot", "a.svg"]
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 0, done.output
+    assert "the array holds" in done.output
+    rows = list(csv.DictReader(Path("p.csv").read_text().splitlines()))
+    assert [row["order"] for row in rows] == ["3", "1", "2"]
+    curve = csv.DictReader(Path("f.csv").read_text().splitlines())
+    force = [float(row["force_N"]) for row in curve]
+    assert force[0] == pytest.approx(6e-3, rel=1e-6)
+    assert force[-1] == 0
+    assert Path("a.svg").stat().st_size > 5000
+
+
+def test_a_pad_without_contact_is_drawn_and_counted(small):
+    small.write_text(SMALL.replace('"-1 um"', '"-1 mm"'))
+    answer = ask("array", file="small.toml")
+    assert "1 of 3 pads do not touch" in answer.words()
+    axes = draw_array(read_array(small).array, answer.found).axes
+    assert "3 pads" in axes[0].get_title(loc="left") + axes[0].get_title()
+
+
+def test_scatter_gives_a_yield(small):
+    small.write_text(SMALL.replace("rows = 1", "work_scatter = 0.1\ndraws = 40\nrows = 1"))
+    record = ask("array", file="small.toml").record()
+    low, high = record["yield_interval"]
+    assert 0 <= low <= record["yield"] <= high <= 1
+
+
+def test_payload_is_the_force_over_gravity_acceleration_and_safety(small):
+    stated = read_array(small)
+    how = {"speed": stated.speed, "preload": stated.preload}
+    pulled = pull_array(stated.array, **how)
+    light, fast = Hold(1e-5), Hold(1e-5, acceleration=9.80665, safety_factor=3.0)
+    one, other = (holding(stated.array, pulled, each, **how) for each in (light, fast))
+    assert one.payload == pytest.approx(pulled.interval[0] / 9.80665, rel=1e-9)
+    assert other.payload == pytest.approx(one.payload / 6, rel=1e-9)
+    assert one.release_time == pytest.approx(np.max(pulled.released) / stated.speed)
+    # an elastic pad holds less than its pull-off force for ever
+    assert one.time == inf
+    assert holding(stated.array, pulled, Hold(1.0), **how).holds is False
+
+
+def test_viscoelastic_pads_creep_off_under_a_weight_that_a_fast_pull_holds(small):
+    text = SMALL.replace('"elastic"', '"sls"').replace(
+        'rubbery_modulus = "1.5 MPa"',
+        'rubbery_modulus = "1.5 MPa"\nglassy_modulus = "15 MPa"\ntau0 = "0.1 s"',
+    )
+    small.write_text(text.replace('"10 nm"', '"600 nm"'))
+    stated = read_array(small)
+    how = {"speed": 1e-4, "preload": stated.preload}
+    pulled = pull_array(stated.array, **how)
+    heavy, light = (holding(stated.array, pulled, Hold(mass), **how) for mass in (2.5e-3, 0.7e-3))
+    assert heavy.holds is True
+    assert 0.01 < heavy.time < 100
+    assert light.time == inf

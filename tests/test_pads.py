@@ -1,0 +1,252 @@
+"""Tests of arrays of pads: limits, tilt, order of detachment, energy and yield."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from viscotack import (
+    AtDepth,
+    AtForce,
+    Backing,
+    Disc,
+    Elastic,
+    FlatPunch,
+    InputError,
+    Layer,
+    LennardJones,
+    OutOfRange,
+    PadArray,
+    Problem,
+    Retraction,
+    Sphere,
+    StandardSolid,
+    crack_contact,
+    pull_array,
+    pull_off_force,
+    solve,
+)
+from viscotack.pads import grid
+from viscotack.pads.curve import Curve, side_by_side
+
+RUBBER = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
+ELASTIC = Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
+SPEED, LOAD = 1e-5, 2e-3
+
+
+LENS, PLACES = Sphere(5e-3), grid(3, 4, 5e-3)
+
+
+def pad(material=ELASTIC, *, gap=1e-9, shape=LENS):
+    return Problem(material, LennardJones(0.15, gap), shape, Retraction(AtForce(LOAD), SPEED))
+
+
+def pulled(problem=None, places=PLACES, *, mean_load=LOAD, speed=SPEED, **options):
+    backing = Backing(
+        **{k: options.pop(k) for k in list(options) if k in Backing.__dataclass_fields__}
+    )
+    array = PadArray(problem or pad(), places, backing=backing, **options)
+    return pull_array(array, speed=speed, preload=len(places) * mean_load, accuracy=0.02)
+
+
+def alone(problem, stiffness=None):
+    protocol = replace(problem.protocol, stiffness=stiffness)
+    return crack_contact(replace(problem, protocol=protocol)).pull_off_force * (
+        problem.scales().force
+    )
+
+
+@pytest.mark.parametrize("problem", [pad(), pad(RUBBER, gap=6e-7)], ids=["elastic", "rubber"])
+def test_one_pad_pulls_off_as_the_contact_of_its_tier(problem):
+    found = pulled(problem, [(0.0, 0.0)])
+    assert found.pull_off_force == pytest.approx(alone(problem), rel=1e-6)
+    assert found.load_sharing == pytest.approx(1, rel=1e-12)
+    assert found.method == "steady cracks"
+
+
+def test_one_pad_outside_the_theory_pulls_off_as_its_simulation():
+    problem = pad(RUBBER, gap=3e-6)
+    expected = solve(problem, accuracy=0.02, estimate_error=False)
+    found = pulled(problem, [(0.0, 0.0)])
+    assert found.method == "simulation"
+    assert found.pull_off_force == pytest.approx(
+        pull_off_force(expected) * problem.scales().force, rel=1e-6
+    )
+
+
+@pytest.mark.parametrize("problem", [pad(), pad(RUBBER, gap=6e-7)], ids=["elastic", "rubber"])
+def test_equal_pads_on_a_rigid_backing_carry_as_many_times_one_pad(problem):
+    found = pulled(problem)
+    assert found.pull_off_force == pytest.approx(12 * alone(problem), rel=1e-6)
+    assert found.largest_jump == 12
+
+
+@pytest.mark.parametrize("stiffness", [300.0, pytest.param(3e3, marks=pytest.mark.slow)])
+def test_equal_viscoelastic_pads_share_the_machine_in_equal_parts(stiffness):
+    problem = pad(RUBBER, gap=6e-7)
+    found = pulled(problem, stiffness=12 * stiffness)
+    own = pulled(problem, pad_stiffness=stiffness)
+    assert found.pull_off_force == pytest.approx(12 * alone(problem, stiffness), rel=1e-6)
+    assert own.pull_off_force == pytest.approx(found.pull_off_force, rel=1e-6)
+
+
+def test_on_a_soft_backing_the_weakest_pad_lets_go_first():
+    works, heights = [1.1, 0.9, 1.0, 1.05], [0.0, 2e-6, -1e-6, 1e-6]
+    places = grid(1, 4, 5e-3)
+    soft = pulled(places=places, works=works, heights=heights, pad_stiffness=5.0)
+    assert soft.order == (1, 2, 3, 0)
+    rigid = pulled(places=places, works=works, heights=heights)
+    # on a rigid backing the reach of a pad decides, its height and its own elongation
+    assert rigid.order == (2, 0, 3, 1)
+
+
+def test_a_dead_load_of_equal_works_falls_when_the_weakest_pad_lets_go():
+    works = [1.0, 0.8, 1.2]
+    found = pulled(places=grid(1, 3, 5e-3), works=works, pad_stiffness=5.0, stiffness=1e-2)
+    # all carry the same force until the weakest cannot
+    assert found.pull_off_force == pytest.approx(3 * 0.8 * alone(pad()), rel=6e-3)
+    assert found.largest_jump == 3
+
+
+def jkr_of_depth(count=20_000):
+    """Stable branch of JKR's curve, force by depth, written out."""
+    E, R, w = ELASTIC.contact_modulus, 5e-3, 0.15
+    least = (np.pi * w * R**2 / (8 * E)) ** (1 / 3)
+    a = np.linspace(least, 8 * least, count)
+    depth = a**2 / R - np.sqrt(2 * np.pi * w * a / E)
+    return depth, 4 * E * a**3 / (3 * R) - np.sqrt(8 * np.pi * w * E * a**3)
+
+
+@pytest.mark.parametrize("tilt, curvature", [(5e-4, 0.0), (3e-4, 0.02)])
+def test_tilted_and_curved_plates_pull_off_as_an_independent_sum_of_jkr_curves(tilt, curvature):
+    places = grid(3, 4, 5e-3)
+    found = pulled(places=places, tilt=tilt, curvature=curvature, tilt_direction=0.3)
+    x, y = np.array(places).T - np.array([[7.5e-3], [5e-3]])
+    rise = -np.tan(tilt) * (x * np.cos(0.3) + y * np.sin(0.3)) - curvature * (x**2 + y**2) / 2
+    depth, force = jkr_of_depth()
+
+    def total(z, touched):
+        d = z + rise
+        return np.where(touched & (d >= depth[0]), np.interp(d, depth, force), 0.0).sum()
+
+    levels = np.linspace(3e-5, -3e-5, 60_000)
+    first = next(z for z in levels if total(z, z + rise >= 0) < 12 * LOAD)
+    touched = first + rise >= 0
+    expected = -min(total(z, touched) for z in levels[levels < first])
+    assert found.pull_off_force == pytest.approx(expected, rel=1e-3)
+    assert found.load_sharing < 0.999
+
+
+def test_pads_that_do_not_reach_the_counterface_never_touch():
+    found = pulled(places=grid(1, 3, 5e-3), heights=[0.0, 0.0, -1e-4])
+    assert np.isnan(found.released).tolist() == [False, False, True]
+    assert found.start_force[2] == 0
+    assert found.start_force.sum() == pytest.approx(3 * LOAD, rel=1e-6)
+    assert found.load_sharing == pytest.approx(2 / 3, rel=1e-3)
+
+
+def work_of_drive(found):
+    """Work of the drive over the whole pull."""
+    F, z = found.force, found.drive
+    return np.sum((F[1:] + F[:-1]) / 2 * np.diff(z))
+
+
+def test_a_jump_behind_a_spring_loses_what_the_drive_put_in_and_the_pads_did_not_take():
+    K = 1e3
+    soft, rigid = pulled(tilt=2e-4, stiffness=K), pulled(tilt=2e-4)
+    first = soft.force[0] ** 2 / (2 * K)
+    # what the drive put in and the spring had at first has gone into the pads and into jumps
+    assert work_of_drive(soft) + first == pytest.approx(work_of_drive(rigid) + soft.lost, rel=1e-6)
+    assert soft.lost > 0.1 * soft.work
+    assert rigid.lost == 0
+    assert (soft.largest_jump, rigid.largest_jump) == (12, 3)
+
+
+def test_a_stiffer_machine_separates_a_jump_of_many_pads_into_smaller_ones():
+    counts = [len(pulled(tilt=2e-4, stiffness=K).jumps) for K in (1e3, 3e4, 1e6)]
+    assert counts == sorted(counts)
+    assert counts[0] == 1
+    assert counts[-1] == 4
+
+
+def test_a_curve_behind_a_spring_jumps_where_the_force_falls_faster_than_the_spring():
+    x = np.linspace(0.0, -2.0, 2001)
+    bump = Curve(np.append(x, -2.0), np.append(-np.sin(np.pi * np.minimum(-x, 1.0)), 0.0))
+    behind = bump.behind(1.0)
+    # tangent of slope -1 against the fall
+    at = 1 - np.arccos(1 / np.pi) / np.pi
+    z = behind.position
+    assert np.all(np.diff(z) <= 0)
+    before = behind.force[np.flatnonzero(np.diff(z) == 0)[0]]
+    assert -before == pytest.approx(np.sin(np.pi * at), rel=3e-4)
+    assert behind.lost > 0
+    assert bump.behind(10.0).lost == 0
+
+
+def test_forces_side_by_side_add_up_on_both_sides_of_a_jump():
+    one = Curve(np.array([1.0, 0.0, -1.0, -1.0]), np.array([1.0, 0.0, -1.0, 0.0]))
+    both = side_by_side([one, one.moved(0.0)])
+    assert both.pull_off_force == 2.0
+    assert both.force[-1] == 0.0
+    assert both.work == pytest.approx(2 * one.work)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("start", [6e-6, 11e-6])
+def test_curves_between_two_starts_are_those_of_that_start(start):
+    problem = pad(RUBBER, gap=6e-7)
+    posed = replace(problem, protocol=Retraction(AtDepth(start), SPEED))
+    direct = crack_contact(posed)
+    si = problem.scales()
+    others = [3e-6, 7e-6, 13e-6]
+    loads = sum(
+        float(crack_contact(replace(problem, protocol=Retraction(AtDepth(d), SPEED))).force[0])
+        for d in [start, *others]
+    )
+    mean = np.mean([start, *others])
+    found = pulled(
+        problem,
+        grid(1, 4, 5e-3),
+        mean_load=loads * si.force / 4,
+        heights=[d - mean for d in [start, *others]],
+    )
+    assert found.start_force[0] == pytest.approx(
+        float(direct.force[0]) * si.force, abs=0.005 * LOAD
+    )
+    depth = direct.depth[-1] * si.length
+    assert found.released[0] == pytest.approx(start - depth, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        ({"heights": [0.0]}, "one for each pad"),
+        ({"works": [1.0] * 11 + [-1.0]}, "must be positive"),
+        ({"places": ()}, "1 to 2,000 pads"),
+        ({"stiffness": 0.0}, "stiffness must be positive"),
+        ({"tilt": 0.3}, "below 10 degrees"),
+        ({"mean_load": -1.0}, "no relaxed"),
+    ],
+)
+def test_impossible_arrays_are_refused(options, words):
+    with pytest.raises(ValueError, match=words):
+        pulled(**options)
+
+
+def test_a_punch_in_plane_strain_is_refused():
+    punch = replace(pad(), geometry=FlatPunch(1e-4), body=Layer(1e-4))
+    with pytest.raises(InputError, match="take a disc"):
+        PadArray(punch, [(0.0, 0.0)])
+
+
+@pytest.mark.slow
+def test_viscoelastic_pads_that_share_a_soft_machine_very_unequally_are_refused():
+    with pytest.raises(OutOfRange, match="share the backing"):
+        pulled(pad(RUBBER, gap=6e-7), grid(1, 2, 5e-3), tilt=1e-3, stiffness=100.0)
+
+
+def test_an_array_of_discs_is_simulated():
+    disc = replace(pad(shape=Disc(2e-4)), traction=LennardJones(0.05, 1e-6))
+    found = pulled(disc, grid(1, 2, 1e-3), mean_load=1e-4)
+    assert found.method == "simulation"
+    assert found.load_sharing == pytest.approx(1, rel=1e-9)
