@@ -46,7 +46,8 @@ def groups_of(problem: Any) -> Groups:
         )
     groups = problem.groups()
     if reason := not_covered(groups):
-        raise OutOfRange(f"the steady-crack contact model covers {reason}")
+        cure = "" if groups.in_plane_strain else "; use `viscotack simulate`"
+        raise OutOfRange(f"the steady-crack contact model covers {reason}{cure}")
     return groups
 
 
@@ -58,12 +59,9 @@ def not_covered(groups: Groups) -> str:
             "(relaxed bulk) or `viscotack simulate`"
         )
     if not isinstance(groups.body, HalfSpace):
-        return f"a half-space, got a {groups.body.word}; use `viscotack simulate`"
+        return f"a half-space, got a {groups.body.word}"
     if np.isfinite(detail(groups.geometry)):
-        return (
-            "only shapes that rise ever more steeply from the tip, got a "
-            f"{groups.geometry.word}; use `viscotack simulate`"
-        )
+        return f"only shapes that rise ever more steeply from the tip, got a {groups.geometry.word}"
     return ""
 
 

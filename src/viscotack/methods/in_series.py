@@ -19,7 +19,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Sphere
 from viscotack.methods.by_crack import LEAST_TABOR, effective_tabor, tension_left
 from viscotack.methods.crack_band import band_parts, not_measured
-from viscotack.methods.crack_problem import groups_of, start_of
+from viscotack.methods.crack_problem import not_covered, start_of
 from viscotack.problem import Groups, Problem
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
@@ -119,7 +119,12 @@ def opening_by_cracks(first: Problem, second: Problem) -> Opening:
 def _side(problem: Problem) -> _Side:
     """Return a contact of theory; OutOfRange if it does not hold."""
     groups: Any
-    groups, si = groups_of(problem), problem.scales()
+    groups, si = problem.groups(), problem.scales()
+    if reason := not_covered(groups):
+        raise OutOfRange(
+            f"steady cracks in series cover {reason}; simulate both contacts (--simulate, "
+            "simulate=True)"
+        )
     groups = Groups(
         tabor=groups.tabor,
         material=groups.material,

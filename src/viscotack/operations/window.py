@@ -19,7 +19,8 @@ class OfWindow(Operation):
 
     The object has a contact with the stamp and one with donor or receiver, which carry the same
     force. Which opens first follows from two steady cracks in series, with intervals;
-    docs/pick_and_print.md describes the file and the theory.
+    docs/pick_and_print.md describes the file and the theory. With [scatter] the answer has the
+    probabilities to pick and to print, with temperatures a map for each.
 
     Example: viscotack window stamp.toml --plot window.png
     """
@@ -48,39 +49,104 @@ class OfWindow(Operation):
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
 
     def answer(self, caller: Caller) -> Answer:
-        """Evaluate every speed and preload, telling ``share``."""
+        """Evaluate every speed and preload at each temperature, telling ``share``."""
         from viscotack.pictures.window import draw_window
         from viscotack.series import read_window, window
 
         from .parts.tables import rows_as_csv
 
         stated = read_window(self.file.path, also=caller.also, beside=self.file.inside.file)
-        found = window(
-            stated.stamp,
-            donor=stated.donor,
-            receiver=stated.receiver,
-            speeds=stated.speeds,
-            preloads=stated.preloads,
-            stiffness=stated.stiffness,
-            simulate=self.simulate,
-            accuracy=self.accuracy,
-            time_limit=self.time_limit,
-            progress=lambda share: caller.tell({"share": share}),
-        )
-        cells = [_cell(each) for each in found.cells]
-        critical = [_critical(each) for each in found.critical_speeds]
+        files = stated.warmer or ((None, stated),)
+        maps, chances = [], []
+        for number, (_, each) in enumerate(files):
+
+            def tell(share: float, done: int = number) -> None:
+                caller.tell({"share": (done + share) / len(files)})
+
+            maps.append(
+                window(
+                    **_contacts(each),
+                    simulate=self.simulate,
+                    accuracy=self.accuracy,
+                    time_limit=self.time_limit,
+                    progress=tell,
+                )
+            )
+            chances.append(_chances(each, maps[-1]))
+        cells, critical, parts = [], [], []
+        for (temperature, _), found, known in zip(files, maps, chances, strict=True):
+            at = {} if temperature is None else {"temperature_K": temperature}
+            rows = [_cell(cell) | _yields(known, i) for i, cell in enumerate(found.cells)]
+            cells += [at | row for row in rows]
+            critical += [at | _critical(each) for each in found.critical_speeds]
+            head = "" if temperature is None else f"at {temperature - 273.15:.4g} degC\n"
+            parts.append(head + _words(found) + _yield_words(found, known))
+        first = {} if files[0][0] is None else {"temperature_K": None}
+        columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
         return Answer(
-            found,
+            maps[0] if stated.warmer == () else tuple(maps),
             record=lambda: {"cells": cells, "critical_speeds": critical},
-            words=lambda: _words(found),
+            words=lambda: "\n\n".join(parts),
             files={
-                "csv": rows_as_csv(cells, list(_CELL)),
-                "critical": rows_as_csv(critical, list(_CRITICAL)),
+                "csv": rows_as_csv(cells, columns),
+                "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
             },
-            pictures={"plot": lambda: draw_window(found)},
+            pictures={"plot": lambda: draw_window(*maps, temperatures=[t for t, _ in files])},
         )
 
 
+def _contacts(stated: Any) -> dict[str, Any]:
+    """Return the contacts, speeds and preloads of a file as options of a map."""
+    names = ("stamp", "donor", "receiver", "speeds", "preloads", "stiffness")
+    return {name: getattr(stated, name) for name in names}
+
+
+def _chances(stated: Any, found: Any) -> tuple[Any, ...]:
+    """Return the yield of each cell of a map; nothing without scatter."""
+    from viscotack.series import window_yield
+
+    if stated.scatter is None:
+        return ()
+    options = _contacts(stated) | {"speeds": found.speeds, "preloads": found.preloads}
+    return window_yield(**options, scatter=stated.scatter)
+
+
+def _yields(chances: tuple[Any, ...], number: int) -> dict[str, Any]:
+    """Return the columns of a cell with its yield."""
+    if not chances:
+        return {}
+    one = chances[number]
+    (low, high), (least, most) = one.pick_interval or _NONE, one.print_interval or _NONE
+    values = one.pick, low, high, one.print, least, most, one.transfer
+    return dict(zip(_YIELD, values, strict=True))
+
+
+def _yield_words(found: Any, chances: tuple[Any, ...]) -> str:
+    """Return the best yield of each preload in words."""
+    lines = []
+    for j, load in enumerate(found.preloads):
+        row = chances[j * len(found.speeds) : (j + 1) * len(found.speeds)]
+        for name in ("pick", "print", "transfer"):
+            known = [each for each in row if getattr(each, name) is not None]
+            if known:
+                best = max(known, key=lambda each: getattr(each, name))
+                lines.append(
+                    f"best {name} at {readable(load, 'N', digits=3)}: "
+                    f"{getattr(best, name):.1%} at {readable(best.speed, 'm/s', digits=3)}"
+                )
+    return "".join(f"\n{line}" for line in lines)
+
+
+_NONE = (None, None)
+_YIELD = (
+    "pick_probability",
+    "pick_low",
+    "pick_high",
+    "print_probability",
+    "print_low",
+    "print_high",
+    "transfer_probability",
+)
 _OF_BASE = ("opens", "tension_N", "held", "method")
 _CELL = (
     "speed_m_per_s",

@@ -29,13 +29,15 @@ _LINES = {"donor": "-", "receiver": "--"}
 _SINGLE = 2.0
 
 
-def draw_window(found: Window) -> "Figure":
-    """Draw a map of speed and preload: pick, print, neither, undecided, and critical speeds.
+def draw_window(*maps: Window, temperatures: Sequence[float | None] = ()) -> "Figure":
+    """Draw maps of speed and preload: pick, print, neither, undecided, and critical speeds.
 
     Parameters
     ----------
-    found : Window
-        Result of :func:`viscotack.window`.
+    *maps : Window
+        Results of :func:`viscotack.window`, drawn side by side.
+    temperatures : sequence of (float or None)
+        Their temperatures [K], for the titles.
 
     Returns
     -------
@@ -57,46 +59,64 @@ def draw_window(found: Window) -> "Figure":
     'speed of the drive [mm/s]'
     """
     import matplotlib.style
-    from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    speed, speed_unit = axis_unit(found.speeds[-1], "m/s")
-    load, load_unit = axis_unit(max(map(abs, found.preloads)), "N")
-    words = list(_COLOURS)
-    number = np.array([words.index(cell.word) for cell in found.cells])
+    titles = [None if t is None else f"{t - 273.15:.4g} \N{DEGREE SIGN}C" for t in temperatures]
     with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(9.0, 5.6), layout="constrained")
-        axes = figure.subplots()
-        axes.pcolormesh(
-            _edges(found.speeds) / speed,
-            _edges(found.preloads) / load,
-            number.reshape(len(found.preloads), len(found.speeds)),
-            cmap=ListedColormap(list(_COLOURS.values())),
-            vmin=-0.5,
-            vmax=len(words) - 0.5,
-        )
-        axes.set_xscale("log")
-        if found.preloads[0] > 0:
-            axes.set_yscale("log")
-        present = {cell.word for cell in found.cells}
+        figure = Figure(figsize=(5.2 + 3.8 * len(maps), 5.6), layout="constrained")
+        panels = figure.subplots(1, len(maps), squeeze=False, sharey=True)[0]
+        for axes, found in zip(panels, maps, strict=True):
+            _draw_map(axes, found)
+        for axes, title in zip(panels, titles, strict=False):
+            axes.set_title(title or "")
+        panels[0].set_ylabel(f"preload [{axis_unit(_largest_preload(maps[0]), 'N')[1]}]")
+        present = {cell.word for found in maps for cell in found.cells}
         handles: list[Patch | Line2D] = [
             Patch(fc=colour, ec="0.3", label=word)
             for word, colour in _COLOURS.items()
             if word in present
         ]
-        for base, style in _LINES.items():
-            known = [each for each in found.critical_speeds if each.base == base]
-            if known:
-                _draw_critical(axes, known, style, speed, load)
-                label = f"critical speed, {base}"
-                handles.append(Line2D([], [], color="0.1", ls=style, marker="o", label=label))
-        axes.set_xlabel(f"speed of the drive [{speed_unit}]")
-        axes.set_ylabel(f"preload [{load_unit}]")
-        axes.grid(False)
+        bases = {each.base for found in maps for each in found.critical_speeds}
+        handles += [
+            Line2D([], [], color="0.1", ls=style, marker="o", label=f"critical speed, {base}")
+            for base, style in _LINES.items()
+            if base in bases
+        ]
         figure.legend(handles=handles, loc="outside right upper", frameon=False)
     return figure
+
+
+def _largest_preload(found: Window) -> float:
+    return max(map(abs, found.preloads))
+
+
+def _draw_map(axes: "Axes", found: Window) -> None:
+    """Draw one map with its critical speeds."""
+    from matplotlib.colors import ListedColormap
+
+    speed, speed_unit = axis_unit(found.speeds[-1], "m/s")
+    load, _ = axis_unit(_largest_preload(found), "N")
+    words = list(_COLOURS)
+    number = np.array([words.index(cell.word) for cell in found.cells])
+    axes.pcolormesh(
+        _edges(found.speeds) / speed,
+        _edges(found.preloads) / load,
+        number.reshape(len(found.preloads), len(found.speeds)),
+        cmap=ListedColormap(list(_COLOURS.values())),
+        vmin=-0.5,
+        vmax=len(words) - 0.5,
+    )
+    axes.set_xscale("log")
+    if found.preloads[0] > 0:
+        axes.set_yscale("log")
+    for base, style in _LINES.items():
+        known = [each for each in found.critical_speeds if each.base == base]
+        if known:
+            _draw_critical(axes, known, style, speed, load)
+    axes.set_xlabel(f"speed of the drive [{speed_unit}]")
+    axes.grid(False)
 
 
 def _edges(values: Sequence[float]) -> Array:

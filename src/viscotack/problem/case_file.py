@@ -111,6 +111,7 @@ def case_of_tables(
     where: str = "the case",
     also: Iterable[Any] = (),
     beside: Callable[[str], Path] | None = None,
+    temperature: float | None = None,
 ) -> Problem:
     """Return the problem stated by the tables of a case file, without a file.
 
@@ -124,6 +125,8 @@ def case_of_tables(
         User-defined laws, materials, shapes and bodies that it may name by their words.
     beside : callable, optional
         Returns the path of a file named in a table; without it tables may not name files.
+    temperature : float, optional
+        As for :func:`read_case`.
 
     Raises
     ------
@@ -149,7 +152,7 @@ def case_of_tables(
     >>> problem.geometry
     Sphere(radius=0.001)
     """
-    return _stated(where, tables, known(also), None, beside)
+    return _stated(where, tables, known(also), temperature, beside)
 
 
 def _stated(

@@ -5,6 +5,15 @@ The object has two contacts that carry the same force, and the one that opens de
 derivation is in docs/pick_and_print.md.
 """
 
+from .chances import (
+    CellYield,
+    ContactScatter,
+    OpeningChance,
+    WindowScatter,
+    drawn_openings,
+    opening_chance,
+    window_yield,
+)
 from .opening import SeriesOpening, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
@@ -12,13 +21,20 @@ from .window_file import WindowFile, read_window
 
 __all__ = [
     "Cell",
+    "CellYield",
+    "ContactScatter",
     "CriticalSpeed",
+    "OpeningChance",
     "SeriesOpening",
     "SeriesResult",
     "Window",
     "WindowFile",
+    "WindowScatter",
+    "drawn_openings",
+    "opening_chance",
     "read_window",
     "simulate_in_series",
     "which_opens",
     "window",
+    "window_yield",
 ]

@@ -2,12 +2,13 @@
 
 The tables [stamp], [donor] and [receiver] each have the tables of a case file, without its
 protocol: [stamp.material], [stamp.interface], [stamp.sphere] or another shape of revolution, and
-perhaps a body such as [stamp.layer]. The table [pull] has speeds, preloads and the stiffness.
+perhaps a body such as [stamp.layer]. The table [pull] has speeds, preloads, the stiffness and
+perhaps temperatures, [scatter] the scatter of works and preload.
 """
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +17,16 @@ import numpy as np
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
+from viscotack.materials import Elastic
 from viscotack.problem import Problem
 from viscotack.problem.case_file import case_of_tables
 from viscotack.problem.case_table import Table, refuse_unknown
 from viscotack.protocol import Retraction
 from viscotack.units import parse
 
-STAMP, DONOR, RECEIVER, PULL = "stamp", "donor", "receiver", "pull"
+from .chances import WindowScatter
+
+STAMP, DONOR, RECEIVER, PULL, SCATTER = "stamp", "donor", "receiver", "pull", "scatter"
 # Between the ends of a range of numbers.
 _TO = ".."
 _PER_DECADE, _MOST = 3, 1000
@@ -32,7 +36,21 @@ _ALONG = ("shear", "peel", "tilt")
 
 @dataclass(frozen=True)
 class WindowFile:
-    """Contents of a file: contacts, speeds [m/s], preloads [N] and stiffness [N/m] or None."""
+    """Contents of a file.
+
+    Attributes
+    ----------
+    stamp, donor, receiver : Problem or None
+        The contacts, at the first temperature.
+    speeds, preloads : tuple of float
+        Speeds [m/s] and preloads [N].
+    stiffness : float or None
+        Of the machine [N/m].
+    scatter : WindowScatter or None
+        Scatter of works and preload.
+    warmer : tuple of (float, WindowFile)
+        Temperatures [K] with the same file there; empty without temperatures.
+    """
 
     stamp: Problem
     donor: Problem | None
@@ -40,6 +58,8 @@ class WindowFile:
     speeds: tuple[float, ...]
     preloads: tuple[float, ...]
     stiffness: float | None
+    scatter: WindowScatter | None = None
+    warmer: tuple[tuple[float, "WindowFile"], ...] = ()
 
 
 def read_window(
@@ -72,18 +92,23 @@ def read_window(
             f"{path}: {along[0]!r} is not computed; both contacts of a window are pulled along "
             "their axis, without shear, peeling and tilt"
         )
-    refuse_unknown(f"{path}", tables, (STAMP, DONOR, RECEIVER, PULL), "table")
+    refuse_unknown(f"{path}", tables, (STAMP, DONOR, RECEIVER, PULL, SCATTER), "table")
     pull = Table(path, PULL, tables)
     speeds = _numbers(pull, "speeds", "m/s", '"1 um/s..10 mm/s"')
     preloads = _numbers(pull, "preloads", "N", '["1 mN", "5 mN"]')
     pull.known.add("stiffness")
     is_soft = "stiffness" in pull.values
     stiffness = pull.number(cards(Retraction)["stiffness"]) if is_soft else None
+    pull.known.add("temperatures")
+    temperatures: tuple[float | None, ...] = (None,)
+    if "temperatures" in pull.values:
+        temperatures = _numbers(pull, "temperatures", "K", '["0 degC", "20 degC"]')
     pull.finish()
+    scatter = _scatter(path, tables)
     # speed and preload of the map replace these
     protocol = {"preload_force": f"{preloads[0]!r} N", "speed": f"{speeds[0]!r} m/s"}
 
-    def contact(name: str) -> Problem:
+    def contact(name: str, temperature: float | None) -> Problem:
         if not isinstance(tables[name], Mapping):
             raise InputError(f"{path}: {name} must be a table, such as [{name}.material]")
         if "protocol" in tables[name]:
@@ -93,13 +118,53 @@ def read_window(
             where=f"{path}, [{name}]",
             also=also,
             beside=beside or path.parent.joinpath,
+            temperature=temperature if _has_passport(tables[name]) else None,
         )
 
     if STAMP not in tables or not {DONOR, RECEIVER} & tables.keys():
         raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
-    known = {name: contact(name) for name in (STAMP, DONOR, RECEIVER) if name in tables}
-    bases = known.get(DONOR), known.get(RECEIVER)
-    return WindowFile(known[STAMP], *bases, speeds, preloads, stiffness)
+    names = [name for name in (STAMP, DONOR, RECEIVER) if name in tables]
+    if temperatures != (None,):
+        _check_shifted(path, tables, names)
+    found = []
+    for temperature in temperatures:
+        known = {name: contact(name, temperature) for name in names}
+        bases = known.get(DONOR), known.get(RECEIVER)
+        found.append(WindowFile(known[STAMP], *bases, speeds, preloads, stiffness, scatter))
+    if temperatures == (None,):
+        return found[0]
+    return replace(found[0], warmer=tuple(zip(temperatures, found, strict=True)))
+
+
+def _has_passport(tables: Any) -> bool:
+    material = tables.get("material") if isinstance(tables, Mapping) else None
+    return isinstance(material, Mapping) and "passport" in material
+
+
+def _check_shifted(path: Path, tables: Mapping[str, Any], names: list[str]) -> None:
+    """Raise an InputError unless temperatures change all viscoelastic contacts."""
+    for name in names:
+        material = tables[name].get("material", {}) if isinstance(tables[name], Mapping) else {}
+        is_plain = isinstance(material, Mapping) and material.get("model") == Elastic.word
+        if not is_plain and not _has_passport(tables[name]):
+            raise InputError(
+                f"{path}: temperatures need the shift of the times of [{name}.material]; state it "
+                'by a passport, passport = "pdms.toml"'
+            )
+
+
+def _scatter(path: Path, tables: Mapping[str, Any]) -> WindowScatter | None:
+    """Return the relative standard deviations of a table [scatter]."""
+    if SCATTER not in tables:
+        return None
+    table = Table(path, SCATTER, tables)
+    names = (STAMP, DONOR, RECEIVER, "preload")
+    table.known |= set(names)
+    found = {name: table.quantity(name, "1", "0.1") for name in names if name in table.values}
+    table.finish()
+    for base in {DONOR, RECEIVER} & tables.keys():
+        table.make(WindowScatter(**found).of, base)
+    return WindowScatter(**found)
 
 
 def _names(tables: Mapping[str, Any]) -> Iterable[str]:

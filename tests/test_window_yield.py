@@ -1,0 +1,187 @@
+"""Tests of the yield of a window under scatter of works and preload, and of temperatures."""
+
+import csv
+from math import log, sqrt
+from pathlib import Path
+from statistics import NormalDist
+
+import pytest
+from typer.testing import CliRunner
+
+from test_window import ELASTIC, contact, with_work
+from test_window_file import CONTACT, PULL, SMALL
+from viscotack import InputError
+from viscotack.app.cli import application
+from viscotack.materials.passport_file import read_passport
+from viscotack.operations import ask
+from viscotack.pictures.window import draw_window
+from viscotack.series import (
+    ContactScatter,
+    WindowScatter,
+    drawn_openings,
+    opening_chance,
+    read_window,
+    window_yield,
+)
+
+PASSPORT = Path(__file__).parent / "data" / "saved_by_0_1" / "passport_pdms.toml"
+
+
+@pytest.mark.parametrize("first, second", [(0.1, 0.0), (0.0, 0.1), (0.1, 0.2)])
+def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(first, second):
+    stamp = contact(ELASTIC, work=0.2)
+    base = with_work(stamp, 0.21)
+    found = opening_chance(stamp, base, ContactScatter(first, second))
+    # the gap is kept, so that only the range of the forces differs a little
+    expected = NormalDist().cdf(log(1.05) / sqrt(first**2 + second**2))
+    assert found.first == pytest.approx(expected, abs=0.015)
+    assert found.critical_work == pytest.approx(1.05, rel=5e-3)
+    assert found.interval[0] < found.first < found.interval[1]
+
+
+def test_a_contact_far_from_the_edge_opens_always_or_never():
+    stamp = contact(ELASTIC, work=0.2)
+    scatter = ContactScatter(0.05, 0.05)
+    assert opening_chance(stamp, with_work(stamp, 0.8), scatter).first == 1
+    assert opening_chance(with_work(stamp, 0.8), stamp, scatter).first == 0
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs(seed):
+    stamp = contact(ELASTIC, work=0.2)
+    pair, scatter = (stamp, with_work(stamp, 0.21)), ContactScatter(0.1, 0.1, 0.1)
+    share = drawn_openings(*pair, scatter, draws=300, seed=seed)
+    chance = opening_chance(*pair, scatter).first
+    assert share == pytest.approx(chance, abs=3 * sqrt(chance * (1 - chance) / 300))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", [1.4e-5, 1.8e-5, 2.3e-5])
+def test_the_chance_by_critical_works_is_the_share_of_drawn_viscoelastic_pairs(speed):
+    pair = contact(ELASTIC, work=0.4, speed=speed), contact(speed=speed)
+    scatter = ContactScatter(0.1, 0.1, 0.2)
+    share = drawn_openings(*pair, scatter, draws=200, seed=4)
+    chance = opening_chance(*pair, scatter).first
+    assert share == pytest.approx(chance, abs=3 * sqrt(0.25 / 200))
+
+
+@pytest.mark.slow
+def test_a_faster_pull_picks_with_a_larger_probability():
+    cells = window_yield(
+        contact(),
+        donor=contact(ELASTIC, work=0.4),
+        receiver=contact(ELASTIC, work=0.6),
+        speeds=[1.5e-5, 1.9e-5, 2.4e-5],
+        preloads=[2e-3],
+        scatter=WindowScatter(stamp=0.05, donor=0.05),
+    )
+    pick = [cell.pick for cell in cells]
+    assert pick == sorted(pick)
+    assert 0.01 < pick[0] < 0.5 < pick[2] < 0.999
+    assert all(cell.print > 0.9 for cell in cells)
+    assert cells[1].transfer == cells[1].pick * cells[1].print
+
+
+def test_cells_that_steady_cracks_do_not_cover_have_the_reason_for_no_yield():
+    (cell,) = window_yield(
+        contact(gap=3e-5),
+        donor=contact(ELASTIC, work=0.4),
+        speeds=[1e-5],
+        preloads=[2e-3],
+        scatter=WindowScatter(stamp=0.05),
+    )
+    assert cell.pick is None
+    assert "simulate" in cell.why
+
+
+@pytest.mark.parametrize("deviations", [{}, {"first": 0.6}, {"second": -0.1}])
+def test_impossible_scatter_is_refused(deviations):
+    with pytest.raises(InputError, match="relative standard deviations"):
+        ContactScatter(**deviations)
+
+
+FEW = SMALL.replace('"1 um/s..100 um/s"', '"10 um/s"')
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pdms.toml").write_text(PASSPORT.read_text())
+    return tmp_path
+
+
+def test_a_file_with_scatter_has_columns_of_probabilities(folder):
+    Path("small.toml").write_text(FEW + "\n[scatter]\ndonor = 0.2\nstamp = 0.2\n")
+    done = CliRunner().invoke(application(), ["window", "small.toml", "--csv", "map.csv"])
+    assert done.exit_code == 0, done.output
+    assert "best transfer" in done.output
+    row = next(csv.DictReader(Path("map.csv").read_text().splitlines()))
+    expected = NormalDist().cdf(log(50 / 20) / (0.2 * sqrt(2)))
+    assert float(row["pick_probability"]) == pytest.approx(expected, abs=5e-3)
+    assert float(row["transfer_probability"]) <= float(row["print_probability"])
+
+
+def test_scatter_without_a_number_is_refused(folder):
+    Path("small.toml").write_text(SMALL + "\n[scatter]\nreceiver = 0.2\n")
+    with pytest.raises(InputError, match="scatter"):
+        read_window("small.toml")
+
+
+WARM = "".join(
+    [
+        PULL.replace("stiffness", 'temperatures = ["0 degC", "15 degC"]\nstiffness').replace(
+            '["1 mN", "100 uN"]', '"1 mN"'
+        ),
+        CONTACT.format(name="donor", work="200 mJ/m^2"),
+        CONTACT.format(name="stamp", work="50 mJ/m^2"),
+    ]
+)
+ELASTIC_STAMP = (
+    '[stamp.material]\nmodel = "elastic"\nrubbery_modulus = "2 MPa"\npoisson_ratio = 0.5'
+)
+
+
+def test_temperatures_shift_the_times_of_a_passport(folder):
+    Path("warm.toml").write_text(
+        WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "pdms.toml"')
+    )
+    stated = read_window("warm.toml")
+    passport = read_passport(PASSPORT)
+    assert [temperature for temperature, _ in stated.warmer] == pytest.approx([273.15, 288.15])
+    for temperature, each in stated.warmer:
+        expected = passport.at_temperature(temperature)
+        assert each.stamp.material == expected
+        assert each.donor == stated.donor
+
+
+@pytest.mark.slow
+def test_a_critical_speed_moves_by_the_shift_factor(folder):
+    text = WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "pdms.toml"')
+    Path("warm.toml").write_text(
+        text.replace('"1 um/s..100 um/s"', '["1 um/s", "10 mm/s"]').replace(
+            'stiffness = "1 kN/m"\n', ""
+        )
+    )
+    answer = ask("window", file="warm.toml")
+    cold, warm = (x["critical_speed_m_per_s"] for x in answer.record()["critical_speeds"])
+    passport = read_passport(PASSPORT)
+    ratio = passport.shift_factor(273.15) / passport.shift_factor(288.15)
+    assert warm / cold == pytest.approx(ratio, rel=0.02)
+    assert "at 15 degC" in answer.words()
+    figure = draw_window(*answer.found, temperatures=[273.15, 288.15])
+    assert [axes.get_title() for axes in figure.axes] == [
+        "0 \N{DEGREE SIGN}C",
+        "15 \N{DEGREE SIGN}C",
+    ]
+
+
+def test_temperatures_without_a_shift_are_refused(folder):
+    Path("warm.toml").write_text(
+        WARM.replace(
+            ELASTIC_STAMP,
+            '[stamp.material]\nmodel = "sls"\nrubbery_modulus = "2 MPa"\n'
+            'glassy_modulus = "20 MPa"\ntau0 = "1 s"\npoisson_ratio = 0.5',
+        )
+    )
+    with pytest.raises(InputError, match="need the shift of the times"):
+        read_window("warm.toml")
