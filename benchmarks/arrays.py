@@ -1,6 +1,7 @@
 """Compare arrays by the curve of one pad with coupled simulations of unequal pads on one spring.
 
-    python benchmarks/arrays.py --points 20 --seed 1
+    python benchmarks/arrays.py --points 24 --seed 2
+    python benchmarks/arrays.py --points 12 --seed 6 --softer 10
     python benchmarks/arrays.py --random 100 --seed 1
 
 The first draws two or three different viscoelastic pads on a plate behind a spring, marches all of
@@ -156,11 +157,12 @@ def drawn(rng):
     return pad, depths, stiffness
 
 
-def points(count, seed):
+def points(count, seed, softer):
     """Compare arrays with coupled simulations."""
     rng, done, errors, shares, refused = np.random.default_rng(seed), 0, [], [], 0
     while done < count:
         pad, depths, stiffness = drawn(rng)
+        stiffness /= softer
         V = pad.protocol.speed
         each = [replace(pad, protocol=Retraction(AtDepth(float(d)), V)) for d in depths]
         try:
@@ -249,10 +251,11 @@ def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--points", type=int, default=0)
     options.add_argument("--random", type=int, default=0)
+    options.add_argument("--softer", type=float, default=1.0)
     options.add_argument("--seed", type=int, default=1)
     given = options.parse_args()
     if given.points:
-        points(given.points, given.seed)
+        points(given.points, given.seed, given.softer)
     return int(given.random > 0 and random_arrays(given.random, given.seed) > 0)
 
 

@@ -5,12 +5,24 @@ from math import log, sqrt
 from pathlib import Path
 from statistics import NormalDist
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from test_window import ELASTIC, contact, with_work
 from test_window_file import CONTACT, PULL, SMALL
-from viscotack import InputError
+from viscotack import (
+    Apart,
+    Approach,
+    AtForce,
+    Dwell,
+    InputError,
+    Problem,
+    Retraction,
+    Sphere,
+    pull_off_force,
+    solve,
+)
 from viscotack.app.cli import application
 from viscotack.materials.passport_file import read_passport
 from viscotack.operations import ask
@@ -18,11 +30,13 @@ from viscotack.pictures.window import draw_window
 from viscotack.series import (
     ContactScatter,
     WindowScatter,
+    aged,
     drawn_openings,
     opening_chance,
     read_window,
     window_yield,
 )
+from viscotack.traction import SaturatingAgeing
 
 PASSPORT = Path(__file__).parent / "data" / "saved_by_0_1" / "passport_pdms.toml"
 
@@ -147,8 +161,8 @@ def test_temperatures_shift_the_times_of_a_passport(folder):
     )
     stated = read_window("warm.toml")
     passport = read_passport(PASSPORT)
-    assert [temperature for temperature, _ in stated.warmer] == pytest.approx([273.15, 288.15])
-    for temperature, each in stated.warmer:
+    assert [temperature for temperature, _, _ in stated.variants] == pytest.approx([273.15, 288.15])
+    for temperature, _, each in stated.variants:
         expected = passport.at_temperature(temperature)
         assert each.stamp.material == expected
         assert each.donor == stated.donor
@@ -168,11 +182,9 @@ def test_a_critical_speed_moves_by_the_shift_factor(folder):
     ratio = passport.shift_factor(273.15) / passport.shift_factor(288.15)
     assert warm / cold == pytest.approx(ratio, rel=0.02)
     assert "at 15 degC" in answer.words()
-    figure = draw_window(*answer.found, temperatures=[273.15, 288.15])
-    assert [axes.get_title() for axes in figure.axes] == [
-        "0 \N{DEGREE SIGN}C",
-        "15 \N{DEGREE SIGN}C",
-    ]
+    figure = draw_window(*answer.found, titles=["cold", "warm"])
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert titles == ["cold", "warm"]
 
 
 def test_temperatures_without_a_shift_are_refused(folder):
@@ -185,3 +197,38 @@ def test_temperatures_without_a_shift_are_refused(folder):
     )
     with pytest.raises(InputError, match="need the shift of the times"):
         read_window("warm.toml")
+
+
+AGEING = SMALL.replace(
+    '[stamp.interface]\nlaw = "lennard-jones"',
+    '[stamp.interface]\nlaw = "saturating-ageing"\nreference_time = "10 s"\nlargest_growth = 4.0',
+).replace("stiffness", 'dwells = ["1 ms", "10 s", "1000 s"]\nstiffness')
+
+
+def test_a_stamp_that_ages_prints_after_a_short_dwell_and_holds_after_a_long_one(folder):
+    Path("aged.toml").write_text(AGEING.replace('"1 um/s..100 um/s"', '"10 um/s"'))
+    stated = read_window("aged.toml")
+    works = [each.stamp.traction.work_of_adhesion for _, _, each in stated.variants]
+    assert works == pytest.approx([0.05002, 0.05 * (5 - 4 * np.exp(-1)), 0.25], rel=1e-4)
+    record = ask("window", file="aged.toml").record()
+    words = {cell["dwell_s"]: cell["word"] for cell in record["cells"]}
+    assert words == {1e-3: "pick and print", 10.0: "pick", 1000.0: "pick"}
+
+
+@pytest.mark.slow
+def test_an_aged_contact_pulls_off_as_the_simulation_with_its_dwell():
+    law = SaturatingAgeing(0.15, 2e-6, reference_time=10.0, largest_growth=1.0)
+    history = (Approach(1e-4, AtForce(2e-3)), Dwell(10.0))
+    test = Retraction(start=Apart(3e-5), speed=1e-4, moves=history)
+    problem = Problem(ELASTIC, law, Sphere(5e-3), test)
+    forces = [
+        pull_off_force(solve(each, accuracy=0.01, estimate_error=False)) * each.scales().force
+        for each in (problem, aged(problem, 10.0))
+    ]
+    assert forces[0] == pytest.approx(forces[1], rel=0.05)
+
+
+def test_dwells_without_an_interface_that_ages_are_refused(folder):
+    Path("small.toml").write_text(SMALL.replace("stiffness", 'dwells = "1 s"\nstiffness'))
+    with pytest.raises(InputError, match="an interface that ages"):
+        read_window("small.toml")

@@ -20,7 +20,7 @@ class OfWindow(Operation):
     The object has a contact with the stamp and one with donor or receiver, which carry the same
     force. Which opens first follows from two steady cracks in series, with intervals;
     docs/pick_and_print.md describes the file and the theory. With [scatter] the answer has the
-    probabilities to pick and to print, with temperatures a map for each.
+    probabilities to pick and to print, with temperatures or dwells a map for each.
 
     Example: viscotack window stamp.toml --plot window.png
     """
@@ -49,16 +49,16 @@ class OfWindow(Operation):
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
 
     def answer(self, caller: Caller) -> Answer:
-        """Evaluate every speed and preload at each temperature, telling ``share``."""
+        """Evaluate every speed and preload of each map, telling ``share``."""
         from viscotack.pictures.window import draw_window
         from viscotack.series import read_window, window
 
         from .parts.tables import rows_as_csv
 
         stated = read_window(self.file.path, also=caller.also, beside=self.file.inside.file)
-        files = stated.warmer or ((None, stated),)
+        files = stated.variants or ((None, None, stated),)
         maps, chances = [], []
-        for number, (_, each) in enumerate(files):
+        for number, (_, _, each) in enumerate(files):
 
             def tell(share: float, done: int = number) -> None:
                 caller.tell({"share": (done + share) / len(files)})
@@ -74,25 +74,37 @@ class OfWindow(Operation):
             )
             chances.append(_chances(each, maps[-1]))
         cells, critical, parts = [], [], []
-        for (temperature, _), found, known in zip(files, maps, chances, strict=True):
-            at = {} if temperature is None else {"temperature_K": temperature}
+        for place, found, known in zip(files, maps, chances, strict=True):
+            at = _place(*place)
             rows = [_cell(cell) | _yields(known, i) for i, cell in enumerate(found.cells)]
             cells += [at | row for row in rows]
             critical += [at | _critical(each) for each in found.critical_speeds]
-            head = "" if temperature is None else f"at {temperature - 273.15:.4g} degC\n"
-            parts.append(head + _words(found) + _yield_words(found, known))
-        first = {} if files[0][0] is None else {"temperature_K": None}
+            head = _title(*place)
+            parts.append((head and f"{head}\n") + _words(found) + _yield_words(found, known))
+        first = _place(*files[0])
         columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
         return Answer(
-            maps[0] if stated.warmer == () else tuple(maps),
+            tuple(maps) if stated.variants else maps[0],
             record=lambda: {"cells": cells, "critical_speeds": critical},
             words=lambda: "\n\n".join(parts),
             files={
                 "csv": rows_as_csv(cells, columns),
                 "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
             },
-            pictures={"plot": lambda: draw_window(*maps, temperatures=[t for t, _ in files])},
+            pictures={"plot": lambda: draw_window(*maps, titles=[_title(*x) for x in files])},
         )
+
+
+def _place(temperature: float | None, dwell: float | None, _: Any) -> dict[str, float]:
+    """Return temperature and dwell of a map as columns."""
+    both = {"temperature_K": temperature, "dwell_s": dwell}
+    return {name: value for name, value in both.items() if value is not None}
+
+
+def _title(temperature: float | None, dwell: float | None, _: Any) -> str:
+    """Return temperature and dwell of a map in words."""
+    words = [] if temperature is None else [f"at {temperature - 273.15:.4g} degC"]
+    return ", ".join(words + ([] if dwell is None else [f"after {readable(dwell, 's')}"]))
 
 
 def _contacts(stated: Any) -> dict[str, Any]:

@@ -45,7 +45,7 @@ from .interacting import coupled, interactions
 MOST_PADS, MOST_COUPLED = 2000, 200
 # Part of the difference between shared and separate speeds that belongs to the interval, and the
 # largest such part that was compared with simulations.
-_OF_SHARE, _LARGEST_SHARE = 0.3, 0.15
+_OF_SHARE, _LARGEST_SHARE = 0.3, 0.1
 # Pads whose drives at detachment differ by less than this fraction of the travel let go together.
 _TOGETHER = 1e-9
 # Tolerance of a start over the travel of a pad, and most rounds to reach the deepest one.

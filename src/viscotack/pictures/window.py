@@ -29,15 +29,15 @@ _LINES = {"donor": "-", "receiver": "--"}
 _SINGLE = 2.0
 
 
-def draw_window(*maps: Window, temperatures: Sequence[float | None] = ()) -> "Figure":
+def draw_window(*maps: Window, titles: Sequence[str] = ()) -> "Figure":
     """Draw maps of speed and preload: pick, print, neither, undecided, and critical speeds.
 
     Parameters
     ----------
     *maps : Window
         Results of :func:`viscotack.window`, drawn side by side.
-    temperatures : sequence of (float or None)
-        Their temperatures [K], for the titles.
+    titles : sequence of str
+        Their titles, for example temperatures.
 
     Returns
     -------
@@ -63,14 +63,13 @@ def draw_window(*maps: Window, temperatures: Sequence[float | None] = ()) -> "Fi
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    titles = [None if t is None else f"{t - 273.15:.4g} \N{DEGREE SIGN}C" for t in temperatures]
     with matplotlib.style.context(_STYLE):
         figure = Figure(figsize=(5.2 + 3.8 * len(maps), 5.6), layout="constrained")
         panels = figure.subplots(1, len(maps), squeeze=False, sharey=True)[0]
         for axes, found in zip(panels, maps, strict=True):
             _draw_map(axes, found)
         for axes, title in zip(panels, titles, strict=False):
-            axes.set_title(title or "")
+            axes.set_title(title)
         panels[0].set_ylabel(f"preload [{axis_unit(_largest_preload(maps[0]), 'N')[1]}]")
         present = {cell.word for found in maps for cell in found.cells}
         handles: list[Patch | Line2D] = [

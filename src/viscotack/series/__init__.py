@@ -14,6 +14,7 @@ from .chances import (
     opening_chance,
     window_yield,
 )
+from .contact_time import aged
 from .opening import SeriesOpening, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
@@ -30,6 +31,7 @@ __all__ = [
     "Window",
     "WindowFile",
     "WindowScatter",
+    "aged",
     "drawn_openings",
     "opening_chance",
     "read_window",

@@ -3,12 +3,13 @@
 The tables [stamp], [donor] and [receiver] each have the tables of a case file, without its
 protocol: [stamp.material], [stamp.interface], [stamp.sphere] or another shape of revolution, and
 perhaps a body such as [stamp.layer]. The table [pull] has speeds, preloads, the stiffness and
-perhaps temperatures, [scatter] the scatter of works and preload.
+perhaps temperatures and dwells, [scatter] the scatter of works and preload.
 """
 
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +23,11 @@ from viscotack.problem import Problem
 from viscotack.problem.case_file import case_of_tables
 from viscotack.problem.case_table import Table, refuse_unknown
 from viscotack.protocol import Retraction
+from viscotack.traction import ages
 from viscotack.units import parse
 
 from .chances import WindowScatter
+from .contact_time import aged
 
 STAMP, DONOR, RECEIVER, PULL, SCATTER = "stamp", "donor", "receiver", "pull", "scatter"
 # Between the ends of a range of numbers.
@@ -41,15 +44,15 @@ class WindowFile:
     Attributes
     ----------
     stamp, donor, receiver : Problem or None
-        The contacts, at the first temperature.
+        The contacts, at the first temperature and after the first dwell.
     speeds, preloads : tuple of float
         Speeds [m/s] and preloads [N].
     stiffness : float or None
         Of the machine [N/m].
     scatter : WindowScatter or None
         Scatter of works and preload.
-    warmer : tuple of (float, WindowFile)
-        Temperatures [K] with the same file there; empty without temperatures.
+    variants : tuple of (float or None, float or None, WindowFile)
+        Temperature [K] and dwell [s] of each map, with the file there; empty without both.
     """
 
     stamp: Problem
@@ -59,7 +62,7 @@ class WindowFile:
     preloads: tuple[float, ...]
     stiffness: float | None
     scatter: WindowScatter | None = None
-    warmer: tuple[tuple[float, "WindowFile"], ...] = ()
+    variants: tuple[tuple[float | None, float | None, "WindowFile"], ...] = ()
 
 
 def read_window(
@@ -99,10 +102,8 @@ def read_window(
     pull.known.add("stiffness")
     is_soft = "stiffness" in pull.values
     stiffness = pull.number(cards(Retraction)["stiffness"]) if is_soft else None
-    pull.known.add("temperatures")
-    temperatures: tuple[float | None, ...] = (None,)
-    if "temperatures" in pull.values:
-        temperatures = _numbers(pull, "temperatures", "K", '["0 degC", "20 degC"]')
+    temperatures = _several(pull, "temperatures", "K", '["0 degC", "20 degC"]')
+    dwells = _several(pull, "dwells", "s", '["1 s", "100 s"]')
     pull.finish()
     scatter = _scatter(path, tables)
     # speed and preload of the map replace these
@@ -126,14 +127,34 @@ def read_window(
     names = [name for name in (STAMP, DONOR, RECEIVER) if name in tables]
     if temperatures != (None,):
         _check_shifted(path, tables, names)
-    found = []
-    for temperature in temperatures:
+    variants = []
+    for temperature, dwell in product(temperatures, dwells):
         known = {name: contact(name, temperature) for name in names}
+        if dwell is not None:
+            _check_aged(path, known.values())
+            known = {name: aged(each, dwell) for name, each in known.items()}
         bases = known.get(DONOR), known.get(RECEIVER)
-        found.append(WindowFile(known[STAMP], *bases, speeds, preloads, stiffness, scatter))
-    if temperatures == (None,):
-        return found[0]
-    return replace(found[0], warmer=tuple(zip(temperatures, found, strict=True)))
+        file = WindowFile(known[STAMP], *bases, speeds, preloads, stiffness, scatter)
+        variants.append((temperature, dwell, file))
+    first = variants[0][-1]
+    if temperatures == (None,) == dwells:
+        return first
+    return replace(first, variants=tuple(variants))
+
+
+def _several(table: Table, key: str, unit: str, example: str) -> tuple[float | None, ...]:
+    """Return the numbers of an optional key; one None without it."""
+    table.known.add(key)
+    return _numbers(table, key, unit, example) if key in table.values else (None,)
+
+
+def _check_aged(path: Path, contacts: Iterable[Problem]) -> None:
+    """Raise an InputError unless a dwell changes one of the contacts."""
+    if not any(ages(each.traction) for each in contacts):
+        raise InputError(
+            f"{path}: dwells need an interface that ages, for example [stamp.interface] law = "
+            '"logarithmic-ageing"'
+        )
 
 
 def _has_passport(tables: Any) -> bool:
