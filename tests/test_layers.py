@@ -17,6 +17,7 @@ PACKAGE = Path(viscotack.__file__).parent
 ROOMS = (
     "version",
     "arrays",
+    "clock",
     "renamed",
     "errors",
     "system",

@@ -188,7 +188,11 @@ def test_words_state_the_constants_of_a_law_and_their_errors():
         "WLF with c1 = 8.5 +- 0.12, c2 = 101.6 +- 3.4 K at 26.85 C; 0.05 decades off the table on "
         "average"
     )
-    assert FittedShift(activated, (2e3,), 0.01).words().startswith("Arrhenius with 85 +- 2 kJ/mol;")
+    assert (
+        FittedShift(activated, (2e3,), 0.01)
+        .words()
+        .startswith("Arrhenius with 85.0 +- 2.0 kJ/mol;")
+    )
     # a passport does not keep the row that fits worst
     assert found == FittedShift(wlf, (0.12, 3.4), 0.05)
 

@@ -22,11 +22,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
-from viscotack.bem.clock import look
 from viscotack.bem.interface import Band, Faces
 from viscotack.bem.machine import Hold
 from viscotack.bem.span import released, room
 from viscotack.bem.surface import Surface
+from viscotack.clock import look
 from viscotack.traction import Traction, effective_range
 
 _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)

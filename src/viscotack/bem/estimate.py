@@ -13,9 +13,9 @@ from math import hypot
 
 import numpy as np
 
-from viscotack.bem.clock import TimeUp
 from viscotack.bem.loop_error import hysteresis_errors
 from viscotack.bem.preload import Beginning
+from viscotack.clock import TimeUp
 from viscotack.result import Result
 from viscotack.result.dead_load import time_held
 from viscotack.result.observables import (

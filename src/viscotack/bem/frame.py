@@ -32,12 +32,12 @@ import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from scipy.linalg import get_lapack_funcs
 
-from viscotack.bem.clock import look
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.interface import Band, Faces
 from viscotack.bem.machine import Hold
 from viscotack.bem.span import room
 from viscotack.bem.surface import Surface
+from viscotack.clock import look
 from viscotack.materials import Modes
 from viscotack.traction import Traction, effective_range
 

@@ -57,12 +57,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
-from viscotack.bem.clock import look
 from viscotack.bem.equilibrium import Balance, elastic_energy, factored, solved
 from viscotack.bem.interface import Band
 from viscotack.bem.machine import Hold
 from viscotack.bem.span import room
 from viscotack.bem.surface import Surface
+from viscotack.clock import look
 from viscotack.traction import Traction, effective_range
 
 # Newton's method for a step: maximum iterations, relative residual of the tensions, largest

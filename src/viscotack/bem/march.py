@@ -19,7 +19,6 @@ import numpy as np
 
 from viscotack.bem.body import Body
 from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest, Snapshot
-from viscotack.bem.clock import TimeUp
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed, shortest_step
 from viscotack.bem.later import over
@@ -32,6 +31,7 @@ from viscotack.bem.settings import Settings
 from viscotack.bem.span import separated
 from viscotack.bem.steps import arrived, clipped, is_shortest, shortened, tried, weighed
 from viscotack.bem.travelling import ahead, travelled
+from viscotack.clock import TimeUp
 from viscotack.materials import Modes
 
 # Absolute tolerance within which a target depth, force or edge counts as reached, in its unit.

@@ -28,7 +28,6 @@ import numpy as np
 
 from viscotack.bem.body import Body
 from viscotack.bem.books import SMALLEST_ENERGY, History, Snapshot
-from viscotack.bem.clock import TimeUp
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed
 from viscotack.bem.machine import Leg
@@ -49,6 +48,7 @@ from viscotack.bem.steps import (
     weighed,
 )
 from viscotack.bem.travelling import ahead, travelled
+from viscotack.clock import TimeUp
 from viscotack.materials import Modes
 
 # Forces count as equal within this fraction of their scale; most trials of a step; a step whose

@@ -12,7 +12,6 @@ import numpy as np
 from viscotack.bem.ageing import finer
 from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
-from viscotack.bem.clock import TimeUp, met
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.contacts.disc import DiscContact
 from viscotack.bem.contacts.profile import ProfileContact
@@ -27,6 +26,7 @@ from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.verdict import judged, out_of_time, status_of
+from viscotack.clock import TimeUp, met
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, Disc, FlatPunch, HalfSpace, PowerLawProfile, Sphere, detail
 from viscotack.materials import Material, Modes

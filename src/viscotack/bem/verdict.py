@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from viscotack.bem.books import History
-from viscotack.bem.clock import TimeUp
 from viscotack.bem.shut import why
+from viscotack.clock import TimeUp
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, end
 from viscotack.protocol import Apart

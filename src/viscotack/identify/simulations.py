@@ -95,7 +95,7 @@ def _force(problem: Problem) -> float:
 
 def _in_time() -> None:
     """Refuse to go on where the time limit of the caller has been met."""
-    from viscotack.bem.clock import met
+    from viscotack.clock import met
 
     if limit := met():
         raise InputError(f"{limit} while tests were simulated; give more time")

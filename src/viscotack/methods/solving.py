@@ -7,10 +7,10 @@ from time import perf_counter
 
 from threadpoolctl import threadpool_limits
 
-from viscotack.bem.clock import limited
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import Progress, Watch, begun, contact_of, simulate
 from viscotack.cards import card_of
+from viscotack.clock import limited
 from viscotack.errors import InputError
 from viscotack.methods import handover
 from viscotack.methods.crack_problem import largest_radius, not_covered

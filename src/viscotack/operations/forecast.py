@@ -184,7 +184,7 @@ def _forecast(asked: Forecast | Report, caller: Caller) -> tuple[Any, Any]:
 
     Forces are those of the file beside the study, where it has them.
     """
-    from viscotack.bem.clock import limited
+    from viscotack.clock import limited
     from viscotack.identify.computed import SUFFIX
     from viscotack.identify.study import answer
 

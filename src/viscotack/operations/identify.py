@@ -229,7 +229,7 @@ class IdentifyRates(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the interface to the rate series."""
-        from viscotack.bem.clock import limited
+        from viscotack.clock import limited
         from viscotack.identify import posterior
         from viscotack.identify.study import answer
         from viscotack.pictures.identify import draw_posterior, draw_rate_series

@@ -114,7 +114,7 @@ class Predict(Operation):
         """Predict with the best tier within the time budget."""
         if self.cases is not None:
             return self._of_table(self.cases, caller)
-        from viscotack.bem.clock import limited
+        from viscotack.clock import limited
         from viscotack.forecast import predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON

@@ -49,7 +49,7 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
     >>> array = PadArray(pad, grid(2, 2, 3e-3))
     >>> found = pull_array(array, speed=1e-5, preload=4e-3)
     >>> draw_array(array, found).axes[0].get_xlabel()
-    'travel of the drive [um]'
+    'travel of the drive [µm]'
     """
     import matplotlib.style
     from matplotlib.figure import Figure

@@ -21,12 +21,12 @@ from viscotack.arrays import Array
 from viscotack.bem.ageing import finer
 from viscotack.bem.books import History
 from viscotack.bem.bounds import check_bounds
-from viscotack.bem.clock import TimeUp, limited
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.machine import Leg
 from viscotack.bem.series import Part, SeriesHistory, Units, march_in_series
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of, modes_of_run, relaxed_start
+from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError, OutOfRange
 from viscotack.methods import handover
 from viscotack.problem import Groups, Problem

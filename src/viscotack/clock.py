@@ -30,7 +30,7 @@ def limited(seconds: float | None) -> Iterator[None]:
     >>> with limited(1e-9):
     ...     look()
     Traceback (most recent call last):
-    viscotack.bem.clock.TimeUp: the time limit of 1e-09 s was met
+    viscotack.clock.TimeUp: the time limit of 1e-09 s was met
     """
     given = inf if seconds is None else seconds
     before = _END.set(min(_END.get(), (perf_counter() + given, given)))
