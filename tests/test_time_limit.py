@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from command_line import exit_status
-from viscotack.bem import SimulationError, clock, solver
+from viscotack import clock
+from viscotack.bem import SimulationError, solver
 from viscotack.errors import InputError
 from viscotack.materials import StandardSolid
 from viscotack.methods import cost, solve
