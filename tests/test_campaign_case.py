@@ -185,7 +185,7 @@ def test_a_stopped_simulation_is_a_failure_with_its_reason(monkeypatch):
 def test_a_case_that_marches_too_long_ends_by_itself(monkeypatch):
     # on a clock that goes on by a hundredth of a second whenever somebody looks at it
     ticks = count(100.0, 0.01)
-    for module in ("campaign.case", "bem.clock"):
+    for module in ("campaign.case", "clock"):
         monkeypatch.setattr(
             importlib.import_module(f"viscotack.{module}"), "perf_counter", ticks.__next__
         )
