@@ -61,9 +61,11 @@ def damaged(content: bytes, rng: np.random.Generator) -> bytes:
 
 def readers(folder: Path) -> dict[str, Reader]:
     """Return every reader with its corpus, of which some files are written in a folder first."""
+    from viscotack.campaign.apart import check_apart
     from viscotack.campaign.listed import read_words
-    from viscotack.campaign.parts import parquet, read_proven, table_of
+    from viscotack.campaign.parts import parquet, table_of
     from viscotack.campaign.plan import read_plan
+    from viscotack.files.parquet import read_parquet
     from viscotack.files.quantities import read_quantities
     from viscotack.materials.library import pdms_10_1
     from viscotack.materials.passport_file import write_passport
@@ -86,7 +88,9 @@ def readers(folder: Path) -> dict[str, Reader]:
     studies = {p.name: _beside(p, "../from_toml") for p in examples if p.parent.name == "studies"}
 
     def proven(path: Path) -> Any:
-        return read_proven(path, sha256(path.read_bytes()).hexdigest())
+        file = path, sha256(path.read_bytes()).hexdigest()
+        check_apart([file])
+        return read_parquet(*file)
 
     def rows(path: Path) -> list[Any]:
         return list(read_words(path)[1])

@@ -2,6 +2,8 @@
 
 import io
 import os
+import subprocess
+import sys
 import tracemalloc
 import zipfile
 from hashlib import sha256
@@ -12,7 +14,9 @@ import pytest
 import tack_files
 from pool_tasks import misread, process_of
 from viscotack import load as load_result
-from viscotack.campaign.parts import parquet, read_proven
+from viscotack.campaign import apart as campaign_apart
+from viscotack.campaign.apart import check_apart
+from viscotack.campaign.parts import parquet, table_of
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import read_bytes
@@ -24,6 +28,7 @@ from viscotack.lab.lab_file import load
 from viscotack.lab.tack import survey
 from viscotack.lab.workbook_layout import sheets
 from viscotack.operations import ask
+from viscotack.pool.apart import Apart
 
 BOOK = {
     "[Content_Types].xml": (
@@ -306,11 +311,52 @@ def test_a_record_nested_without_end_is_refused(tmp_path):
         ask("material convert", source=file, code="rheojax")
 
 
-def test_a_table_that_repeats_a_row_a_million_times_is_not_unpacked(tmp_path):
+def forged(folder, content):
+    """Write a Parquet file; return it with the hash that a forged ledger has."""
+    file = folder / "cases.parquet"
+    file.write_bytes(content)
+    return file, sha256(content).hexdigest()
+
+
+def test_a_table_that_unpacks_to_gigabytes_is_not_read_in_this_process(tmp_path):
+    import pyarrow as pa
+    from pyarrow.parquet import write_table
+
+    # the file states 200 values, and takes 2 GB for them
+    words = pa.DictionaryArray.from_arrays(np.zeros(200, np.int32), pa.array(["x" * 10_000_000]))
+    packed = io.BytesIO()
+    write_table(pa.table({"name": words}), packed, compression="zstd", store_schema=False)
+    assert len(packed.getvalue()) < 1000
+    file = forged(tmp_path, packed.getvalue())
+    with pytest.raises(InputError, match=r"cases.parquet is damaged: .* 150 MB of memory; move"):
+        check_apart([file])
+
+
+def test_statistics_that_contradict_the_schema_are_refused_without_abort(tmp_path):
     import pyarrow as pa
 
-    ones = pa.table({name: pa.array(np.ones(1_000_000)) for name in "abcdefgh"})
-    file = tmp_path / "cases.parquet"
-    file.write_bytes(parquet(lambda: [ones]))
-    with pytest.raises(InputError, match=r"is damaged: it has 64 MB when unpacked"):
-        read_proven(file, sha256(file.read_bytes()).hexdigest())
+    content = bytes(parquet(lambda: [pa.table({"tabor": [1.0, 2.0]})]))
+    # in the footer, tabor becomes a column without missing values; the statistics count these
+    optional, name = b"\x25\x02", b"\x18\x05tabor"
+    assert content.count(optional + name) == 1
+    file = forged(tmp_path, content.replace(optional + name, b"\x25\x00" + name))
+    program = "import sys, viscotack.files.parquet as p; p.check_parquet(*sys.argv[1:])"
+    command = [sys.executable, "-c", program, *map(str, file)]
+    told = subprocess.run(command, capture_output=True, text=True)
+    assert told.returncode == 1 and "InputError" in told.stderr, told.stderr
+    with pytest.raises(InputError, match="cases.parquet is damaged: .*histogram size mismatch"):
+        check_apart([file])
+
+
+def test_a_file_is_read_apart_once(tmp_path, monkeypatch):
+    files = [(tmp_path / name, "") for name in "abc"]
+    for number, (path, _) in enumerate(files):
+        content = bytes(parquet(lambda n=number: [table_of([{"name": str(n)}])]))
+        path.write_bytes(content)
+        files[number] = path, sha256(content).hexdigest()
+    calls = []
+    monkeypatch.setattr(campaign_apart, "_SAFE", {files[2][1]})
+    monkeypatch.setattr(Apart, "call", lambda self, check, path, *_, **__: calls.append(path))
+    for file in files * 2:
+        check_apart([file, *files])
+    assert calls == [files[0][0], files[1][0]]

@@ -27,14 +27,16 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.files.arrow import arrow
-from viscotack.files.bounded import LARGEST_PART, check_unpacked, read_bytes
+from viscotack.files.bounded import LARGEST_PART
+from viscotack.files.parquet import read_parquet
 from viscotack.files.whole import is_draft, remove_drafts, write_new
+
+from .apart import check_apart, trust
+from .identity import digest
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
 _LARGEST = 30e6
-# Memory of a value in a table [bytes].
-_LEAST = 8
 _TRIES = 5
 _NAME = re.compile(r"(\d{6,18})-(\d{6,18})\.parquet")
 
@@ -160,6 +162,10 @@ class Parts:
         is_there = (self.folder / ledger.coming.name).exists()
         return (*ledger.kept, ledger.coming) if is_there else ledger.kept
 
+    def files(self) -> list[tuple[Path, str]]:
+        """Return the files of the parts that count now, with their hashes."""
+        return [(self.folder / part.name, part.sha256) for part in self.kept()]
+
     def settle(self) -> None:
         """Finish what a killed run left: a part half come, parts half gone, drafts."""
         ledger = self._ledger()
@@ -222,6 +228,7 @@ class Parts:
     def _write(self, content: Any, rows: int, span: tuple[int, int], ledger: Ledger) -> Part:
         """Write a part after recording it in the ledger."""
         part = Part(_name(span), hashlib.sha256(content).hexdigest(), rows)
+        trust(part.sha256)
         self.folder.mkdir(parents=True, exist_ok=True)
         self._note(replace(ledger, coming=part))
         try:
@@ -233,7 +240,9 @@ class Parts:
         return part
 
     def _read(self, part: Part, columns: Sequence[str] | None) -> Any:
-        return read_proven(self.folder / part.name, part.sha256, columns)
+        proven = self.folder / part.name, part.sha256
+        check_apart([proven, *self.files()])
+        return read_parquet(*proven, columns)
 
     def _remove(self, part: Part) -> None:
         """Remove a file if it is the one that was written."""
@@ -261,58 +270,15 @@ def adopted(folder: Path) -> Ledger:
                 f"{path} and {kept[-1].name} overlap, which no run of viscotack leaves; move "
                 "away the one that is not of this campaign"
             )
-    return Ledger(tuple(map(_described, kept)))
+    files = [(path, digest(path, LARGEST_PART)) for path in kept]
+    return Ledger(
+        tuple(Part(path.name, sha256, _rows((path, sha256), files)) for path, sha256 in files)
+    )
 
 
-def _described(path: Path) -> Part:
-    content = read_bytes(path, LARGEST_PART)
-    rows = _parsed(path, content, ["name"]).num_rows
-    return Part(path.name, hashlib.sha256(content).hexdigest(), rows)
-
-
-def read_proven(path: Path, sha256: str, columns: Sequence[str] | None = None) -> Any:
-    """Return the table of a Parquet file whose bytes have a hash.
-
-    Raises
-    ------
-    FileNotFoundError
-        If it is not there.
-    ValueError
-        If it is another one, or damaged; with its name.
-    """
-    try:
-        content = read_bytes(path, LARGEST_PART)
-    except FileNotFoundError:
-        raise
-    except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from None
-    if hashlib.sha256(content).hexdigest() != sha256:
-        raise InputError(
-            f"{path} is damaged: it is not what was written, its hash is another; move it away, "
-            "and run the campaign again for its cases"
-        )
-    return _parsed(path, content, columns)
-
-
-def _parsed(path: Path, content: bytes, columns: Sequence[str] | None) -> Any:
-    pa = arrow()
-    try:
-        file = pa.parquet.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
-        known = file.schema_arrow.names
-        wanted = None if columns is None else [name for name in columns if name in known]
-        check_unpacked(_LEAST * _numbers(file.metadata), len(content))
-        # threads of Arrow that still run when Python ends may abort the process
-        return file.read(columns=wanted, use_threads=False)
-    except (OSError, pa.ArrowException, InputError) as error:
-        raise InputError(
-            f"{path} is damaged: {error}; move it away, and run the campaign again for its cases"
-        ) from None
-
-
-def _numbers(metadata: Any) -> int:
-    """Count the values of a Parquet file, which may repeat one of them."""
-    groups = (metadata.row_group(i) for i in range(metadata.num_row_groups))
-    return sum(group.column(i).num_values for group in groups for i in range(group.num_columns))
+def _rows(file: tuple[Path, str], beside: Sequence[tuple[Path, str]]) -> int:
+    check_apart([file, *beside])
+    return read_parquet(*file, ["name"]).num_rows
 
 
 def parquet(tables: Callable[[], Iterable[Any]]) -> Any:

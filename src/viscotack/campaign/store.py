@@ -30,15 +30,17 @@ from viscotack.errors import InputError
 from viscotack.files.arrow import arrow
 from viscotack.files.bounded import LARGEST_PART
 from viscotack.files.lock import Hold
+from viscotack.files.parquet import read_parquet
 from viscotack.files.whole import remove_drafts, write_whole
 from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
 from viscotack.version import __version__
 
+from .apart import check_apart, trust
 from .case import CaseSettings
 from .cases import Cases, Names, Standing
 from .identity import digest, identity, permitted
 from .ordering import Ordered, in_order, names_of
-from .parts import Ledger, Parts, adopted, parquet, read_proven
+from .parts import Ledger, Parts, adopted, parquet
 from .plan import Plan, restored_kind
 from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
 
@@ -139,6 +141,7 @@ class Store:
             header |= {name: old[name] for name in ("runs", "parts", "lost")}
         files = {"cases.parquet": parquet(lambda: _tables_of_cases(cases)), **sources}
         hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        trust(hashes["cases.parquet"])
         if hold is not None:
             hold.confirm()
         # Until both are written either counts: at any instant the folder is in order.
@@ -327,7 +330,12 @@ class Store:
         try:
             hashes = self.files().get(path.name) or [str(hash_of(path))]
             present = hash_of(path)
-            table = read_proven(path, present if present in hashes else hashes[0])
+            proven = path, present if present in hashes else hashes[0]
+            # all at once: a process takes time to start
+            check_apart(
+                [proven, *(file for parts in self._parts.values() for file in parts.files())]
+            )
+            table = read_parquet(*proven)
         except FileNotFoundError:
             raise InputError(
                 f"{self.folder} has lost its cases.parquet; run again with the plan"

@@ -5,6 +5,11 @@ from typing import Any
 from viscotack.errors import NotInstalled
 
 
+def import_arrow(given: None) -> None:
+    """Import pyarrow, before the memory of a process is limited."""
+    arrow()
+
+
 def arrow(stored: str = "campaigns are stored") -> Any:
     """Import pyarrow and the submodules used in this package.
 

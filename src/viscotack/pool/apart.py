@@ -21,10 +21,15 @@ class Apart:
     """A child process that calls functions of this package with limits; use it by ``with``.
 
     It starts with the first call, and again after a call that ended it.
+
+    Parameters
+    ----------
+    prepare : str
+        ``"module:function"``, called without limits when the process starts, for slow imports.
     """
 
-    def __init__(self) -> None:
-        self._pool = Pool(Setup(f"{__name__}:prepare", None), 1)
+    def __init__(self, prepare: str = f"{__name__}:no_imports") -> None:
+        self._pool = Pool(Setup(prepare, None), 1)
 
     def __enter__(self) -> Self:
         return self
@@ -80,7 +85,7 @@ class Apart:
                 raise Exceeded(f"the process that reads it {event.what}")
 
 
-def prepare(given: None) -> None:
+def no_imports(given: None) -> None:
     """Prepare a child: it imports a function with its first call."""
 
 
