@@ -205,27 +205,45 @@ def _npz(shape: str, size: int) -> Callable[[Path], object]:
     return write
 
 
-def _parquet(path: Path) -> None:
-    """Write a campaign whose table of cases has a hundred million rows in three megabytes."""
+def _campaign(write: Callable[[Path], None]) -> Callable[[Path], None]:
+    """Write a campaign whose table of cases is another one, with its hash."""
+
+    def make(path: Path) -> None:
+        from viscotack.campaign.provenance import read_provenance, write_provenance
+
+        plan = path.with_suffix(".toml")
+        plan.write_text("[[grid]]\n" + "".join(f"{name} = 1\n" for name in _INPUTS))
+        run(["campaign", "run", str(plan), "--out", str(path)])
+        file = path / "cases.parquet"
+        before = hashlib.sha256(file.read_bytes()).hexdigest()
+        write(file)
+        after = hashlib.sha256(file.read_bytes()).hexdigest()
+        forged = json.dumps(read_provenance(path)).replace(before, after)
+        write_provenance(path, {k: v for k, v in json.loads(forged).items() if k != "seal"})
+
+    return make
+
+
+def _parquet_rows(file: Path) -> None:
+    """Write a hundred million rows in three megabytes."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    from viscotack.campaign.provenance import read_provenance, write_provenance
-
-    plan = path.with_suffix(".toml")
-    plan.write_text("[[grid]]\n" + "".join(f"{name} = 1\n" for name in _INPUTS))
-    run(["campaign", "run", str(plan), "--out", str(path)])
-    file = path / "cases.parquet"
-    before = hashlib.sha256(file.read_bytes()).hexdigest()
     ones = pa.array([1.0] * 1_000_000)
     words = pa.array(["x"] * 1_000_000).dictionary_encode()
     rows = pa.table({"name": words, **dict.fromkeys(_INPUTS, ones)})
     with pq.ParquetWriter(file, rows.schema, compression="zstd") as writer:
         for _ in range(100):
             writer.write_table(rows)
-    after = hashlib.sha256(file.read_bytes()).hexdigest()
-    forged = json.dumps(read_provenance(path)).replace(before, after)
-    write_provenance(path, {k: v for k, v in json.loads(forged).items() if k != "seal"})
+
+
+def _parquet_words(file: Path) -> None:
+    """Write 200 words of ten megabytes in 600 bytes; what the file states of itself is small."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    words = pa.DictionaryArray.from_arrays(pa.array([0] * 200, pa.int32()), ["x" * 10_000_000])
+    pq.write_table(pa.table({"name": words}), file, compression="zstd", store_schema=False)
 
 
 def _deep_provenance(path: Path) -> None:
@@ -348,7 +366,8 @@ BOMBS = [
     Bomb("digits.json", _repeated(_RECORD, "9" * 1000, 20_000, "}}}"), (LAB[0], FOREIGN[0])),
     Bomb("shape.npz", _npz("10000000000000", 1_000_000), RESULT),
     Bomb("packed.npz", _npz("112500000", 900_000_000), RESULT),
-    Bomb("rows campaign", _parquet, STORE),
+    Bomb("rows campaign", _campaign(_parquet_rows), STORE),
+    Bomb("words campaign", _campaign(_parquet_words), STORE),
     Bomb("deep campaign", _deep_provenance, STORE),
     Bomb("long campaign", _long_provenance, STORE),
 ]  # fmt: skip
