@@ -344,7 +344,7 @@ def test_statistics_that_contradict_the_schema_are_refused_without_abort(tmp_pat
     command = [sys.executable, "-c", program, *map(str, file)]
     told = subprocess.run(command, capture_output=True, text=True)
     assert told.returncode == 1 and "InputError" in told.stderr, told.stderr
-    with pytest.raises(InputError, match="cases.parquet is damaged: .*histogram size mismatch"):
+    with pytest.raises(InputError, match="cases.parquet is damaged: "):
         check_apart([file])
 
 

@@ -13,6 +13,7 @@ import pytest
 from scipy.io import loadmat
 
 from campaign_work import finished, plan_of
+from processes import POSIX
 from viscotack.campaign import CaseSettings, Store, export
 from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.parts import Ledger, Part, Parts, adopted, parquet, table_of
@@ -148,6 +149,7 @@ def test_a_kill_at_any_instant_of_a_merge_changes_nothing(tmp_path, monkeypatch)
     assert ended and instant > 8
 
 
+@POSIX
 def test_old_parts_go_only_when_the_merged_one_is_safe(tmp_path, monkeypatch):
     monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
     parts, done = table_in(tmp_path), []

@@ -13,6 +13,7 @@ import pytest
 
 from campaign_work import InlineCrew, employ, flipped, picky, plan_of, stand_in, told
 from command_line import exit_status
+from processes import POSIX
 from viscotack import InputError
 from viscotack.campaign import FolderInUse, Store, Verdict, read_plan, run, verify
 from viscotack.campaign.provenance import read_provenance, write_provenance
@@ -381,6 +382,7 @@ def test_a_new_file_never_takes_the_place_of_another(tmp_path):
     assert path.read_bytes() == b"one" and os.listdir(tmp_path) == ["a"]
 
 
+@POSIX
 def test_a_new_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):
     done = []
     for name in ("fsync", "link"):

@@ -20,7 +20,8 @@ _MISSING = {"fcntl", "resource", "pwd", "grp", "termios"}
 def _locking(handle, mode, count):
     assert mode == 2 and count == 1
     try:
-        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB, count, 1 << 30)
+        # as on Windows, a process does not share its lock with itself
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:  # what Windows raises
         raise PermissionError(13, "Permission denied") from None
 
