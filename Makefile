@@ -51,7 +51,8 @@ test-lowest: requirements/lowest.txt
 	$(PYTHON) -m venv --clear .venv-lowest
 	.venv-lowest/bin/python -m pip install --quiet --requirement $<
 	.venv-lowest/bin/python -m pip install --quiet --no-deps --editable .
-	.venv-lowest/bin/python -m pytest -m "not slow and not outside" -n 2 -q -W ignore::DeprecationWarning
+	.venv-lowest/bin/python -m pytest -m "not slow and not outside" -n 2 -q -W ignore::DeprecationWarning \
+		-W ignore::PendingDeprecationWarning
 
 test-processors: $(VENV)/.installed
 	PYTHON=$(BIN)/python .ci/processors

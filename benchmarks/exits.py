@@ -1,13 +1,15 @@
-"""Exit statuses of real processes under load: ``python benchmarks/exits.py [--verify 300]``.
+"""Exit statuses of real processes under load: ``python benchmarks/exits.py [--log LOG]``.
 
 Runs ``campaign verify`` on an intact folder 300 times and every other command 50 times, beside
 processes that keep all cores busy, and counts the exit statuses. It ends with 1 if one differs from
-that of its command: threads that a library leaves running abort a process at its end.
+that of its command: threads that a library leaves running abort a process at its end. With a log,
+runs are added to those that it has, up to the numbers.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import multiprocessing
 import os
 import shlex
@@ -121,13 +123,24 @@ def statuses(command: str, runs: int, folder: Path) -> tuple[Counter[int], str]:
     return found, said
 
 
+def recorded(log: Path | None) -> Counter[str]:
+    """Return how often each command was run, by a log."""
+    done: Counter[str] = Counter()
+    if log is not None and log.exists():
+        for row in map(json.loads, log.read_text(encoding="utf-8").splitlines()):
+            done[row["command"]] += row["runs"]
+    return done
+
+
 def main() -> int:
     """Return 1 if a status is wrong."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--verify", type=int, default=300, help="runs of campaign verify")
     parser.add_argument("--others", type=int, default=50, help="runs of each other command")
     parser.add_argument("--load", type=int, default=os.cpu_count() or 1, help="busy processes")
+    parser.add_argument("--log", type=Path, help="a line for each command that was run")
     asked = parser.parse_args()
+    done = recorded(asked.log)
     load = [multiprocessing.Process(target=busy, daemon=True) for _ in range(asked.load)]
     wrong = 0
     with tempfile.TemporaryDirectory() as temporary:
@@ -136,10 +149,15 @@ def main() -> int:
         for process in load:
             process.start()
         for command, status in COMMANDS.items():
-            runs = asked.verify if command == VERIFY else asked.others
+            wanted = asked.verify if command == VERIFY else asked.others
+            runs = max(0, wanted - done[command])
             found, said = statuses(command, runs, folder)
             bad = runs - found[status]
             wrong += bad
+            if asked.log and runs:
+                with asked.log.open("a", encoding="utf-8") as log:
+                    row = {"command": command, "runs": runs, "statuses": found}
+                    print(json.dumps(row), file=log)
             print(f"{bad or 'none'} of {runs} wrong: {command}: {dict(found)} {said}", flush=True)
         for process in load:
             process.terminate()

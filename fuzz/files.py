@@ -24,10 +24,12 @@ from typing import Any
 import numpy as np
 
 from viscotack import InputError, lab, load, read_case, system
+from viscotack.campaign.apart import IMPORTS, check
 from viscotack.lab import tack
 from viscotack.materials import Prony
 from viscotack.materials.exchange import CODES, exported, imported
 from viscotack.materials.passport_file import read_passport
+from viscotack.pool.apart import Apart
 
 from .__main__ import limited
 from .answers import TooLong
@@ -59,9 +61,8 @@ def damaged(content: bytes, rng: np.random.Generator) -> bytes:
     return packed.getvalue()
 
 
-def readers(folder: Path) -> dict[str, Reader]:
+def readers(folder: Path, child: Apart) -> dict[str, Reader]:
     """Return every reader with its corpus, of which some files are written in a folder first."""
-    from viscotack.campaign.apart import check_apart
     from viscotack.campaign.listed import read_words
     from viscotack.campaign.parts import parquet, table_of
     from viscotack.campaign.plan import read_plan
@@ -89,7 +90,7 @@ def readers(folder: Path) -> dict[str, Reader]:
 
     def proven(path: Path) -> Any:
         file = path, sha256(path.read_bytes()).hexdigest()
-        check_apart([file])
+        check(child, *file)
         return read_parquet(*file)
 
     def rows(path: Path) -> list[Any]:
@@ -173,9 +174,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--number", type=int, help="one of the files of a reader")
     given = parser.parse_args(arguments)
     found = 0
-    with tempfile.TemporaryDirectory() as temporary:
+    with tempfile.TemporaryDirectory() as temporary, Apart(IMPORTS) as child:
         folder = Path(temporary)
-        known = readers(folder)
+        known = readers(folder, child)
         for name in [given.only] if given.only else known:
             read, corpus = known[name]
             counts: Counter[str] = Counter()

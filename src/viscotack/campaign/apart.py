@@ -13,6 +13,8 @@ from viscotack.pool.apart import Apart, Exceeded
 # of a grid takes a hundredth of its size.
 _MEMORY, _MEMORY_PER_BYTE = 150e6, 100.0
 _SECONDS, _SECONDS_PER_BYTE = 60.0, 4e-6
+# Imports of the child, which its limit of memory does not count.
+IMPORTS = "viscotack.files.arrow:import_arrow"
 # Hashes of what this process wrote, and of what a child has read: memory and time of these files
 # are bounded, and this process reads them.
 _SAFE: set[str] = set()
@@ -45,14 +47,15 @@ def check_apart(files: Iterable[tuple[Path, str]]) -> None:
     if sha256 in _SAFE:
         return
     arrow()  # the error of a missing library is that of this process
-    with Apart("viscotack.files.arrow:import_arrow") as child:
-        _check(child, first, sha256)
+    with Apart(IMPORTS) as child:
+        check(child, first, sha256)
         for path, hash_ in others:
             with suppress(InputError, OSError):
-                _check(child, path, hash_)
+                check(child, path, hash_)
 
 
-def _check(child: Apart, path: Path, sha256: str) -> None:
+def check(child: Apart, path: Path, sha256: str) -> None:
+    """Read a file in a child process, unless this was done; errors as of `check_apart`."""
     if sha256 in _SAFE:
         return
     size = path.stat().st_size
