@@ -329,7 +329,7 @@ def test_a_table_that_unpacks_to_gigabytes_is_not_read_in_this_process(tmp_path)
     assert len(packed.getvalue()) < 1000
     file = forged(tmp_path, packed.getvalue())
     with pytest.raises(InputError, match=r"cases.parquet is damaged: .* 150 MB of memory; move"):
-        check_apart([file])
+        check_apart(*file)
 
 
 def test_statistics_that_contradict_the_schema_are_refused_without_abort(tmp_path):
@@ -345,7 +345,7 @@ def test_statistics_that_contradict_the_schema_are_refused_without_abort(tmp_pat
     told = subprocess.run(command, capture_output=True, text=True)
     assert told.returncode == 1 and "InputError" in told.stderr, told.stderr
     with pytest.raises(InputError, match="cases.parquet is damaged: "):
-        check_apart([file])
+        check_apart(*file)
 
 
 def test_a_file_is_read_apart_once(tmp_path, monkeypatch):
@@ -358,5 +358,5 @@ def test_a_file_is_read_apart_once(tmp_path, monkeypatch):
     monkeypatch.setattr(campaign_apart, "_SAFE", {files[2][1]})
     monkeypatch.setattr(Apart, "call", lambda self, check, path, *_, **__: calls.append(path))
     for file in files * 2:
-        check_apart([file, *files])
+        check_apart(*file, lambda: files)
     assert calls == [files[0][0], files[1][0]]

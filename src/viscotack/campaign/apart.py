@@ -1,6 +1,6 @@
 """Parquet files of campaigns, read first in a child process with limits."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -25,33 +25,36 @@ def trust(sha256: str) -> None:
     _SAFE.add(sha256)
 
 
-def check_apart(files: Iterable[tuple[Path, str]]) -> None:
-    """Read files with known hashes in a child process, unless this was done; they may be forged.
+def check_apart(
+    path: Path, sha256: str, beside: Callable[[], Iterable[tuple[Path, str]]] = tuple
+) -> None:
+    """Read a file with a known hash in a child process, unless this was done; it may be forged.
 
     The memory that a file takes follows neither from its size nor from its metadata.
 
     Parameters
     ----------
-    files : iterable of (Path, str)
-        With their hashes. Files behind the first one are read in the same process, which takes time
-        to start; their errors are not raised.
+    path, sha256
+        The file and its hash.
+    beside : callable
+        Returns files with their hashes that are read in the same process, which takes time to
+        start; their errors are not raised.
 
     Raises
     ------
     FileNotFoundError
-        If the first one is not there.
+        If it is not there.
     ValueError
         If it is damaged, or takes too much memory or time; with its name.
     """
-    (first, sha256), *others = files
     if sha256 in _SAFE:
         return
     arrow()  # the error of a missing library is that of this process
     with Apart(IMPORTS) as child:
-        check(child, first, sha256)
-        for path, hash_ in others:
+        check(child, path, sha256)
+        for other in beside():
             with suppress(InputError, OSError):
-                check(child, path, hash_)
+                check(child, *other)
 
 
 def check(child: Apart, path: Path, sha256: str) -> None:

@@ -241,7 +241,7 @@ class Parts:
 
     def _read(self, part: Part, columns: Sequence[str] | None) -> Any:
         proven = self.folder / part.name, part.sha256
-        check_apart([proven, *self.files()])
+        check_apart(*proven, self.files)
         return read_parquet(*proven, columns)
 
     def _remove(self, part: Part) -> None:
@@ -271,14 +271,14 @@ def adopted(folder: Path) -> Ledger:
                 "away the one that is not of this campaign"
             )
     files = [(path, digest(path, LARGEST_PART)) for path in kept]
+    for file in files:
+        check_apart(*file, lambda: files)
     return Ledger(
-        tuple(Part(path.name, sha256, _rows((path, sha256), files)) for path, sha256 in files)
+        tuple(
+            Part(path.name, sha256, read_parquet(path, sha256, ["name"]).num_rows)
+            for path, sha256 in files
+        )
     )
-
-
-def _rows(file: tuple[Path, str], beside: Sequence[tuple[Path, str]]) -> int:
-    check_apart([file, *beside])
-    return read_parquet(*file, ["name"]).num_rows
 
 
 def parquet(tables: Callable[[], Iterable[Any]]) -> Any:

@@ -331,10 +331,8 @@ class Store:
             hashes = self.files().get(path.name) or [str(hash_of(path))]
             present = hash_of(path)
             proven = path, present if present in hashes else hashes[0]
-            # all at once: a process takes time to start
-            check_apart(
-                [proven, *(file for parts in self._parts.values() for file in parts.files())]
-            )
+            # tables of results too: a process takes time to start
+            check_apart(*proven, self._part_files)
             table = read_parquet(*proven)
         except FileNotFoundError:
             raise InputError(
@@ -348,6 +346,9 @@ class Store:
             if name != "name"
         }
         return Cases(names, inputs)
+
+    def _part_files(self) -> list[tuple[Path, str]]:
+        return [file for parts in self._parts.values() for file in parts.files()]
 
     def _ledger(self, name: str) -> Ledger:
         """Return the ledger of a table: of who writes the one it has, else that on the disk."""
