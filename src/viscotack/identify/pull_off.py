@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viscotack.lab.grouping import levels
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
@@ -46,12 +47,12 @@ class History:
 
 @dataclass(frozen=True)
 class PullOff:
-    """One pull-off, or the mean of several at one speed.
+    """One pull-off, or the mean of several at one temperature and speed.
 
     Parameters
     ----------
     speed : float
-        True retraction speed [m/s].
+        True retraction speed [m/s], times `shift`.
     force : Measured
         Pull-off force, positive [N].
     preload : float, optional
@@ -61,7 +62,11 @@ class PullOff:
     remarks : tuple of str
         Sentences on the tests at this speed.
     history : History, optional
-        Approach and dwell.
+        Approach and dwell, at the speed and time of `speed`.
+    temperature : float, optional
+        Temperature of the tests [K].
+    shift : float
+        a_T, by which the speed is multiplied (:func:`.temperatures.shifted`).
     """
 
     speed: float
@@ -70,13 +75,20 @@ class PullOff:
     travels: tuple[Measured, ...] | None = None
     remarks: tuple[str, ...] = ()
     history: History | None = None
+    temperature: float | None = None
+    shift: float = 1.0
+
+    @property
+    def true_speed(self) -> float:
+        """True retraction speed [m/s]."""
+        return self.speed / self.shift
 
 
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
-    """Return one pull-off per speed; repeated cycles are averaged.
+    """Return one pull-off per temperature and speed; repeated cycles are averaged.
 
-    Speeds are equal as in :func:`same_speeds`. The uncertainty of a mean includes the scatter of
-    repeated cycles, which is pooled over all speeds (:mod:`.repeats`). The preload is the force at
+    These are equal as in :func:`same_speeds`. The uncertainty of a mean includes the scatter of
+    repeated cycles, which is pooled over all of them (:mod:`.repeats`). The preload is the force at
     the start of the retractions, or None if one begins in tension.
     """
     groups = same_speeds(cycles)
@@ -85,8 +97,34 @@ def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     return [_of_one_speed(same, mean, repeats, far) for same, mean, far in rows]
 
 
+def same_temperatures(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
+    """Return the cycles of each temperature, coldest first, before them those without one.
+
+    Temperatures that differ by less than 1 K from the next one are equal.
+    """
+    known = [one for one in cycles if one.temperature is not None]
+    groups = [[one for one in cycles if one.temperature is None]]
+    if known:
+        rows = levels(np.array([one.temperature for one in known]))
+        groups += [[known[i] for i in sorted(row)] for row in rows]
+    return [group for group in groups if group]
+
+
+def temperature_of(cycles: Sequence[Cycle]) -> float | None:
+    """Return the mean temperature of cycles [K], None if that of one is unknown."""
+    found = [one.temperature for one in cycles if one.temperature is not None]
+    return float(np.mean(found)) if len(found) == len(cycles) else None
+
+
 def same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
-    """Return the cycles of each speed, slowest first; speeds within 3 % are equal."""
+    """Return the cycles of each temperature and speed, coldest and slowest first.
+
+    Speeds within 3 % are equal, and temperatures as in :func:`same_temperatures`.
+    """
+    return [group for same in same_temperatures(cycles) for group in _same_speeds(same)]
+
+
+def _same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
     groups: list[list[Cycle]] = []
     for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
         if groups and cycle.speed.value <= (1 + SAME) * groups[-1][0].speed.value:
@@ -117,6 +155,7 @@ def _of_one_speed(
         _mean([travels(cycle) for cycle in same]),
         remarks,
         _history(same),
+        temperature_of(same),
     )
 
 

@@ -76,6 +76,18 @@ def joined_source(sources: Sequence[Source]) -> Source:
     )
 
 
+def kelvins_in_name(path: str) -> set[float]:
+    """Return the temperatures in the name of a file [K].
+
+    Examples
+    --------
+    >>> kelvins_in_name("probe_300K_2.csv"), kelvins_in_name("probe_2.csv")
+    ({300.0}, set())
+    """
+    found = _IN_NAME.finditer(PurePath(path).stem)
+    return {in_kelvin(float(one["number"]), one["unit"]) for one in found}
+
+
 def kelvin_in_name(file: LabFile) -> float:
     """Return the single temperature in the name of a file [K].
 
@@ -90,7 +102,7 @@ def kelvin_in_name(file: LabFile) -> float:
             f"{match[1]!r} in the file name is ambiguous (minus sign or hyphen?); use '_' in "
             "place of the hyphen"
         )
-    found = {in_kelvin(float(m["number"]), m["unit"]) for m in _IN_NAME.finditer(stem)}
+    found = kelvins_in_name(file.path)
     if len(found) != 1 or min(found) <= 0:
         raise file.error(
             f"the file name contains {len(found)} temperatures such as '25C'; "

@@ -3,12 +3,14 @@
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar
 
+from viscotack.errors import InputError
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
 from .declare.cards import Number
 from .declare.options import Operation
 from .parts.rig import Files, Rig, refusals
+from .parts.shifting import ShiftLaw
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,8 +19,9 @@ class ReadTests(Operation):
 
     Approach, dwell and retraction are detected in the signal. Zero, tilt and drift of the force are
     corrected, and each number has a standard uncertainty. An unreliable curve is rejected with the
-    reason; the others are evaluated. Repeated tests are averaged by speed. Exit status 2 if no
-    cycle can be evaluated.
+    reason; the others are evaluated. Repeated tests are averaged by temperature and speed. With a
+    shift of times with temperature, the force is also given by the speed a_T v at the reference
+    temperature. Exit status 2 if no cycle can be evaluated.
 
     Example: viscotack test read probe_Interval_*.csv --compliance "2 um/N" --plot tests.png
     --xlsx tests.xlsx
@@ -27,10 +30,10 @@ class ReadTests(Operation):
     word: ClassVar = "test read"
     outputs: ClassVar = (
         csv_file("Write a row for each cycle; - is standard output."),
-        csv_file("Write a row for each speed; - is standard output.", "repeats"),
+        csv_file("Write a row for each temperature and speed; - is standard output.", "repeats"),
         csv_file(
-            "Write depth and force of every retraction as two columns, slowest first; - is "
-            "standard output.",
+            "Write depth and force of every retraction as two columns, coldest and slowest first; "
+            "- is standard output.",
             "curves",
         ),
         Output(
@@ -54,6 +57,14 @@ class ReadTests(Operation):
         ),
     ] = None
     rig: Rig = field(default_factory=Rig)
+    shifting: ShiftLaw = field(default_factory=ShiftLaw)
+
+    def __post_init__(self) -> None:
+        """Refuse a reference temperature without a shift."""
+        if self.shifting.reference_temperature is not None and not self.shifting.named:
+            raise InputError(
+                "--reference-temperature needs a shift: --wlf, --glass-transition or --shift-file"
+            )
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
@@ -65,46 +76,59 @@ class ReadTests(Operation):
             curve_rows,
             cycle_row,
             repeat_rows,
-            series_record,
+            series_rows,
             tests_record,
         )
         from .parts.tables import rows_as_csv
         from .parts.workbook import as_workbook
 
         found = self.rig.survey(self.files)
-        table = speed_table(found.cycles)
+        law = self.shifting.referred()
+        table = speed_table(found.cycles, law)
         rows = [
-            {"file": one.record.source.path, **cycle_row(cycle, self.radius)}
+            {"file": one.record.source.path, **cycle_row(cycle, self.radius, law)}
             for one in found.evaluations
             for cycle in one.cycles
         ]
         repeats = repeat_rows(table, self.radius)
         refused = [{"file": path, "reason": why} for path, why in found.reasons]
-        series = [
-            {"quantity": name.replace("_", " "), "value": value}
-            for name, value in series_record(table).items()
-        ]
+        series = [{"quantity": name, "value": value} for name, value in series_rows(table)]
         sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
         return Answer(
             found,
-            record=lambda: tests_record(found, table, self.radius),
-            words=lambda: _words(found, table, self.radius),
+            record=lambda: tests_record(found, table, self.radius, law),
+            words=lambda: _words(found, table, self.radius, law),
             files={
                 "csv": rows_as_csv(rows),
                 "repeats": rows_as_csv(repeats),
                 "curves": lambda target: rows_as_csv(curve_rows(found.cycles))(target),
                 "xlsx": as_workbook(sheets),
             },
-            pictures={"plot": lambda: draw_tests(found.cycles)},
+            pictures={"plot": lambda: draw_tests(found.cycles, shift=law)},
             drawn=lambda: {
                 "curves": [retraction(cycle) for cycle in found.cycles],
                 "refused": refused,
             },
-            notes=refusals(found),
+            notes=(*refusals(found), *_unread_names(found)),
         )
 
 
-def _words(found: Any, table: Any, radius: float | None) -> str:
+def _unread_names(found: Any) -> tuple[str, ...]:
+    """Return a note if temperatures in file names were not read and differ."""
+    from viscotack.lab.joining import kelvins_in_name
+
+    files = {one.source.path for one in found.cycles if one.temperature is None}
+    named = {kelvin for file in files for kelvin in kelvins_in_name(file)}
+    if len(named) < 2:
+        return ()
+    return (
+        f"the names of files contain temperatures from {min(named) - 273.15:.4g} to "
+        f"{max(named) - 273.15:.4g} C, and tests are not separated by them; add "
+        "--temperature-in-name",
+    )
+
+
+def _words(found: Any, table: Any, radius: float | None, law: Any) -> str:
     lines = []
     for one in found.evaluations:
         if not one.cycles:
@@ -114,24 +138,30 @@ def _words(found: Any, table: Any, radius: float | None) -> str:
             force, speed, work = cycle.pull_off_force, cycle.speed, cycle.work_of_separation
             lines.append(
                 f"  {cycle.number}: pull-off {_pair(force, 'N')}, work of separation "
-                f"{_pair(work, 'J')}, at {_pair(speed, 'm/s')}, preload "
+                f"{_pair(work, 'J')}, at {_at(cycle)}{_pair(speed, 'm/s')}, preload "
                 f"{readable(cycle.preload.value, 'N', digits=3)}, dwell "
                 f"{readable(cycle.dwell_time, 's', digits=3)}"
             )
         lines.append(f"     {'; '.join(one.cycles[0].source.notes)}")
-    lines += _words_by_speed(table, radius)
+    lines += _words_by_speed(table, radius, law)
     count = len(found.cycles)
     lines.append(f"{count} {'cycle' if count == 1 else 'cycles'}, {len(found.reasons)} refused")
     return "\n".join(lines)
 
 
-def _words_by_speed(table: Any, radius: float | None) -> list[str]:
-    """Describe the repeated tests, the comparison with JKR and the exponent of force by speed."""
+def _words_by_speed(table: Any, radius: float | None, law: Any) -> list[str]:
+    """Describe the repeated tests, the comparison with JKR and the exponents of force by speed."""
     from viscotack.identify.speed_table import jkr_work
 
-    lines = ["Pull-off force by speed"]
+    from .parts.records import conditions
+
+    several = len(table.series) > 1
+    lines = [f"Pull-off force by {'temperature and ' * several}speed"]
     for one in table.speeds:
-        line = f"  {readable(one.speed, 'm/s', digits=3)}: {readable(one.force, 'N', digits=3)}"
+        at = conditions(one.temperature if several else None, one.speed)
+        if one.shifted_speed is not None:
+            at += f", a_T v {readable(one.shifted_speed, 'm/s', digits=3)}"
+        line = f"  {at}: {readable(one.force, 'N', digits=3)}"
         if one.force_deviation is not None:
             line += ", standard deviation "
             line += readable(one.force_deviation, "N", digits=2, like=one.force)
@@ -143,13 +173,22 @@ def _words_by_speed(table: Any, radius: float | None) -> list[str]:
         lines += [f"    far from the others: {x.source.path} cycle {x.number}" for x in one.far]
     if table.scatter is not None:
         lines.append(f"  scatter of single tests {100 * table.scatter:.2g} %, pooled over speeds")
-    if table.exponent is not None:
-        exponent = table.exponent
-        lines.append(
-            f"  exponent of force by speed {exponent.value:.3g}, standard error "
-            f"{exponent.uncertainty:.1g}"
-        )
+    for one in table.exponents:
+        at = one.temperature if several else None
+        where = "" if at is None else f" at {at - 273.15:.3g} C"
+        lines.append(f"  exponent of force by speed{where} {_exponent(one.exponent)}")
+    if table.master is not None:
+        where = f"{law.reference_temperature - 273.15:.4g} C"
+        lines.append(f"  exponent of force by a_T v at {where} {_exponent(table.master)}")
     return lines
+
+
+def _exponent(one: Any) -> str:
+    return f"{one.value:.3g}, standard error {one.uncertainty:.1g}"
+
+
+def _at(cycle: Any) -> str:
+    return "" if cycle.temperature is None else f"{cycle.temperature - 273.15:.3g} C and "
 
 
 def _pair(one: Any, unit: str) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.tables import Table, under
+from viscotack.lab.tables import Table, stated_temperature, under
 from viscotack.lab.workbook_layout import sheets
 
 from .grid import grid, heads_columns
@@ -36,7 +36,8 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
         at = next((i for i, row in enumerate(rows[:_LOOKED]) if heads_columns(row, names)), None)
         if at is not None:
             below = under(list(enumerate(rows, start=1))[at + 1 :])
-            tables.append(grid(file, rows[at], *below, f"sheet {title!r}"))
+            stated = stated_temperature(rows[:at])
+            tables.append(grid(file, rows[at], *below, f"sheet {title!r}", stated))
     if not tables:
         raise file.error(
             'no sheet has the columns of a tack test, such as "Travel, Force, Time", in its '

@@ -63,6 +63,8 @@ class Cycle:
         Standard deviation of the force out of contact [N].
     source : Source
         Origin of the numbers; its notes list all decisions.
+    temperature : float or None
+        Mean temperature of the cycle [K]; None where the file states none.
     """
 
     number: int
@@ -85,6 +87,7 @@ class Cycle:
     approach_speed: float | None
     noise: float
     source: Source
+    temperature: float | None = None
 
     pull_off_depth = Renamed("depth_at_pull_off")
 

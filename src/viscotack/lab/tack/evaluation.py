@@ -30,6 +30,7 @@ _CLIPPED = 8  # equal extreme values in a row while the drive moves ...
 _ROUNDED = 8.0  # digits by which a rounded extreme changes as far again from it
 _MOVED = 0.002  # ... by more than this fraction of its travel
 _OUT = 5.0  # standard deviations of the noise that it may reverse in addition
+_STEADY = 3.0  # K: a larger change within a cycle is noted
 _SLIDING = 0.1  # fraction of the travel by which the corrected depth may reverse
 
 
@@ -204,6 +205,7 @@ def _cycle(
         float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract]))),
     )
     size = record.contact_radius
+    temperature, changes = _temperature(record, span)
     return Cycle(
         number=number,
         time=time,
@@ -235,8 +237,20 @@ def _cycle(
         mean_speed=_speed(time, way, own.retract, own.end - 1),
         approach_speed=_approach_speed(time, way, own),
         noise=law.noise,
-        source=record.source.noted(*notes),
+        source=record.source.noted(*notes, *changes),
+        temperature=temperature,
     )
+
+
+def _temperature(record: TackRecord, span: slice) -> tuple[float | None, tuple[str, ...]]:
+    """Return the mean temperature of a cycle [K], if known, and a note where it changes."""
+    rows = np.empty(0) if record.temperature is None else record.temperature[span]
+    rows = rows[np.isfinite(rows)]
+    if not rows.size:
+        return None, ()
+    low, high = float(rows.min()) - 273.15, float(rows.max()) - 273.15
+    change = f"the temperature changes from {low:.1f} to {high:.1f} C during the cycle"
+    return float(rows.mean()), (change,) if high - low > _STEADY else ()
 
 
 def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:

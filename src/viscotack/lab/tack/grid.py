@@ -7,9 +7,10 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab import quantities
 from viscotack.lab.columns import Cells
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.quantities import bare, no_unit
+from viscotack.lab.quantities import POSSIBLE, bare, kelvin, no_unit
 from viscotack.lab.tables import Table, heads, ruled
 
 from .header import recorded
@@ -35,6 +36,7 @@ class Given:
     nominal_speed: float | None = None
     spring_constant: float | None = None
     sensitivity: float | None = None
+    temperature_in_name: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -49,13 +51,18 @@ def grid(
     units: Sequence[str] | None,
     rows: Iterable[tuple[int, Sequence[str]]],
     label: str = "",
+    temperature: float | None = None,
 ) -> Table:
-    """Return a table; raise an error that names the first row of another length."""
+    """Return a table; raise an error that names the first row of another length.
+
+    `temperature` is stated above the table [K].
+    """
     names, beside, chosen = ruled(file, headings, units, rows)
     return Table(
         tuple(name.strip('"').strip() for name in names),
         tuple(bare(unit.strip('"')) for unit in beside),
         chosen,
+        temperature=temperature,
         label=label,
     )
 
@@ -84,7 +91,7 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
     time = None
     if (at := columns.optional("time", given.time_column)) is not None:
         time = columns.values("time", at)
-    size = columns.size()
+    size, temperature = columns.size(), columns.temperature()
     rows = [force, position, *([] if time is None else [time])]
     keep = np.all(np.isfinite(rows), axis=0)
     lost = int(np.sum(~keep))
@@ -104,6 +111,7 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
         (time[keep], force[keep], position[keep]),
         into=_INTO[kind],
         contact_radius=None if size is None else size[keep],
+        temperature=None if temperature is None else temperature[keep],
     )
     return found
 
@@ -201,6 +209,29 @@ class _Columns:
                     values = np.sqrt(values / np.pi)
                 return values
         return None
+
+    def temperature(self) -> Array | None:
+        """Return the temperature of each row [K], nan where unknown, or None if none is stated.
+
+        A column without a unit, one of several, or one that cannot be read is left out.
+        """
+        headings = [quantities.recognise(text) for text in self.table.headings]
+        found = [
+            (i, bare(one.unit or self.table.units[i]))
+            for i, one in enumerate(headings)
+            if one is not None and one.quantity == "temperature"
+        ]
+        try:
+            if len(found) > 1:
+                raise InputError(f"{len(found)} columns")
+            for index, unit in found:
+                factor, offset = kelvin(unit)
+                rows = self.cells.numbers(index) * factor + offset
+                return np.where((rows > POSSIBLE[0]) & (rows < POSSIBLE[1]), rows, np.nan)
+        except InputError as error:
+            self.notes.append(f"temperature not read: {error}")
+        stated = self.table.temperature
+        return None if stated is None else np.full(len(self.table.rows), stated)
 
     def values(self, quantity: str, index: int) -> Array:
         """Return a column in SI."""

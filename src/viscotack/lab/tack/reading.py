@@ -13,8 +13,10 @@ from types import ModuleType
 
 import numpy as np
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.lab_file import format_of, load, refuse_unknown
+from viscotack.lab.joining import kelvin_in_name
+from viscotack.lab.lab_file import LabFile, format_of, load, refuse_unknown
 
 from . import (
     afm_layout,
@@ -60,6 +62,7 @@ def read(
     nominal_speed: float | None = None,
     spring_constant: float | None = None,
     sensitivity: float | None = None,
+    temperature_in_name: bool = False,
 ) -> list[TackRecord]:
     r"""Read the records of tack tests, one per continuous period of time.
 
@@ -85,6 +88,9 @@ def read(
     spring_constant, sensitivity : float, optional
         Spring constant [N/m] and deflection by signal [m/A] of a cantilever, if the format
         ``afmformats`` needs them (text of NT-MDT).
+    temperature_in_name : bool
+        Read the temperature from the name of each file, as in ``probe_25C.csv``; by default from
+        a column or a header line with a unit, if there is one.
 
     Raises
     ------
@@ -115,6 +121,7 @@ def read(
         nominal_speed,
         spring_constant,
         sensitivity,
+        temperature_in_name,
     )
     _check(format, given)
     chosen = [paths] if isinstance(paths, str | PathLike) else list(paths)
@@ -197,30 +204,39 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
                 f"previous interval at {one.time[-1]:g} s; give the times of all "
                 "intervals from the start of the test"
             )
-    sizes = [part.contact_radius for part in parts]
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
-    size = None
-    if any(x is not None for x in sizes):
-        size = np.concatenate(
-            [
-                np.full(len(part), np.nan) if x is None else x
-                for part, x in zip(parts, sizes, strict=True)
-            ]
-        )
     return replace(
         first,
         time=np.concatenate([part.time for part in parts]),
         force=np.concatenate([part.force for part in parts]),
         position=np.concatenate([part.position for part in parts]),
-        contact_radius=size,
+        contact_radius=_column(parts, "contact_radius"),
+        temperature=_column(parts, "temperature"),
         source=first.source.noted(*said, *notes),
     )
+
+
+def _column(parts: list[TackRecord], name: str) -> Array | None:
+    """Join a column that some intervals may lack; None if all do."""
+    rows = [getattr(part, name) for part in parts]
+    if all(row is None for row in rows):
+        return None
+    pairs = zip(parts, rows, strict=True)
+    return np.concatenate([np.full(len(part), np.nan) if x is None else x for part, x in pairs])
 
 
 def _records(
     path: AnyPath, format: str | None, given: Given, few: bool = False
 ) -> list[TackRecord]:
     file = load(path, raw=_RAW)
+    records = _records_of(file, format, given, few)
+    if not given.temperature_in_name:
+        return records
+    kelvin = kelvin_in_name(file)
+    return [replace(one, temperature=np.full(len(one), kelvin)) for one in records]
+
+
+def _records_of(file: LabFile, format: str | None, given: Given, few: bool) -> list[TackRecord]:
     found = format_of(file, FORMATS, format, "text")
     layout = FORMATS[found]
     # a damaged number may overflow; the record rejects it with its name

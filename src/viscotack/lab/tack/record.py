@@ -31,6 +31,8 @@ class TackRecord:
         Compliance between drive and contact [m/N], of a cantilever stated in the file; 0 otherwise.
     contact_radius : array_like, shape (N,), optional
         Measured by a camera [m]; nan where unknown.
+    temperature : array_like, shape (N,), optional
+        Temperature of the test [K]; nan where unknown.
     source : Source
         Origin of the numbers.
 
@@ -47,6 +49,7 @@ class TackRecord:
     into: int = 0
     compliance: float = 0.0
     contact_radius: Array | None = None
+    temperature: Array | None = None
     source: Source = Source()
 
     def __post_init__(self):
@@ -76,6 +79,11 @@ class TackRecord:
             if np.any(row < 0) or np.any(np.isinf(row)):
                 raise InputError(f"contact_radius must not be negative [m], got {np.nanmin(row):g}")
             store(self, "contact_radius", row)
+        if self.temperature is not None:
+            row = array("temperature", self.temperature, "K", length)
+            if np.any(row <= 0) or np.any(np.isinf(row)):
+                raise InputError(f"temperature must be positive [K], got {np.nanmin(row):g}")
+            store(self, "temperature", row)
 
     def __len__(self) -> int:
         return self.time.size

@@ -5,13 +5,14 @@ above quoted columns), Zwick testXpert, Stable Micro Systems texture analysers (
 and nanoindenters (tabs, micronewtons in Latin-1).
 """
 
+import re
 import shlex
 from collections.abc import Sequence
 
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.plain_layout import below, by_number, first_line, repeats
-from viscotack.lab.tables import Table, numeric
+from viscotack.lab.tables import Table, numeric, stated_temperature
 
 from .grid import grid, heads_columns
 from .headings import recognise
@@ -38,8 +39,10 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     if found is None:
         raise _no_headings(file)
     line, separator, headings = found
+    above = (text.lstrip("#% ") for text in file.lines[: max(line - 1, 0)])
+    stated = stated_temperature(re.split(r"[\t;,]", text) for text in above)
     return [
-        grid(file, headings, *below(file, lines, separator), f"table {count}")
+        grid(file, headings, *below(file, lines, separator), f"table {count}", stated)
         for count, lines in enumerate(repeats(file, line), start=1)
     ]
 

@@ -225,9 +225,12 @@ def take(kind: type[Asked], given: Mapping[str, Any], place: Place) -> Asked:
     said = {name: value for name, value in given.items() if not _is_left_out(value)}
     _refuse_unknown(kind, said, known)
     values: dict[str, dict[str, Any]] = {}
-    # fast options first, so that an invalid one is reported before a problem is built
-    for name in sorted(said, key=lambda each: known[each].card.late):
-        option, value = known[name], said[name]
+    # in the order of declaration, because front ends give options in different orders; fast ones
+    # first, so that an invalid one is reported before a problem is built
+    for option in sorted(known.values(), key=lambda each: each.card.late):
+        if (name := option.name) not in said:
+            continue
+        value = said[name]
         if isinstance(option.card, Known) and isinstance(value, list | tuple):
             both = name, f"{name}_uncertainty"
             if option.uncertainty or len(value) != len(both) or both[1] in said:

@@ -26,6 +26,7 @@ def retraction(cycle: Any) -> dict[str, Any]:
         "pull_off_force": cycle.pull_off_force.value,
         "pull_off_force_uncertainty": cycle.pull_off_force.uncertainty,
         "depth_at_pull_off": cycle.depth_at_pull_off.value,
+        "temperature": cycle.temperature,
         "speed": cycle.speed.value,
         "speed_uncertainty": cycle.speed.uncertainty,
         "preload": cycle.preload.value,

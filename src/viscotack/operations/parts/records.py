@@ -26,6 +26,7 @@ _PLAIN = {
     "dwell_time": "dwell_time_s",
     "approach_speed": "approach_speed_m_s",
     "noise": "noise_N",
+    "temperature": "temperature_K",
 }
 
 
@@ -60,13 +61,19 @@ def _material_record(material: Any) -> dict[str, Any]:
     return {"model": word_of(material)} | asdict(material)
 
 
-def cycle_row(cycle: Any, radius: float | None = None) -> dict[str, Any]:
-    """Return the numbers of a cycle by their names with units; JKR's work if a radius is given."""
+def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[str, Any]:
+    """Return the numbers of a cycle by their names with units.
+
+    With a radius JKR's work is among them, and with a shift law the speed a_T v.
+    """
     row: dict[str, Any] = {"cycle": cycle.number}
     for name, column in _MEASURED.items():
         one = getattr(cycle, name)
         row[column], row[f"{column}_uncertainty"] = one.value, one.uncertainty
     row |= {column: getattr(cycle, name) for name, column in _PLAIN.items()}
+    if law is not None and cycle.temperature is not None:
+        factor = 10.0 ** float(law.log10_shift(cycle.temperature))
+        row["shifted_speed_m_s"] = factor * cycle.speed.value
     return row | _jkr(cycle.pull_off_force.value, radius)
 
 
@@ -78,7 +85,7 @@ def _jkr(force: float, radius: float | None) -> dict[str, float]:
 
 
 def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]:
-    """Return a row for each speed of a table of repeated tests."""
+    """Return a row for each temperature and speed of a table of repeated tests."""
     return [
         {
             "speed_m_s": one.speed,
@@ -89,6 +96,8 @@ def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]
             "work_of_separation_J_mean": one.work,
             "work_of_separation_J_standard_deviation": one.work_deviation,
             **_jkr(one.force, radius),
+            "temperature_K": one.temperature,
+            **({} if one.shift is None else {"shifted_speed_m_s": one.shifted_speed}),
             "far": "; ".join(f"{cycle.source.path} cycle {cycle.number}" for cycle in one.far),
         }
         for one in table.speeds
@@ -96,28 +105,59 @@ def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]
 
 
 def curve_rows(cycles: Any) -> list[dict[str, Any]]:
-    """Return the retractions side by side: depth and force of each, slowest first."""
+    """Return the retractions side by side: depth and force of each, coldest and slowest first."""
+    from viscotack.identify.pull_off import same_temperatures
+
     columns = {}
-    for number, one in enumerate(sorted(cycles, key=lambda one: one.speed.value), start=1):
-        speed = readable(one.speed.value, "m/s", digits=3)
-        name = f"{number}: {Path(one.source.path).name} cycle {one.number}, {speed}"
+    groups = same_temperatures(cycles)
+    rows = [x for same in groups for x in sorted(same, key=lambda one: one.speed.value)]
+    for number, one in enumerate(rows, start=1):
+        at = conditions(one.temperature if len(groups) > 1 else None, one.speed.value)
+        name = f"{number}: {Path(one.source.path).name} cycle {one.number}, {at}"
         columns[f"depth [m] {name}"] = one.depth[one.retraction].tolist()
         columns[f"force [N] {name}"] = one.force[one.retraction].tolist()
     return [dict(zip(columns, row, strict=True)) for row in zip_longest(*columns.values())]
 
 
+def conditions(temperature: float | None, speed: float) -> str:
+    """Return temperature and speed of a test, as "25 C, 1 um/s", or the speed alone."""
+    where = "" if temperature is None else f"{temperature - 273.15:.3g} C, "
+    return where + readable(speed, "m/s", digits=3)
+
+
 def series_record(table: Any) -> dict[str, Any]:
-    """Return the scatter of single tests, and the exponent of force by speed."""
-    exponent = table.exponent
+    """Return the scatter of single tests, and the exponents of force by speed.
+
+    "exponent" is that of a series at one temperature, or of the master curve.
+    """
+    exponent = table.exponent if table.master is None else table.master
     return {
         "scatter": table.scatter,
         "scatter_degrees_of_freedom": table.freedom,
         "exponent": None if exponent is None else exponent.value,
         "exponent_standard_error": None if exponent is None else exponent.uncertainty,
+        "exponents": [
+            {
+                "temperature_K": one.temperature,
+                "exponent": one.exponent.value,
+                "exponent_standard_error": one.exponent.uncertainty,
+            }
+            for one in table.exponents
+        ],
     }
 
 
-def tests_record(found: Any, table: Any, radius: float | None) -> dict[str, Any]:
+def series_rows(table: Any) -> list[tuple[str, Any]]:
+    """Return names and values of the record of a series, the exponents each by temperature."""
+    record = series_record(table)
+    rows = [(name.replace("_", " "), record[name]) for name in record if name != "exponents"]
+    for one in record["exponents"] if len(table.series) > 1 else ():
+        at = "" if one["temperature_K"] is None else f" at {one['temperature_K']:.5g} K"
+        rows += [(f"{x.replace('_', ' ')}{at}", one[x]) for x in one if x != "temperature_K"]
+    return rows
+
+
+def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) -> dict[str, Any]:
     """Return cycles and rejections of a survey of tack tests, and its table of repeats."""
     tests = [
         {
@@ -125,7 +165,7 @@ def tests_record(found: Any, table: Any, radius: float | None) -> dict[str, Any]
             "sha256": one.record.source.sha256,
             "format": one.record.source.format,
             "cycles": [
-                cycle_row(cycle, radius) | {"notes": list(cycle.source.notes)}
+                cycle_row(cycle, radius, law) | {"notes": list(cycle.source.notes)}
                 for cycle in one.cycles
             ],
             "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],

@@ -96,6 +96,13 @@ class Rig(Part):
             metavar="LENGTH/CURRENT",
         ),
     ] = None
+    temperature_in_name: Annotated[
+        bool,
+        Switch(
+            "Read the temperature from the name of each file, as in probe_25C.csv; default: from "
+            "a column or a line above the columns with a unit."
+        ),
+    ] = False
     compliance: Annotated[
         float | None,
         Number(
@@ -139,7 +146,7 @@ class Rig(Part):
         units = ("force_unit", "length_unit", "time_unit")
         columns = ("force_column", "position_column", "time_column", "decimal")
         cantilever = ("nominal_speed", "spring_constant", "sensitivity")
-        names = ("format", *units, *columns, *cantilever)
+        names = ("format", *units, *columns, *cantilever, "temperature_in_name")
         return {name: getattr(self, name) for name in names}
 
     @property

@@ -39,15 +39,16 @@ class Moving(Card):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shifting(Part):
-    """Options for the shift of tests at several temperatures; temperatures in K."""
+class ShiftLaw(Part):
+    """Options for a known shift of tests at several temperatures; temperatures in K."""
 
     table: ClassVar = "shift"
 
     reference_temperature: Annotated[
         float | None,
         Number(
-            'Temperature of the master curve, "20 degC"; required for several temperatures.',
+            'Temperature of the master curve, "20 degC"; required for a shift, and for a DMA at '
+            "several temperatures.",
             unit="K",
             metavar="T",
         ),
@@ -55,8 +56,7 @@ class Shifting(Part):
     glass_transition: Annotated[
         float | None,
         Number(
-            "Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "
-            '"-115 degC". By default the shift is fitted to the overlap of the sweeps.',
+            'Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC".',
             unit="K",
             metavar="T",
         ),
@@ -72,11 +72,54 @@ class Shifting(Part):
     shift_file: Annotated[Path | None, File("Shift by this table of log_aT.", metavar="FILE")] = (
         None
     )
+
+    def __post_init__(self) -> None:
+        """Check that at most one shift is given, with its reference temperature."""
+        named = self.named
+        if len(named) > 1:
+            raise InputError(f"give one shift, got {' and '.join(named)}")
+        if named and self.reference_temperature is None:
+            raise InputError(f"{named[0]} needs --reference-temperature")
+
+    @property
+    def named(self) -> list[str]:
+        """Flags of the given shifts."""
+        laws = ("glass_transition", "wlf", "shift_file")
+        return [flag(name) for name in laws if getattr(self, name) is not None]
+
+    def law(self) -> Any:
+        """Return the given shift law or table; None without one."""
+        from viscotack.materials.shift import WLF
+
+        if self.glass_transition is not None:
+            return WLF.from_glass_transition(self.glass_transition)
+        if self.wlf is not None:
+            assert self.reference_temperature is not None, "checked above"
+            c1, c2 = self.wlf
+            return WLF(reference_temperature=self.reference_temperature, c1=c1, c2=c2)
+        if self.shift_file is not None:
+            from viscotack.lab import read_shifts
+            from viscotack.lab.apart import limited
+
+            with limited() as call:
+                return call(read_shifts, self.shift_file)
+        return None
+
+    def referred(self) -> Any:
+        """Return the given shift law with the reference temperature; None without one."""
+        law = self.law()
+        return None if law is None else law.at_reference(self.reference_temperature)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shifting(ShiftLaw):
+    """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
+
     shift_by: Annotated[
         str | None,
         Choice(
-            "Quantity that must superpose if shifts are fitted. Default without --vertical: chosen "
-            "by the data.",
+            "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
+            "they are by default. Default without --vertical: chosen by the data.",
             choices=("both", "storage", "loss", "tan"),
         ),
     ] = None
@@ -99,35 +142,12 @@ class Shifting(Part):
 
     def __post_init__(self) -> None:
         """Check that one shift is given, and what it needs."""
-        laws = ("glass_transition", "wlf", "shift_file")
-        named = [flag(name) for name in laws if getattr(self, name) is not None]
-        if len(named) > 1:
-            raise InputError(f"give one shift, got {' and '.join(named)}")
-        if named and self.reference_temperature is None:
-            raise InputError(f"{named[0]} needs --reference-temperature")
-        if named and (self.shift_by is not None or self.vertical is not None):
+        super().__post_init__()
+        if self.named and (self.shift_by is not None or self.vertical is not None):
             raise InputError(
-                f"--shift-by and --vertical are for shifts found from overlap; with {named[0]} "
-                "leave them out"
+                f"--shift-by and --vertical are for shifts found from overlap; with "
+                f"{self.named[0]} leave them out"
             )
-
-    def law(self) -> Any:
-        """Return the given shift law or table; None if shifts are fitted."""
-        from viscotack.materials.shift import WLF
-
-        if self.glass_transition is not None:
-            return WLF.from_glass_transition(self.glass_transition)
-        if self.wlf is not None:
-            assert self.reference_temperature is not None, "checked above"
-            c1, c2 = self.wlf
-            return WLF(reference_temperature=self.reference_temperature, c1=c1, c2=c2)
-        if self.shift_file is not None:
-            from viscotack.lab import read_shifts
-            from viscotack.lab.apart import limited
-
-            with limited() as call:
-                return call(read_shifts, self.shift_file)
-        return None
 
     def swept(self, sweeps: Any) -> tuple[Any, Any, tuple[str, ...]]:
         """Return the master curve of a DMA, how times shift, and what speaks against it."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Rows = Sequence[Mapping[str, Any]]
 # Names of columns such as pull_off_force_N or pull_off_force_N_uncertainty.
-_UNITS = {"J_m2": "J/m2", "m_s": "m/s", "N": "N", "J": "J", "m": "m", "s": "s"}
+_UNITS = {"J_m2": "J/m2", "m_s": "m/s", "N": "N", "J": "J", "m": "m", "s": "s", "K": "K"}
 _NAME = re.compile(
     rf"(.+?)_({'|'.join(_UNITS)})(?:_(uncertainty|mean|weighted_mean|standard_deviation))?"
 )
