@@ -19,6 +19,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab.grouping import GAP
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
 
@@ -91,29 +92,31 @@ def covariance(rows: Array) -> Array:
     return away.T @ away / (len(rows) - 1)
 
 
-def shift_error(passport: Passport, uncertainty: float) -> float:
+def shift_error(passport: Passport, uncertainty: float, temperature: float | None = None) -> float:
     """Return the relative standard error of the times of a solid by its temperature.
 
     Parameters
     ----------
     passport : Passport
-        Solid at the temperature of the tests.
+        Solid with its shift law.
     uncertainty : float
-        Standard uncertainty of this temperature [K].
+        Standard uncertainty of the temperature of the tests [K].
+    temperature : float, optional
+        This temperature [K]; by default that of the passport.
 
     Returns
     -------
     float
         In ln of the times; 0 without a shift law.
     """
-    law, middle = passport.shift, passport.temperature
+    law, middle = passport.shift, passport.temperature if temperature is None else temperature
     if law is None or middle is None or not uncertainty:
         return 0.0
     found = {middle: float(law.log10_shift(middle))}
-    for temperature in (middle - uncertainty, middle + uncertainty):
+    for beside in (middle - uncertainty, middle + uncertainty):
         # a table may end here, or a law have its pole
         with suppress(InputError):
-            found[temperature] = float(law.log10_shift(temperature))
+            found[beside] = float(law.log10_shift(beside))
     span = max(found) - min(found)
     decades = found[min(found)] - found[max(found)]
     return abs(decades) / span * uncertainty * log(10.0) if span else 0.0
@@ -134,6 +137,32 @@ def temperature_effect(
     solids = [slowed(known.material, exp(sign * error)) for sign in (1, -1)]
     slow, fast = log_forces(known, solids, work, gap, speed, preload, growth)
     return (slow - fast) / 2
+
+
+def shift_covariance(
+    known: Forward,
+    deviation: Array,
+    temperature: Array,
+    work: float,
+    gap: float,
+    speed: Array,
+    preload: Array,
+) -> Array:
+    """Return the covariance of ln(force) by the errors of a measured table of shifts.
+
+    Parameters
+    ----------
+    deviation : ndarray, shape (S,)
+        Standard deviation of ln(a_T) at the temperature of each test.
+    temperature : ndarray, shape (S,)
+        These temperatures [K]; errors at different temperatures are independent.
+    """
+    if not deviation.any():
+        return np.zeros((speed.size, speed.size))
+    step = float(deviation.max())
+    change = temperature_effect(known, step, work, gap, speed, preload) * deviation / step
+    same = np.abs(np.subtract.outer(temperature, temperature)) <= GAP
+    return np.outer(change, change) * same
 
 
 def theory_covariance(speed: Array, theory: float | Array) -> Array:

@@ -313,6 +313,7 @@ def _together(
     warmer = np.concatenate(
         [temperature_effect(one, error, w, gap, v, load, law) for (one, v, load), error in rows]
     )
+    warmer[: measured[0].size] *= fit.uncertain.shifts(fit.series)
     softer = _softer(fit, measured[0], wanted[0], springy)
     spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
     solids = allowed(fit.passport)

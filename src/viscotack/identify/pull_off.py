@@ -83,6 +83,11 @@ class PullOff:
         """True retraction speed [m/s]."""
         return self.speed / self.shift
 
+    def conditions(self, digits: int = 4) -> str:
+        """Return temperature, if known, and true speed in words."""
+        at = readable(self.true_speed, "m/s", digits=digits)
+        return at if self.temperature is None else f"{self.temperature - 273.15:.3g} C, {at}"
+
 
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     """Return one pull-off per temperature and speed; repeated cycles are averaged.

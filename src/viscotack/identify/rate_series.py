@@ -30,6 +30,7 @@ from .covariances import (
     allowed,
     covariance,
     log_forces,
+    shift_covariance,
     shift_error,
     temperature_effect,
     theory_covariance,
@@ -53,6 +54,7 @@ from .search import (
 from .simulations import Simulations
 from .smooth_ratio import Mixed
 from .solutions import solution_words, solutions
+from .temperatures import shifted
 from .tiers import LEAST_TABOR as SIMULATED_TABOR
 from .tiers import Conditions, answered
 
@@ -95,6 +97,28 @@ class Uncertain:
     def shift(self) -> float:
         """Relative standard error of all times of the material by the temperature."""
         return shift_error(self.passport, self.temperature)
+
+    def shifts(self, series: Sequence[PullOff]) -> Array:
+        """Return the error of each test at its temperature over `shift`, shape (S,)."""
+        reference = self.shift
+        errors = [
+            shift_error(self.passport, self.temperature, at) if reference else 0.0
+            for at in self.temperatures(series)
+        ]
+        return np.array(errors) / reference if reference else np.ones(len(series))
+
+    def temperatures(self, series: Sequence[PullOff]) -> list[float | None]:
+        """Return the temperature of each test [K]; that of the material for an unshifted one."""
+        own = self.passport.temperature
+        return [own if one.shift == 1.0 else one.temperature for one in series]
+
+    def deviations(self, series: Sequence[PullOff]) -> Array:
+        """Return the standard deviation of ln(a_T) of each test by the shift law, shape (S,)."""
+        known = (
+            0.0 if at is None else self.passport.shift_deviation(at)
+            for at in self.temperatures(series)
+        )
+        return np.log(10.0) * np.array(list(known))
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,10 +242,11 @@ def identify_rates(
     Parameters
     ----------
     series : sequence of PullOff
-        At least two speeds, for one sphere relaxed under its preload.
+        At least two speeds, for one sphere relaxed under its preload. Tests with a temperature are
+        shifted to that of the passport (:func:`.temperatures.shifted`).
     material : Passport or Material
-        Solid at the temperature of the tests. The sampled solids of a passport widen the
-        intervals; a bare material is assumed exact.
+        Solid at the temperature of tests that state none. The sampled solids of a passport widen
+        the intervals; a bare material is assumed exact.
     radius : float
         Radius of the sphere [m].
     preload : float, optional
@@ -280,6 +305,7 @@ def identify_rates(
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
+    series, shift_words = shifted(series, passport, growth)
     thin = isinstance(body, Layer)
     if theory is None:
         theory = _GROWING_THEORY if growth else _LAYER_THEORY if thin else _THEORY
@@ -318,6 +344,7 @@ def identify_rates(
         *_layer_words(forward, search, best),
         *near.words,
         *([] if history else _relaxed_words(series, forward.material)),
+        *shift_words,
         *_temperature_words(uncertain, temperature_uncertainty is None),
         *_left_out(dropped),
         *(remark for one in series for remark in one.remarks),
@@ -442,6 +469,11 @@ def _disturbed(
         spread = spread + covariance(rows)
     case = w, gap, data.speed, data.load
     warmer = temperature_effect(forward, uncertain.shift, *case, grown)
+    warmer = warmer * uncertain.shifts(data.series)
+    deviation = uncertain.deviations(data.series)
+    if deviation.any():
+        at = np.array(uncertain.temperatures(data.series), dtype=float)
+        spread = spread + shift_covariance(forward, deviation, at, *case)
     softer = uncertain.compliance * yielding.log_ratio
     spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
     return replace(search, spread=spread, yielding=yielding), changed

@@ -1,7 +1,7 @@
 """A study: the files and settings of a series of tack tests, and its evaluation."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +34,8 @@ class Study:
     preload : float, optional
         Force under which contacts relaxed [N]; by default the force at the start of the retraction.
     temperature : float, optional
-        Temperature of the tests [K]; by default that of the passport.
+        Temperature of all tests [K]; by default that stated in each file, else that of the
+        passport.
     temperature_uncertainty : float, optional
         Its standard uncertainty [K]; by default that of :func:`.identify_rates`.
     work_of_adhesion : (float, float), optional
@@ -119,11 +120,14 @@ def answer(study: Study, kept: Path | None = None) -> Answer:
     if not found.cycles:
         reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
         raise InputError(f"no cycle of a tack test could be read:\n  {reasons}")
+    series = pull_offs(found.cycles)
+    if study.temperature is not None:
+        series = [replace(one, temperature=None) for one in series]
     machine = [one.record.compliance for one in found.evaluations]
     computed = Computed() if kept is None else Computed.read(kept)
     compliance = study.evaluation.get("compliance") or max(machine)
     fit = identify_rates(
-        pull_offs(found.cycles),
+        series,
         material=solid,
         radius=study.radius,
         body=study.body,

@@ -155,7 +155,8 @@ class IdentifyRates(Operation):
     temperature: Annotated[
         float | None,
         Number(
-            'Temperature of the tests, "25 degC"; default: that of the passport.',
+            'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
+            "passport.",
             unit="K",
             metavar="T",
         ),
@@ -282,7 +283,7 @@ def _slow_words(fit: Any) -> str:
 
 def _rates_words(fit: Any) -> str:
     rows = [
-        f"  {readable(one.speed, 'm/s')}: {readable(one.force.value, 'N')} measured, "
+        f"  {one.conditions()}: {readable(one.force.value, 'N')} measured, "
         f"{readable(force, 'N')} fitted"
         for one, force in zip(fit.series, fit.forces, strict=True)
     ]

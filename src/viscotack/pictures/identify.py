@@ -14,7 +14,7 @@ from viscotack.identify import (
     fitted_force,
 )
 from viscotack.identify.forward import Growth
-from viscotack.identify.pull_off import same_speeds
+from viscotack.identify.pull_off import same_speeds, temperature_of
 from viscotack.lab.tack import Cycle
 from viscotack.units import readable
 
@@ -98,7 +98,10 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
         # forces rarely span a decade, so ticks are plain numbers
         for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
             which(FuncFormatter(lambda value, _: f"{value:.3g}"))
-        axes.set_xlabel(f"true speed of retraction [{speed_unit}]")
+        name, at = "true speed of retraction", fit.passport.temperature
+        if at is not None and any(one.shift != 1.0 for one in fit.series):
+            name = f"speed $a_T v$ at {at - 273.15:.3g} °C"
+        axes.set_xlabel(f"{name} [{speed_unit}]")
         axes.set_ylabel(f"pull-off force [{load_unit}]")
         axes.legend()
     return figure
@@ -129,7 +132,7 @@ def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
         for i, colour, (measured, fitted) in zip(chosen, colours, pairs, strict=True):
             one = fit.series[i]
             label = (
-                f"{readable(one.speed, 'm/s', digits=3)}: "
+                f"{one.conditions(3)}: "
                 f"{readable(one.force.value, 'N', digits=3)}, fit "
                 f"{readable(fit.forces[i], 'N', digits=3)}"
             ).replace(" u", " µ")
@@ -154,7 +157,8 @@ def _fitted_pair(
 ) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """Return travel [m] and force [N] of a measured retraction and of the fit at its speed."""
     one = fit.series[i]
-    same = min(groups, key=lambda group: abs(group[0].speed.value - one.speed))
+    near = [group for group in groups if temperature_of(group) == one.temperature]
+    same = min(near or groups, key=lambda group: abs(group[0].speed.value - one.true_speed))
     cycle = min(same, key=lambda cycle: abs(cycle.pull_off_force.value - one.force.value))
     grown = fit.growth
     growth = None if grown is None else Growth(grown.reference_speed, grown.exponent)

@@ -217,7 +217,9 @@ def rates_record(fit: Any) -> dict[str, Any]:
         "solutions": [dict(one.values) for one in fit.solutions],
         "series": [
             {
-                "speed_m_s": one.speed,
+                "temperature_K": one.temperature,
+                "speed_m_s": one.true_speed,
+                "shifted_speed_m_s": one.speed,
                 "pull_off_force_N": one.force.value,
                 "pull_off_force_N_uncertainty": one.force.uncertainty,
                 "fitted_N": force,

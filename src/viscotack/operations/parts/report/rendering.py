@@ -20,7 +20,7 @@ from viscotack.materials.passport_words import in_words
 from viscotack.units import readable, readable_interval
 from viscotack.version import __version__
 
-from ..records import cycle_row, forecast_rows, repeat_rows
+from ..records import conditions, cycle_row, forecast_rows, repeat_rows
 from ..tables import Writer, rows_as_csv
 
 if TYPE_CHECKING:
@@ -141,7 +141,7 @@ def _solutions(found: Answer) -> list[tuple[str, ...]]:
 def _repeats(repeats: SpeedTable, radius: float) -> list[tuple[str, ...]]:
     return [
         (
-            _text(one.speed, "m/s", digits=3),
+            _spelled(conditions(one.temperature, one.speed)),
             str(len(one.cycles)),
             *_mean(one.force, one.force_deviation, "N"),
             *_mean(one.work, one.work_deviation, "J"),
@@ -258,7 +258,7 @@ def _series(found: Answer) -> list[tuple[str, ...]]:
     fit = found.fit
     return [
         (
-            _text(one.speed, "m/s"),
+            _spelled(one.conditions()),
             _measured(one.force, "N"),
             _text(force, "N"),
             f"{100 * (one.force.value / force - 1):+.2f} %",
