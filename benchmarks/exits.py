@@ -24,6 +24,7 @@ from pathlib import Path
 VERIFY = "campaign verify c"
 GROUPS = "--tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 50 --rate 100"
 CRACK = "--modulus-ratio 0.1 --exponent 0.6 --speed 1"
+STAMP = "--length 300um --width 100um --contact-modulus 1MPa --work-of-adhesion 50mJ/m^2"
 JKR = "--radius 1mm --contact-modulus 1MPa --work-of-adhesion 50mJ/m^2"
 LENS = "lens_1_um_s.csv lens_1000_um_s.csv"
 COMMANDS = {
@@ -62,6 +63,7 @@ COMMANDS = {
     "theory maugis --tabor 1": 0,
     f"theory persson-brener {CRACK}": 0,
     "theory punch pad.toml --stress 60kPa": 0,
+    f"theory rectangle {STAMP}": 0,
     f"theory steady-crack {CRACK}": 0,
     "identify slow lens_slow.csv --radius 5.19mm --model jkr": 0,
     "window window.toml": 0,

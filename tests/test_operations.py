@@ -49,6 +49,8 @@ RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
 DMA = {"files": ["pdms_dma.csv"], "poisson_ratio": 0.5, "model": "sls"}
 SHIFTED = {"reference_temperature": "20 degC", "glass_transition": "-115 degC"}
 JKR = {"radius": "1 mm", "contact_modulus": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
+STAMP = {name: value for name, value in JKR.items() if name != "radius"}
+STAMP |= {"length": "300 um", "width": "100 um"}
 CRACK = {"modulus_ratio": 0.1, "exponent": 0.6, "speed": [1.0, 10.0]}
 # Questions of each operation, from which others are drawn.
 ASKED = {
@@ -72,6 +74,7 @@ ASKED = {
     "theory maugis": [JKR | {"strength": "0.1 MPa"}],
     "theory persson-brener": [CRACK],
     "theory punch": [{"case": "pad.toml", "stress": "30 kPa"}],
+    "theory rectangle": [STAMP | {"modulus_ratio": 0.1}, STAMP | {"thickness": "20 um"}],
     "theory steady-crack": [CRACK | {"law": "exponential:0.25"}],
 }
 # Drawn more seldom: half a second each, through every door.

@@ -250,3 +250,8 @@ def test_an_array_of_discs_is_simulated():
     found = pulled(disc, grid(1, 2, 1e-3), mean_load=1e-4)
     assert found.method == "simulation"
     assert found.load_sharing == pytest.approx(1, rel=1e-9)
+
+
+def test_a_viscoelastic_base_is_refused():
+    with pytest.raises(InputError, match="backing and base are elastic"):
+        Backing(base_modulus=RUBBER)  # pyright: ignore[reportArgumentType]

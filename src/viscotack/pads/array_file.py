@@ -14,7 +14,7 @@ from typing import Any
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.case_table import Table, refuse_unknown
+from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
 from viscotack.units import parse
 
 from .payload import Hold
@@ -36,6 +36,9 @@ _OF_HOLD = {
     "safety_factor": ("1", "2"),
 }
 _DRAWS = 300
+# Names of what is not computed, and of a viscoelastic base.
+_ALONG = ("shear", "peel")
+_VISCOELASTIC = ("base_material", "base_glassy", "base_tau", "base_exponent", "base_rubbery")
 
 
 @dataclass(frozen=True)
@@ -88,6 +91,16 @@ def read_array(
     """
     path = Path(path)
     tables = read_toml(path)
+    refuse_named(
+        path, tables, _ALONG, "the plate is pulled along its normal, without shear and peeling"
+    )
+    refuse_named(
+        path,
+        tables.get("backing", {}) if isinstance(tables.get("backing"), Mapping) else {},
+        _VISCOELASTIC,
+        "the common base is elastic, because point loads have no memory here; base_modulus may be "
+        "the relaxed modulus for a slow pull, or the glassy one for a fast pull",
+    )
     refuse_unknown(f"{path}", tables, _TABLES, "table")
     pull, where = Table(path, "pull", tables), f"{path}, [pad]"
     speed = pull.quantity("speed", "m/s", '"1 mm/s"')

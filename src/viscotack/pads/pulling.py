@@ -27,6 +27,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, inf, pi, sin, tan
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -91,7 +92,11 @@ class Backing:
     def __post_init__(self) -> None:
         for name in ("stiffness", "pad_stiffness", "base_modulus"):
             value = getattr(self, name)
-            if value is not None and not 0 < value < inf:
+            if value is not None and not isinstance(value, Real):
+                raise InputError(
+                    f"{name} must be a number, got {value!r:.60}; backing and base are elastic"
+                )
+            if value is not None and not 0 < float(value) < inf:
                 raise InputError(f"{name} must be positive, got {value:.4g}; None is rigid")
         if not abs(self.tilt) < pi / 18:
             raise InputError(

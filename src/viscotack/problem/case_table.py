@@ -16,6 +16,23 @@ from viscotack.units import parse
 OWN = "; give a user-defined one with --with FILE.py"
 
 
+def refuse_named(
+    path: Path | str, tables: Mapping[str, Any], words: Iterable[str], why: str
+) -> None:
+    """Raise an InputError where the name of a table or key has one of some words."""
+    found = [name for name in _names(tables) if any(word in name for word in words)]
+    if found:
+        raise InputError(f"{path}: {found[0]!r} is not computed; {why}")
+
+
+def _names(tables: Mapping[str, Any]) -> Iterable[str]:
+    """Yield the keys of tables and of the tables inside them."""
+    for name, value in tables.items():
+        yield name
+        if isinstance(value, Mapping):
+            yield from _names(value)
+
+
 class Table:
     """A table of a file, which records the keys that were read."""
 

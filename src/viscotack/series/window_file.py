@@ -21,7 +21,7 @@ from viscotack.files.toml import read_toml
 from viscotack.materials import Elastic
 from viscotack.problem import Problem
 from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.case_table import Table, refuse_unknown
+from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
 from viscotack.protocol import Retraction
 from viscotack.traction import ages
 from viscotack.units import parse
@@ -89,12 +89,12 @@ def read_window(
     """
     path = Path(path)
     tables = read_toml(path)
-    along = [name for name in _names(tables) if any(word in name for word in _ALONG)]
-    if along:
-        raise InputError(
-            f"{path}: {along[0]!r} is not computed; both contacts of a window are pulled along "
-            "their axis, without shear, peeling and tilt"
-        )
+    refuse_named(
+        path,
+        tables,
+        _ALONG,
+        "both contacts of a window are pulled along their axis, without shear, peeling and tilt",
+    )
     refuse_unknown(f"{path}", tables, (STAMP, DONOR, RECEIVER, PULL, SCATTER), "table")
     pull = Table(path, PULL, tables)
     speeds = _numbers(pull, "speeds", "m/s", '"1 um/s..10 mm/s"')
@@ -186,14 +186,6 @@ def _scatter(path: Path, tables: Mapping[str, Any]) -> WindowScatter | None:
     for base in {DONOR, RECEIVER} & tables.keys():
         table.make(WindowScatter(**found).of, base)
     return WindowScatter(**found)
-
-
-def _names(tables: Mapping[str, Any]) -> Iterable[str]:
-    """Yield the keys of tables and of the tables inside them."""
-    for name, value in tables.items():
-        yield name
-        if isinstance(value, Mapping):
-            yield from _names(value)
 
 
 def _numbers(table: Table, key: str, unit: str, example: str) -> tuple[float, ...]:

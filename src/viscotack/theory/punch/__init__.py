@@ -3,7 +3,7 @@
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.renamed import earlier_names
 
-from . import crossover, curve, design, laws, map, pad, rate, regimes, unloading
+from . import crossover, curve, design, laws, map, pad, rate, rectangle, regimes, unloading
 from .design import thickness_at_crack_speed, thickness_at_speed
 from .laws import (
     fracture_length,
@@ -51,6 +51,7 @@ __all__ = [
     "pull_off",
     "pull_off_stress",
     "rate",
+    "rectangle",
     "regime",
     "regime_map",
     "regime_thicknesses",
