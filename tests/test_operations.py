@@ -88,6 +88,7 @@ NOT_DRAWN = {
     "campaign verify": [{"folder": "study"}],
     "edge-energy": [{"file": "lens.npz"}],
     "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
+    "identify dwell": [RATES],
     "identify rates": [RATES, RATES | {"thickness": "300 um", "bonded": 0.49}],
     "material fit": [DMA | SHIFTED],
     "report": [{"study": "study.toml"}],

@@ -1,5 +1,6 @@
 """Identify the interface from measured curves: work of adhesion and range, with intervals."""
 
+from .contact_time import DwellFit, identify_dwell
 from .forecasting import RateForecast, forecast_rates
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff, pull_offs
@@ -9,6 +10,7 @@ from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_
 
 __all__ = [
     "Best",
+    "DwellFit",
     "Interval",
     "ModelFit",
     "Objective",
@@ -21,6 +23,7 @@ __all__ = [
     "SlowTestFit",
     "fitted_force",
     "forecast_rates",
+    "identify_dwell",
     "identify_rates",
     "identify_slow",
     "posterior",

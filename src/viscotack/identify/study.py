@@ -13,6 +13,7 @@ from viscotack.materials.library import passport_of
 from viscotack.materials.passport import Passport
 
 from .computed import Computed
+from .contact_time import check_dwells
 from .pull_off import pull_offs
 from .rate_series import RateSeriesFit, identify_rates
 
@@ -120,6 +121,7 @@ def answer(study: Study, kept: Path | None = None) -> Answer:
     if not found.cycles:
         reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
         raise InputError(f"no cycle of a tack test could be read:\n  {reasons}")
+    check_dwells(found.cycles)
     series = pull_offs(found.cycles)
     if study.temperature is not None:
         series = [replace(one, temperature=None) for one in series]

@@ -13,6 +13,7 @@ from viscotack.identify import (
     SlowTestFit,
     fitted_force,
 )
+from viscotack.identify.contact_time import DwellFit
 from viscotack.identify.forward import Growth
 from viscotack.identify.pull_off import same_speeds, temperature_of
 from viscotack.lab.tack import Cycle
@@ -63,6 +64,26 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
         what = "contact radius" if test.against == "radius" else "depth"
         below.set_xlabel(f"{what} [{far_unit}]")
         above.legend()
+    return figure
+
+
+def draw_dwells(fit: DwellFit) -> "Figure":
+    """Draw pull-off force against contact time: measured, straight line in ln t, and law."""
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(8.0, 5.4), layout="constrained")
+        axes = figure.subplots()
+        load, load_unit = axis_unit(max(fit.forces), "N")
+        axes.semilogx(fit.times, np.array(fit.forces) / load, "o", color="0.4", label="measured")
+        at = np.geomspace(fit.times[0], fit.times[-1], 200)
+        axes.semilogx(at, fit.line(at) / load, "--", label="straight in the logarithm of the time")
+        if fit.law is not None:
+            axes.semilogx(at, fit.force(at) / load, label=fit.law.replace("-", " "))
+        axes.set_xlabel("time in contact [s]")
+        axes.set_ylabel(f"pull-off force [{load_unit}]")
+        axes.legend()
     return figure
 
 

@@ -38,7 +38,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import scipy.special
+import scipy
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Layer

@@ -1,0 +1,162 @@
+"""Growth of the work of adhesion with contact time from tests after several dwells."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tack_files
+from viscotack import (
+    Apart,
+    Approach,
+    AtForce,
+    Dwell,
+    Elastic,
+    LennardJones,
+    LogarithmicAgeing,
+    Problem,
+    Retraction,
+    Sphere,
+    StandardSolid,
+    pull_off_force,
+    solve,
+)
+from viscotack.errors import InputError
+from viscotack.identify import identify_dwell
+from viscotack.identify.contact_time import check_relaxed
+from viscotack.operations import ask
+from viscotack.theory import jkr
+
+TIMES = np.repeat([1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0], 2)
+RADIUS = tack_files.SPHERE["radius"]
+RUBBER = """[material]
+model = "elastic"
+rubbery_modulus = "0.75 MPa"
+poisson_ratio = 0.5
+"""
+FORMS = {
+    "logarithmic": lambda t: 0.05 * (1 + 0.3 * np.log1p(t / 10)),
+    "saturating": lambda t: 0.05 * (1 + 1.5 * -np.expm1(-t / 20)),
+    "old": lambda t: 0.05 * (1 + 0.1 * np.log1p(t / 0.01)),
+    "none": lambda t: 0.05 + 0 * t,
+}
+
+
+def fitted(form, noise=0.005, seed=0, times=TIMES):
+    scatter = 1 + noise * np.random.default_rng(seed).standard_normal(times.size)
+    return identify_dwell(times, 1.5 * np.pi * 5e-3 * FORMS[form](times) * scatter, radius=5e-3)
+
+
+@pytest.mark.parametrize(
+    "form, size", [("logarithmic", "sensitivity"), ("saturating", "largest_growth")]
+)
+def test_a_law_whose_time_lies_among_the_dwells_is_found_with_its_constants(form, size):
+    found = fitted(form)
+    assert found.law == f"{form}-ageing"
+    time = {"logarithmic": 10.0, "saturating": 20.0}[form]
+    low, high = found.reference_time
+    assert low < time < high < 3 * low
+    assert found.parameters["work_of_adhesion"] == pytest.approx(0.05, rel=0.03)
+    assert found.parameters[size] == pytest.approx({"logarithmic": 0.3}.get(form, 1.5), rel=0.1)
+
+
+def test_of_an_old_logarithm_only_work_and_growth_are_determined():
+    found = fitted("old")
+    assert found.law == "logarithmic-ageing"
+    assert found.reference_time[0] == 0
+    assert "not determined" in " ".join(found.words)
+    # the stated constants reproduce the works at the times of the tests
+    law = LogarithmicAgeing(equilibrium_gap=1.0, **found.parameters)
+    works = law.work_of_adhesion * (1 + law.growth_after(TIMES))
+    assert works == pytest.approx(FORMS["old"](TIMES), rel=0.01)
+
+
+def test_without_growth_no_law_is_stated_in_nearly_all_series():
+    laws = [fitted("none", 0.02, seed).law for seed in range(40)]
+    assert sum(law is not None for law in laws) <= 2
+
+
+def test_the_interval_of_the_growth_covers_the_true_one():
+    times, true = TIMES, 0.1 * np.log(10) * 0.05
+    inside = 0
+    for seed in range(40):
+        found = fitted("old", 0.02, seed, times)
+        middle = float(FORMS["old"](np.exp(np.log(times).mean())))
+        low, high = found.interval
+        inside += low < true / middle < high
+    # 36 are expected
+    assert inside >= 31
+
+
+@pytest.mark.parametrize(
+    "times, words",
+    [
+        ([1.0, 1.0, 10.0, 10.0], "4 tests after 2 dwells"),
+        ([1.0, 2.0, 3.0, 4.0], "over a factor of 5"),
+        ([1.0, 10.0, 100.0], "3 tests"),
+        ([0.0, 1.0, 10.0, 100.0], "must be positive"),
+    ],
+)
+def test_too_few_dwells_are_refused(times, words):
+    with pytest.raises(InputError, match=words):
+        identify_dwell(times, np.ones(len(times)), radius=5e-3)
+
+
+def test_a_solid_that_relaxes_between_the_dwells_is_refused():
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e6, tau0=2.0, poisson_ratio=0.5)
+    check_relaxed(solid, np.array([50.0, 1e3]))
+    with pytest.raises(InputError, match="the modulus relaxes by"):
+        check_relaxed(solid, np.array([1.0, 1e3]))
+
+
+@pytest.fixture
+def files(tmp_path, monkeypatch):
+    """Write tests after five dwells on an interface whose work grows by their logarithm."""
+    monkeypatch.chdir(tmp_path)
+    names = []
+    for number, dwell in enumerate([10.0, 30.0, 100.0, 300.0, 1000.0]):
+        sphere = tack_files.SPHERE
+        pulled = (tack_files.DEEP - jkr.instability(**sphere).depth) / tack_files.SPEED
+        work = 0.1 * (1 + 0.1 * np.log1p((dwell + pulled) / 0.01))
+        test = tack_files.made(2e-6, sphere=sphere | {"work_of_adhesion": work}, seed=number)
+        later = np.clip(np.arange(test.time.size) - 499, 0, 60) / 60 * (dwell - tack_files.DWELL)
+        names.append(f"dwell_{number}.csv")
+        Path(names[-1]).write_bytes(tack_files.plain(replace(test, time=test.time + later)))
+    return names
+
+
+def test_files_of_several_dwells_give_the_growth(files):
+    answer = ask("identify dwell", files=files, material=RUBBER, radius="5 mm")
+    record = answer.record()
+    middle = 0.1 * (1 + 0.1 * np.log1p(np.exp(np.log(record["times_s"]).mean()) / 0.01))
+    assert record["work_of_adhesion_J_m2"] == pytest.approx(middle, rel=0.01)
+    low, high = record["growth_interval"]
+    assert low < 0.01 * np.log(10) / middle < high
+    assert record["growth_per_decade"] == pytest.approx(0.01 * np.log(10) / middle, rel=0.1)
+    assert answer.pictures["plot"]().axes[0].get_xscale() == "log"
+
+
+def test_a_rate_series_with_growing_forces_of_several_dwells_is_refused(files):
+    with pytest.raises(InputError, match="these tests are no repeats"):
+        ask("identify rates", files=files, material=RUBBER, radius="5 mm")
+
+
+@pytest.mark.slow
+def test_simulated_tests_give_the_sensitivity_of_their_interface():
+    rest = LennardJones(work_of_adhesion=0.05, equilibrium_gap=200e-9)
+    law = LogarithmicAgeing.of(rest, reference_time=1.0, sensitivity=0.1)
+    solid = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    times, forces = [], []
+    for dwell in (10.0, 30.0, 100.0, 300.0):
+        moves = (Approach(1e-5, to=AtForce(2e-4)), Dwell(dwell))
+        test = Retraction(start=Apart(2e-6), moves=moves, speed=1e-5)
+        problem = Problem(solid, law, Sphere(1e-3), test)
+        found = solve(problem, estimate_error=False)
+        force = pull_off_force(found) * problem.scales().force
+        times.append(dwell)
+        forces.append(force)
+    found = identify_dwell(times, forces, radius=1e-3)
+    # the rim touches later than the middle, so that the force grows less than the interface
+    grown = 0.1 * np.log(10) / (1 + law.growth_after(np.exp(np.log(times).mean())))
+    assert found.growth_per_decade == pytest.approx(0.94 * grown, rel=0.02)
