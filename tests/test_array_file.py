@@ -147,6 +147,14 @@ def test_a_pad_without_contact_is_drawn_and_counted(small):
     assert "3 pads" in axes[0].get_title(loc="left") + axes[0].get_title()
 
 
+def test_a_hold_time_states_what_is_left_of_the_preload(small):
+    small.write_text(SMALL.replace('preload = "6 mN"', 'preload = "6 mN"\nhold_time = "10 s"'))
+    answer = ask("array", file="small.toml")
+    # elastic pads keep it
+    assert answer.record()["preload_after_hold_N"] == 6e-3
+    assert "6 mN are left after 10 s" in answer.words()
+
+
 def test_scatter_gives_a_yield(small):
     small.write_text(SMALL.replace("rows = 1", "work_scatter = 0.1\ndraws = 40\nrows = 1"))
     record = ask("array", file="small.toml").record()

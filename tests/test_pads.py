@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from viscotack import (
+    Apart,
+    Approach,
     AtDepth,
     AtForce,
     Backing,
@@ -26,7 +28,7 @@ from viscotack import (
     pull_off_force,
     solve,
 )
-from viscotack.pads import grid
+from viscotack.pads import grid, preload_after
 from viscotack.pads.curve import Curve, side_by_side
 
 RUBBER = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
@@ -255,3 +257,26 @@ def test_an_array_of_discs_is_simulated():
 def test_a_viscoelastic_base_is_refused():
     with pytest.raises(InputError, match="backing and base are elastic"):
         Backing(base_modulus=RUBBER)  # pyright: ignore[reportArgumentType]
+
+
+def test_a_preload_held_in_place_relaxes_to_the_contact_at_rest_there():
+    problem, load = pad(RUBBER, gap=6e-7), LOAD
+    array = PadArray(problem, grid(1, 2, 5e-3))
+    left = preload_after(array, 20.0, preload=2 * load, speed=1e-4, accuracy=5e-3)
+    # the depth at which the approach has reached the load
+    moves = (Approach(1e-4, to=AtForce(load)),)
+    start = Retraction(Apart(2e-5), None, moves=moves)
+    pressed = solve(replace(problem, protocol=start), accuracy=5e-3, estimate_error=False)
+    depth = float(pressed.depth[-1]) * problem.scales().length
+    rest = solve(
+        replace(problem, protocol=Retraction(AtDepth(depth), SPEED)),
+        accuracy=5e-3,
+        estimate_error=False,
+        until="pull-off",
+    )
+    assert left == pytest.approx(2 * float(rest.force[0]) * problem.scales().force, abs=0.02 * load)
+    assert left < load
+    # a softer backing follows
+    soft = PadArray(problem, grid(1, 2, 5e-3), backing=Backing(pad_stiffness=300.0))
+    assert left < preload_after(soft, 20.0, preload=2 * load, speed=1e-4) < 2 * load
+    assert preload_after(PadArray(pad(), [(0.0, 0.0)]), 1.0, preload=load, speed=1e-4) == load

@@ -46,7 +46,7 @@ class OfArray(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""
-        from viscotack.pads import array_yield, holding, pull_array, read_array
+        from viscotack.pads import array_yield, holding, preload_after, pull_array, read_array
         from viscotack.pictures.array import draw_array
 
         from .parts.tables import rows_as_csv
@@ -66,6 +66,8 @@ class OfArray(Operation):
         array = stated.array if scatter is None else scatter.of(stated.array)
         found = pull_array(array, **how, progress=tell)
         held = None if load is None else holding(array, found, load, **how)
+        wait = stated.hold_time
+        left = None if wait is None else preload_after(array, wait, **how)
         part = None
         if scatter is not None and load is not None:
             part = array_yield(
@@ -77,8 +79,12 @@ class OfArray(Operation):
         pads = _pads(array, found)
         return Answer(
             found,
-            record=lambda: _record(array, found, held, part) | {"pads": pads},
-            words=lambda: _words(array, found, held, part),
+            record=lambda: (
+                _record(array, found, held, part)
+                | ({} if left is None else {"preload_after_hold_N": left})
+                | {"pads": pads}
+            ),
+            words=lambda: _words(array, found, held, part) + _left_words(stated, left),
             files={"csv": rows_as_csv(curve), "pads": rows_as_csv(pads)},
             pictures={"plot": lambda: draw_array(array, found, load=load)},
         )
@@ -127,6 +133,16 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
     if part is not None:
         record |= {"yield": part.share, "yield_interval": list(part.interval)}
     return record
+
+
+def _left_words(stated: Any, left: float | None) -> str:
+    """Return the force that is left of the preload as a line."""
+    if left is None:
+        return ""
+    return (
+        f"\npreload of {readable(stated.preload, 'N')}: {readable(left, 'N')} are left after "
+        f"{readable(stated.hold_time, 's')} in place (one pad under the mean force)"
+    )
 
 
 def _words(array: Any, found: Any, held: Any, part: Any) -> str:

@@ -5,7 +5,7 @@ tilt and curvature. Each follows the curve of one pad. The derivation is in docs
 """
 
 from .array_file import ArrayFile, read_array
-from .payload import Hold, Holding, holding
+from .payload import Hold, Holding, holding, preload_after
 from .pulling import ArrayPull, Backing, PadArray, grid, pull_array
 from .scatter import ArrayYield, Scatter, array_yield
 
@@ -21,6 +21,7 @@ __all__ = [
     "array_yield",
     "grid",
     "holding",
+    "preload_after",
     "pull_array",
     "read_array",
 ]

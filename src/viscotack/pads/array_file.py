@@ -57,6 +57,8 @@ class ArrayFile:
         Number of arrays drawn for the yield.
     hold : Hold or None
         The load.
+    hold_time : float or None
+        Time for which the pressed plate is held in place [s].
     """
 
     array: PadArray
@@ -65,6 +67,7 @@ class ArrayFile:
     scatter: Scatter | None
     draws: int
     hold: Hold | None
+    hold_time: float | None = None
 
 
 def read_array(
@@ -105,6 +108,9 @@ def read_array(
     pull, where = Table(path, "pull", tables), f"{path}, [pad]"
     speed = pull.quantity("speed", "m/s", '"1 mm/s"')
     preload = pull.quantity("preload", "N", '"20 mN"')
+    pull.known.add("hold_time")
+    waits = "hold_time" in pull.values
+    hold_time = pull.quantity("hold_time", "s", '"10 s"') if waits else None
     pull.finish()
     pad = tables.get("pad")
     if not isinstance(pad, Mapping):
@@ -129,7 +135,7 @@ def read_array(
     )
     layout.finish()
     hold = _optional(path, tables, "hold", Hold, _OF_HOLD)
-    return ArrayFile(array, speed, preload, scatter, draws, hold)
+    return ArrayFile(array, speed, preload, scatter, draws, hold, hold_time)
 
 
 def _places(table: Table) -> tuple[tuple[float, float], ...]:

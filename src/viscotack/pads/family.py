@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -111,6 +112,8 @@ class Pull:
         return replace(self.pad, protocol=Retraction(start, self.speed, stiffness=spring))
 
 
+# a pull, its yield and a dead load of one array need the same curves
+@lru_cache(maxsize=128)
 def pad_curve(pull: Pull, start: AtDepth | AtForce) -> PadCurve:
     """Compute the curve of one pad from a relaxed start, by the best tier.
 

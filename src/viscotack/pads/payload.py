@@ -17,15 +17,17 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.methods import crack_contact, solve
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.protocol import AtForce, Dwell, LoadTo, Retraction
+from viscotack.protocol import Apart, Approach, AtForce, Dwell, LoadTo, Retraction
 from viscotack.result import Outcome
 from viscotack.result.dead_load import time_to_detachment
 
-from .pulling import ArrayPull, PadArray
+from .pulling import ArrayPull, PadArray, shared_compliance
 
 GRAVITY = 9.80665
 # Longest time of a dead load [s]: one day.
 LONGEST = 86_400.0
+# Distance of a start before contact, in ranges of the forces: fixed, and for each Tabor number.
+_APART, _BY_TABOR = 10.0, 3.0
 
 
 @dataclass(frozen=True)
@@ -136,6 +138,57 @@ def holding(
     start = preload / len(array.positions)
     time, why = _time(array.pad, each, start, speed, accuracy, time_limit)
     return Holding(holds, load.force, payload, time, release, why)
+
+
+def preload_after(
+    array: PadArray,
+    time: float,
+    *,
+    preload: float,
+    speed: float,
+    accuracy: float = DEFAULT_ACCURACY,
+    time_limit: float | None = None,
+) -> float:
+    """Return the force [N] that is left of a preload after the drive has stood still for a time.
+
+    The pads relax at the position at which they carried the preload, so the force falls, and may
+    become tensile by their adhesion. One pad under the mean force is simulated, from an approach at
+    the speed of the pull, behind its share of the springs; heights and works of single pads are not
+    included.
+
+    Parameters
+    ----------
+    array : PadArray
+        The array.
+    time : float
+        Time for which the drive is held [s], positive.
+    preload, speed : float
+        Total force at the end of the approach [N], and speed of the drive [m/s].
+    accuracy, time_limit : float
+        Of the simulation.
+
+    Raises
+    ------
+    SimulationError
+        If the simulation stops before the end of the time.
+    """
+    if not 0 < time < inf:
+        raise InputError(f"the preload is held for a positive time, got {time:.4g} s")
+    if array.pad.groups().modulus_ratio == 1:
+        return preload
+    count, si = len(array.positions), array.pad.scales()
+    soft = shared_compliance(array)
+    # so far away that surfaces of short range do not jump into contact
+    away = (_APART + _BY_TABOR * (array.pad.groups().tabor or 0.0)) * si.length
+    moves = (Approach(speed, to=AtForce(preload / count)), Dwell(time))
+    protocol = Retraction(Apart(away), None, stiffness=1 / soft if soft > 0 else None, moves=moves)
+    result = solve(
+        replace(array.pad, protocol=protocol),
+        accuracy=accuracy,
+        estimate_error=False,
+        time_limit=time_limit,
+    )
+    return float(result.force[-1]) * si.force * count
 
 
 def _time(

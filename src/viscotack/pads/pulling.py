@@ -466,6 +466,12 @@ def _pulled(array: PadArray, pads: Family, preload: float) -> _Pulled:
     return _Pulled(drive, released, tuple(order.tolist()), forces)
 
 
+def shared_compliance(array: PadArray) -> float:
+    """Return the compliance behind one of equal pads that all touch, with its own spring [m/N]."""
+    own = array.backing.pad_stiffness
+    return _shared(array, len(array.positions)) + (0.0 if own is None else 1 / own)
+
+
 def _shared(array: PadArray, count: int) -> float:
     """Return the compliance that pads share, per force of one of some that touch [m/N]."""
     backing = array.backing
