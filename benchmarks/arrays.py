@@ -37,12 +37,12 @@ from viscotack import (
     crack_contact,
     pull_array,
 )
-from viscotack.bem.series import _begun
+from viscotack.bem.series import begun_side
 from viscotack.bem.settings import Settings
 from viscotack.bem.span import separated
 from viscotack.bem.steps import UNBALANCED_CUT, cut
 from viscotack.pads import grid
-from viscotack.series.simulated import _part, _posed
+from viscotack.series.simulated import part_of, posed_contact
 
 _MOST_STEPS, _TRIALS, _EQUAL, _FALLEN = 20_000, 15, 1e-7, 0.3
 # Shortest step over the first one.
@@ -56,7 +56,7 @@ def march_in_parallel(problems, stiffness, speed, accuracy=2e-3):
     """
     settings = Settings.for_accuracy(accuracy)
     with threadpool_limits(limits=1, user_api="blas"):
-        posed = [_posed(problem, settings) for problem in problems]
+        posed = [posed_contact(problem, settings) for problem in problems]
         sides = _sides(posed, stiffness, speed, settings)
         offset = np.array([side.depth for side in sides])
         z, held, most = 0.0, [True] * len(sides), 0.0
@@ -90,8 +90,8 @@ def _sides(posed, stiffness, speed, settings):
     forces = sum(x.units.force / x.groups.modulus_ratio for x in posed)
     longest = (travel + 2 * forces / stiffness) / speed
     shortest = min(2 * settings.first_travel * x.contact.travel * x.units.depth for x in posed)
-    parts = [_part(x, settings, shortest / speed, longest) for x in posed]
-    return [_begun(part, settings, 2 * speed) for part in parts]
+    parts = [part_of(x, settings, shortest / speed, longest) for x in posed]
+    return [begun_side(part, settings, 2 * speed) for part in parts]
 
 
 def _step(sides, live, offset, z, drive, machine, most):

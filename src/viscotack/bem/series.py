@@ -129,7 +129,7 @@ def march_in_series(
 
     `watch` is called after each step with the time [s] and the force [N].
     """
-    first, second = (_begun(part, settings, speed) for part in parts)
+    first, second = (begun_side(part, settings, speed) for part in parts)
     K = inf if stiffness is None else stiffness
     drive = first.depth + second.depth + first.force / K
     pair = _Pair(first, second, speed, K, drive)
@@ -149,7 +149,7 @@ def march_in_series(
 
 
 @dataclass(frozen=True, eq=False)
-class _Side:
+class Side:
     """One of the two contacts between steps.
 
     `speed` is the rate of its depth [m/s] in the last step, `stiffness` its change of force by
@@ -204,14 +204,14 @@ class _Side:
             return None
         return _Moved(at, weighed(run, at, s, trial), self.units)
 
-    def arrived(self, moved: _Moved, dt: float, stiffness: float) -> _Side:
+    def arrived(self, moved: _Moved, dt: float, stiffness: float) -> Side:
         """Return the side after an accepted step."""
         speed = (moved.depth - self.depth) / dt
         after = arrived(moved.at, moved.attempt)
         self.run.keep(after)
         return replace(self, at=after, speed=speed, stiffness=stiffness)
 
-    def remeshed(self) -> _Side:
+    def remeshed(self) -> Side:
         """Return the side with fine nodes around its edge, if the edge has left them."""
         at = self.at
         if at.mesh.left_by(at.seen.edge, at.seen.inner) or narrowed(self.run, at):
@@ -269,15 +269,15 @@ class _Split:
 class _Pair:
     """Both contacts between steps; depth of the drive [m] and largest tension so far [N]."""
 
-    first: _Side
-    second: _Side
+    first: Side
+    second: Side
     speed: float
     spring: float
     drive: float
     largest_tension: float = 0.0
 
     @property
-    def sides(self) -> tuple[_Side, _Side]:
+    def sides(self) -> tuple[Side, Side]:
         return self.first, self.second
 
     @property
@@ -345,7 +345,7 @@ class _Pair:
         return replace(self, first=first, second=second, drive=drive, largest_tension=most)
 
 
-def _begun(part: Part, settings: Settings, speed: float) -> _Side:
+def begun_side(part: Part, settings: Settings, speed: float) -> Side:
     """Return a contact at its relaxed start; each takes half the speed of the drive at first."""
     contact, units = part.contact, part.units
     rate = speed / 2 / units.depth * units.time
@@ -357,7 +357,7 @@ def _begun(part: Part, settings: Settings, speed: float) -> _Side:
     run.keep(at)
     at = replace(at, state=body.at_rest(at.state))
     stiffness = units.force / (contact.travel * units.depth)
-    side = _Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
+    side = Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
     # the stiffness of a fast solid is larger by up to the ratio of its moduli
     moved = side.moved(side.least_step, side.depth - speed / 2 * side.least_step)
     if moved is None:

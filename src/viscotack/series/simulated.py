@@ -114,7 +114,7 @@ def simulate_in_series(
     assert test.speed is not None
     with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
         try:
-            posed = _posed(first, settings), _posed(second, settings)
+            posed = posed_contact(first, settings), posed_contact(second, settings)
         except TimeUp as limit:
             raise InputError(f"{limit} before the relaxed starts were found") from None
         history = march_in_series(
@@ -127,7 +127,7 @@ def simulate_in_series(
 
 
 @dataclass(frozen=True, eq=False)
-class _Posed:
+class PosedContact:
     """A problem with its groups, contact, relaxed start, units, and unit of its radius [m]."""
 
     groups: Groups
@@ -137,7 +137,12 @@ class _Posed:
     radius: float
 
 
-def _parts(posed: tuple[_Posed, _Posed], test: Retraction, settings: Settings) -> tuple[Part, Part]:
+_Both = tuple[PosedContact, PosedContact]
+
+
+def _parts(
+    posed: tuple[PosedContact, PosedContact], test: Retraction, settings: Settings
+) -> tuple[Part, Part]:
     """Return both contacts at rest, with modes that cover the times of the pair."""
     assert isinstance(test.start, AtForce)
     assert test.speed is not None
@@ -146,11 +151,18 @@ def _parts(posed: tuple[_Posed, _Posed], test: Retraction, settings: Settings) -
     forces = abs(test.start.force), *(x.units.force / x.groups.modulus_ratio for x in posed)
     longest = (travel + 2 * max(forces) / K) / V
     shortest = min(2 * settings.first_travel * x.contact.travel * x.units.depth / V for x in posed)
-    first, second = (_part(x, settings, shortest, longest) for x in posed)
+    first, second = (part_of(x, settings, shortest, longest) for x in posed)
     return first, second
 
 
-def _posed(problem: Problem, settings: Settings) -> _Posed:
+def posed_contact(problem: Problem, settings: Settings) -> PosedContact:
+    """Return a contact at its relaxed start, with its units.
+
+    Raises
+    ------
+    OutOfRange
+        If the range of its forces is too short for a simulation.
+    """
     groups, si = problem.groups(), problem.scales()
     if handover.too_short(groups):
         raise OutOfRange(
@@ -160,10 +172,11 @@ def _posed(problem: Problem, settings: Settings) -> _Posed:
     contact = contact_of(groups)
     check_bounds(problem, groups, contact)
     start = relaxed_start(groups, contact, settings)
-    return _Posed(groups, contact, start, Units(si.length, si.force, si.time), si.radius)
+    return PosedContact(groups, contact, start, Units(si.length, si.force, si.time), si.radius)
 
 
-def _part(posed: _Posed, settings: Settings, shortest: float, longest: float) -> Part:
+def part_of(posed: PosedContact, settings: Settings, shortest: float, longest: float) -> Part:
+    """Return a contact with modes that cover the times from the shortest to the longest [s]."""
     groups, contact, unit = posed.groups, posed.contact, posed.units.time
     legs = (Leg(inf, -1.0, least_step=shortest / unit),)
     modes = modes_of_run(groups.material, legs, longest / unit, settings)
@@ -175,7 +188,10 @@ def _part(posed: _Posed, settings: Settings, shortest: float, longest: float) ->
 
 
 def _result(
-    posed: tuple[_Posed, _Posed], history: SeriesHistory, speed: float, stiffness: float | None
+    posed: tuple[PosedContact, PosedContact],
+    history: SeriesHistory,
+    speed: float,
+    stiffness: float | None,
 ) -> SeriesResult:
     """Return the result of a run in SI."""
     pairs = list(zip(posed, history.histories, strict=True))
@@ -202,7 +218,7 @@ def _result(
 
 
 def _residual(
-    pairs: list[tuple[_Posed, History]],
+    pairs: list[tuple[PosedContact, History]],
     time: Array,
     force: Array,
     speed: float,
