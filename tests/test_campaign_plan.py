@@ -403,3 +403,15 @@ def test_numbers_by_the_names_of_version_0_1_are_those_of_today(tmp_path):
     )
     with pytest.raises(ValueError, match="geometry.half_width is given twice"):
         read_plan(tmp_path / "both.toml")
+
+
+@pytest.mark.parametrize(
+    "name, word", [("window/kinetic_stamp", "window"), ("array/wafer_pad", "array")]
+)
+def test_windows_and_arrays_are_no_cases_of_a_campaign(name, word, tmp_path):
+    file = Path(__file__).parents[1] / "examples" / f"{name}.toml"
+    plan = tmp_path / "plan.toml"
+    plan.write_text(f'problem = "{file}"\n[[grid]]\nprotocol.speed = [1e-5]\n')
+    for given in (file, plan):
+        with pytest.raises(ValueError, match=f"belongs to a file of `viscotack {word}`"):
+            read_plan(given)

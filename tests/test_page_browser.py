@@ -17,7 +17,7 @@ from app_server import browsing, running
 pytestmark = pytest.mark.outside
 
 ROOT = Path(__file__).parents[1]
-TABS = ("contact", "material", "rig", "compare", "record", "operations")
+TABS = ("contact", "material", "rig", "compare", "record", "window", "array", "operations")
 WIDE, NARROW = {"width": 1440, "height": 1000}, {"width": 390, "height": 844}
 RIG = [ROOT / f"examples/from_rig/lens_{speed}_um_s.csv" for speed in (1, 30, 1000)]
 

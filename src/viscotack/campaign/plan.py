@@ -12,6 +12,7 @@ from viscotack.errors import InputError
 from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml
 from viscotack.problem.case_file import read_case
+from viscotack.problem.case_table import refuse_maps
 from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
 
@@ -141,6 +142,7 @@ def _from_csv(path: Path, source: str) -> _Read:
 
 def _from_toml(path: Path, source: str) -> _Read:
     tables = parse_toml(source, path)
+    refuse_maps(f"{path}", tables)
     unknown = tables.keys() - set(_KEYS)
     if unknown:
         raise InputError(

@@ -27,7 +27,7 @@ from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY
 from viscotack.problem import plane, revolution
-from viscotack.problem.case_table import OWN, Table, refuse_unknown
+from viscotack.problem.case_table import OWN, Table, refuse_maps, refuse_unknown
 from viscotack.problem.law_table import law_from_table
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.problem import Problem
@@ -170,6 +170,7 @@ def _stated(
         raise InputError(f"{path}: only one body is allowed, got [{'] and ['.join(bodies)}]")
     names = (*_COMMON, shape, *bodies)
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
+    refuse_maps(f"{path}", tables)
     refuse_unknown(f"{path}", tables, names, "table", more)
     if len(missing := [f"[{name}]" for name in names if name not in tables]) > 1:
         raise InputError(

@@ -25,6 +25,16 @@ def refuse_named(
         raise InputError(f"{path}: {found[0]!r} is not computed; {why}")
 
 
+def refuse_maps(where: str, tables: Iterable[str]) -> None:
+    """Raise an InputError for the tables of a window or an array, which state several contacts."""
+    for word, names in (("window", {"stamp", "donor", "receiver"}), ("array", {"pad", "array"})):
+        if found := names & set(tables):
+            raise InputError(
+                f"{where}: [{min(found)}] belongs to a file of `viscotack {word}`, which has "
+                "several contacts; cases and campaigns have one"
+            )
+
+
 def _names(tables: Mapping[str, Any]) -> Iterable[str]:
     """Yield the keys of tables and of the tables inside them."""
     for name, value in tables.items():

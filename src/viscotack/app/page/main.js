@@ -7,12 +7,12 @@ import { Material } from "./material.js";
 import { Rig } from "./rig.js";
 import { Compare } from "./compare.js";
 import { Record } from "./record.js";
-import { Operations } from "./operations.js";
+import { Operations, PadArray, PickAndPrint } from "./operations.js";
 import { ask } from "./server.js";
 import { element } from "./plot.js";
 
 // A view more is a line more: its class draws into an element, and listens to the store.
-const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["operations", "All operations", Operations]];
+const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["window", "Pick and print", PickAndPrint], ["array", "Arrays", PadArray], ["operations", "All operations", Operations]];
 
 async function begin() {
   theme();

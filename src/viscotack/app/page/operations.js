@@ -6,14 +6,15 @@ import { Form } from "./form.js";
 import { ask, cancel, follow } from "./server.js";
 
 export class Operations {
-  constructor(host, store) {
+  constructor(host, store, id = "operation", words = null) {
     this.store = store;
-    const view = element("div", "view");
+    this.id = id;
+    const view = element("div", "view asked");
     host.append(view);
     const side = card(view, "side"), label = element("label", "", "What is asked");
     this.select = element("select", "");
-    this.select.id = label.htmlFor = "operation";
-    this.known = store.operations.filter(({ refused }) => !refused.http);
+    this.select.id = label.htmlFor = id;
+    this.known = store.operations.filter(({ word, refused }) => !refused.http && (!words || words.includes(word)));
     this.select.append(...this.known.map(({ word }) => element("option", "", word)));
     this.select.addEventListener("change", () => this.show());
     this.words = element("p", "hint", "");
@@ -30,26 +31,28 @@ export class Operations {
     const operation = this.operation = this.known.find(({ word }) => word === this.select.value);
     this.words.textContent = operation.summary;
     this.form.replaceChildren();
-    this.fields = new Form(this.form, operation, "operation");
+    this.fields = new Form(this.form, operation, this.id);
     const problem = this.fields.fields.find(({ form }) => form === "problem");
     if (problem) this.form.append(button("Take the case of this page", () => { problem.input.value = JSON.stringify(this.store.tables, null, 1); }));
     const attached = element("input", ""), label = element("label", "", "files that an option names"), row = element("div", "field");
     attached.type = "file";
     attached.multiple = true;
-    attached.id = label.htmlFor = "operation-attached";
+    attached.id = label.htmlFor = `${this.id}-attached`;
     row.append(label, attached);
     // some answers have no curve to write: what is not asked for is not missed
-    this.outputs = operation.outputs.map(({ name, words }) => {
+    this.outputs = operation.outputs.map(({ name, words, kind }) => {
       const box = element("input", ""), said = element("label", "", `with the ${name}`), line = element("div", "field");
       box.type = "checkbox";
-      box.id = said.htmlFor = `operation-with-${name}`;
+      box.id = said.htmlFor = `${this.id}-with-${name}`;
       box.title = words;
+      // a tab of its own shows its picture
+      box.checked = this.id !== "operation" && kind === "picture";
       line.append(said, box);
       this.form.append(line);
       return { name, box };
     });
     const go = button("Ask", () => this.ask(attached.files));
-    go.id = "operation-ask";
+    go.id = `${this.id}-ask`;
     this.form.append(row, go);
     this.said.replaceChildren();
   }
@@ -92,4 +95,14 @@ export class Operations {
     parts.splice(1, 0, lines);
     this.said.replaceChildren(...parts);
   }
+}
+
+// Two contacts of one object: which opens first.
+export class PickAndPrint extends Operations {
+  constructor(host, store) { super(host, store, "window", ["window"]); }
+}
+
+// Many pads on one backing, and stamps that are not round.
+export class PadArray extends Operations {
+  constructor(host, store) { super(host, store, "array", ["array", "theory rectangle"]); }
 }
