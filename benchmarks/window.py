@@ -1,7 +1,8 @@
 """Compare steady cracks in series with coupled simulations, and draw windows at random.
 
     python benchmarks/window.py --points 60 --seed 1
-    python benchmarks/window.py --windows 100 --seed 1
+    python benchmarks/window.py --windows 200 --seed 1
+    python benchmarks/window.py --windows 8 --seed 1 --simulate
 
 Points are pairs of contacts of which one opens by steady cracks, outside the bands. Each is
 simulated. The first lists the answers and tensions of both and counts how often they agree; the
@@ -39,6 +40,8 @@ from viscotack.geometry import Bonded
 
 # Largest Tabor number that is simulated in seconds.
 _LARGEST_TABOR = 30.0
+# Time limit of a simulated cell of a random window [s].
+_SIMULATED = 5.0
 
 
 def solid(rng, kinds=("elastic", "standard", "power")):
@@ -140,7 +143,7 @@ def odd_contact(rng):
     return problem
 
 
-def windows(count, seed):
+def windows(count, seed, simulate):
     """Evaluate random windows; return the number of errors that are not refusals."""
     rng, failures, words, refused = np.random.default_rng(seed), 0, Counter(), 0
     for number in range(count):
@@ -153,6 +156,8 @@ def windows(count, seed):
                 receiver=receiver if number % 3 > 0 else None,
                 speeds=10 ** rng.uniform(-9, -1, 3),
                 preloads=unit * rng.choice([-0.2, 1, 1], 2) * 10 ** rng.uniform(-1, 1, 2),
+                simulate=simulate,
+                time_limit=_SIMULATED,
             )
         except InputError:
             refused += 1
@@ -173,11 +178,12 @@ def main():
     options.add_argument("--points", type=int, default=0)
     options.add_argument("--skip", type=int, default=0)
     options.add_argument("--windows", type=int, default=0)
+    options.add_argument("--simulate", action="store_true")
     options.add_argument("--seed", type=int, default=1)
     given = options.parse_args()
     if given.points:
         points(given.points, given.seed, given.skip)
-    return int(given.windows > 0 and windows(given.windows, given.seed) > 0)
+    return int(given.windows > 0 and windows(given.windows, given.seed, given.simulate) > 0)
 
 
 if __name__ == "__main__":
