@@ -39,6 +39,9 @@ _FEWEST, _DWELLS, _RANGE = 4, 3, 5.0
 _BEYOND, _PER_DECADE = 2, 20
 # Probability below which a growth is not chance.
 _CHANCE = 0.01
+# ... and that above which tests of one speed count as repeats, so that few series are refused by
+# chance.
+_CERTAIN = 1e-3
 # Ratio of dwells above which tests at one speed are no repeats, and change of the modulus in the
 # dwells that may be neglected.
 _APART, _LEFT = 2.0, 0.02
@@ -241,7 +244,7 @@ def check_dwells(cycles: Sequence[Cycle]) -> None:
             continue
         F = np.array([one.pull_off_force.value for one in same])
         found: Any = scipy.stats.linregress(np.log(t), F / F.mean())
-        if found.pvalue < _CHANCE:
+        if found.pvalue < _CERTAIN:
             raise InputError(
                 f"the pull-off force at {readable(same[0].speed.value, 'm/s', digits=3)} changes "
                 f"by {np.log(10) * found.slope:.1%} in a decade of contact time "
