@@ -19,6 +19,7 @@ from viscotack.bem.growth import Frozen, Opening, Stepped, bend, driven
 from viscotack.bem.interface import Faces
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
+from viscotack.bem.shut import pressed_shut
 from viscotack.bem.span import least_gap, room
 from viscotack.bem.surface import Surface
 from viscotack.materials import Modes
@@ -294,6 +295,10 @@ class Body:
         flank = 0.5 * (before.extra.flank + after.extra.flank)
         lifted = before.seen.depth - after.seen.depth
         return surface.unit * float(nodal @ (after.gap - gap)) + flank * lifted
+
+    def pressed(self, state: State) -> float:
+        """Return the pressure [dg/h0] where a search has closed the gap completely, 0 if open."""
+        return pressed_shut(state.surface, state.gap, state.relaxed)
 
     def at_rest(self, state: State) -> State:
         """Return the state with rates reset, where the previous rates do not apply."""

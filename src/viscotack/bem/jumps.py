@@ -18,7 +18,6 @@ from viscotack.bem.memory import Step, step
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import around_edge, lost
-from viscotack.bem.shut import pressed_shut
 from viscotack.bem.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
 from viscotack.result import Event
 
@@ -46,8 +45,7 @@ def shortest_step(run: Run, at: Place, s: Step, cuts: int = _MOST_CUTS) -> Place
         _let_go(run, at.seen, trial.after.seen.time)
         return at
     if trial.lost:  # however short the step, no equilibrium was found
-        after = trial.after
-        run.history.pressed = pressed_shut(after.surface, after.gap, after.relaxed)
+        run.history.pressed = run.body.pressed(trial.after)
         run.history.outcome = "shut" if run.history.pressed else "lost"
         return at
     attempt = weighed(run, at, s, trial)

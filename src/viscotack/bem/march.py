@@ -73,7 +73,18 @@ def march(
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
     body = Body(contact, modes, np.asarray(modes.weights), growing)
     run = Run(body, settings, legs, profiles, history)
-    at = first_place(run, start, grading)
+    return through(run, first_place(run, start, grading), until, progress, watch)
+
+
+def through(
+    run: Run,
+    at: Place,
+    until: str,
+    progress: Callable[[float], None] | None = None,
+    watch: Callable[[Snapshot], None] | None = None,
+) -> History:
+    """Integrate through all legs of a run from a relaxed place; see :func:`march`."""
+    history = run.history
     run.keep(at)
     try:
         at = _begun(run, at, 0)

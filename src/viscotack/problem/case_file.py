@@ -177,25 +177,52 @@ def _stated(
             f"{path}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
             "docs/input.md"
         )
-    found = {name: Table(path, name, tables, beside) for name in names}
-    material = _material(found["material"], nouns, temperature)
-    law = law_from_table(found["interface"], nouns.laws)
-    kind = plane if plain else revolution
-    parts = {
-        "material": material,
-        "traction": law,
-        "geometry": _shape(found[shape], nouns.shapes[shape]),
-        "body": _body(found[bodies[0]], nouns.bodies[bodies[0]], material)
-        if bodies
-        else HalfSpace(),
-        "protocol": protocol_from_table(found["protocol"], kind.SI, law.equilibrium_gap),
-    }
-    for table in found.values():
-        table.finish()
+    units = (plane if plain else revolution).SI
+    parts = _parts(path, tables, nouns, bodies, units, beside, temperature)
+    table = Table(path, shape, tables, beside)
+    geometry = _shape(table, nouns.shapes[shape])
+    table.finish()
     try:
-        return Problem(**parts)
+        return Problem(geometry=geometry, **parts)
     except ValueError as error:
         raise InputError(f"{path}: {error}") from None
+
+
+def parts_of_tables(
+    path: Path | str,
+    tables: Mapping[str, Any],
+    *,
+    also: Iterable[Any] = (),
+    beside: Callable[[str], Path] | None = None,
+) -> dict[str, Any]:
+    """Return material, traction law, protocol and body, a half-space or a layer, of tables.
+
+    The parameters are those of :func:`case_of_tables`; forces of the protocol are in N.
+    """
+    bodies = [Layer.word] if Layer.word in tables else []
+    return _parts(path, tables, known(also), bodies, revolution.SI, beside, None)
+
+
+def _parts(
+    path: Path | str,
+    tables: Mapping[str, Any],
+    nouns: Nouns,
+    bodies: list[str],
+    units: Mapping[str, str],
+    beside: Callable[[str], Path] | None,
+    temperature: float | None,
+) -> dict[str, Any]:
+    """Return the parts of a problem but its shape, by the names of the attributes."""
+    found = {name: Table(path, name, tables, beside) for name in (*_COMMON, *bodies)}
+    material = _material(found["material"], nouns, temperature)
+    law = law_from_table(found["interface"], nouns.laws)
+    body = HalfSpace()
+    if bodies:
+        body = _body(found[bodies[0]], nouns.bodies[bodies[0]], material)
+    protocol = protocol_from_table(found["protocol"], units, law.equilibrium_gap)
+    for table in found.values():
+        table.finish()
+    return {"material": material, "traction": law, "body": body, "protocol": protocol}
 
 
 def _shape_table(path: Path | str, tables: Mapping[str, Any], nouns: Nouns) -> str:

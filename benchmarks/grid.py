@@ -1,0 +1,267 @@
+"""The grid beside contacts of revolution and beside itself on finer pixels.
+
+python benchmarks/grid.py spheres           # forces, works and processor time of 22 spheres
+python benchmarks/grid.py pixels            # errors of the force by pixels per zone
+python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres and rough maps
+python benchmarks/grid.py random --count 50 # drawn problems: endings, residuals and times
+python benchmarks/grid.py size              # time and memory by the number of pixels
+"""
+
+import argparse
+import resource
+import sys
+import traceback
+from itertools import product
+from time import process_time
+
+import numpy as np
+
+import viscotack as vt
+from viscotack.errors import InputError
+from viscotack.geometry import Bonded, HalfSpace, Layer
+from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.result.observables import work_of_separation
+from viscotack.rough import RoughProblem, pull
+from viscotack.surfaces import self_affine, sphere
+
+RADIUS, GAP = 5e-3, 1.5e-6
+ALONG = np.sqrt(RADIUS * GAP)
+PLATEAUS = {"rubbery_modulus": 1.5e6, "poisson_ratio": 0.5}
+
+
+def solid(k):
+    """Return a solid of this modulus ratio."""
+    if k == 1:
+        return vt.Elastic(**PLATEAUS)
+    return vt.StandardSolid(**PLATEAUS, glassy_modulus=1.5e6 / k, tau0=0.1)
+
+
+def of_sphere(tabor, material, test, pixels, half, body=None):
+    """Return the problem on the grid and that of revolution, and the unit of force [N]."""
+    work = np.sqrt(tabor**3 * material.contact_modulus**2 * GAP**3 / RADIUS)
+    law = vt.LennardJones(work_of_adhesion=work, equilibrium_gap=GAP)
+    unit = 1.5 * np.pi * RADIUS * work
+    common = {
+        "material": material,
+        "traction": law,
+        "protocol": test(unit),
+        "body": body or HalfSpace(),
+    }
+    surface = sphere(pixels, 2 * half * ALONG / pixels, radius=RADIUS)
+    rough = RoughProblem(surface=surface, **common)
+    return rough, vt.Problem(geometry=vt.Sphere(RADIUS), **common), unit
+
+
+def compared(problem, exact, unit):
+    """Return errors of force and work, the stated ones, and the processor time."""
+    began = process_time()
+    found = pull(problem)
+    spent = process_time() - began
+    result = vt.solve(exact, until="detached", estimate_error=False, accuracy=1e-3)
+    force = found.pull_off_force / (unit * vt.pull_off_force(result)) - 1
+    work = found.work_of_separation / (unit * GAP * work_of_separation(result)) - 1
+    return found, force, work, spent
+
+
+def spheres(given):
+    """Compare spheres by Tabor number, modulus ratio, speed and machine."""
+    print("mu    k     speed  test      px/zone  force      work      residual  steps  CPU s")
+
+    def row(name, tabor, k, speed, test, pixels):
+        problem, exact, unit = of_sphere(tabor, solid(k), test, pixels, 6.0)
+        found, force, work, spent = compared(problem, exact, unit)
+        print(
+            f"{tabor:<5g} {k:<5g} {speed:<6g} {name:<9} {problem.zone.pixels:7.2f} "
+            f"{100 * force:+8.3f} % {100 * work:+8.3f} % {found.energy_residual:8.1e} "
+            f"{found.statistics['steps']:6.0f} {spent:6.1f}",
+            flush=True,
+        )
+
+    for tabor, k, speed in product((0.3, 0.7, 1.0, 1.5), (1, 0.1, 0.01), (1e-5, 1e-3)):
+        if k == 1 and speed > 1e-5:
+            continue
+        row(
+            "pull",
+            tabor,
+            k,
+            speed,
+            lambda F, v=speed: Retraction(start=AtForce(0.3 * F), speed=v),
+            given.pixels,
+        )
+
+    def history(F, stiffness=None):
+        moves = (Approach(speed=1e-5, to=AtForce(0.5 * F)), Dwell(duration=0.3))
+        K = stiffness and stiffness * F / GAP
+        return Retraction(start=Apart(10e-6), moves=moves, speed=1e-4, stiffness=K)
+
+    row("approach", 1.0, 0.1, 1e-4, history, given.pixels)
+    row("spring", 1.0, 0.1, 1e-4, lambda F: history(F, 0.3), given.pixels)
+
+
+def pixels(given):
+    """Show the error of the force by the number of pixels in a zone."""
+    print("mu    k    px/zone  force      steps  jumps")
+    for tabor, k, side in product((1.0, 2.0), (1, 0.1), (20, 28, 40, 56, 80)):
+        half, material = 7.0, solid(k)
+
+        def test(F):
+            return Retraction(start=AtForce(0.3 * F), speed=1e-5)
+
+        problem, exact, unit = of_sphere(tabor, material, test, round(side * tabor**1.5), half)
+        found = pull(problem, estimate_error=False, force_coarse=True)
+        result = vt.solve(exact, until="detached", estimate_error=False, accuracy=1e-3)
+        force = found.pull_off_force / (unit * vt.pull_off_force(result)) - 1
+        print(
+            f"{tabor:<5g} {k:<4g} {problem.zone.pixels:7.2f} {100 * force:+8.3f} % "
+            f"{found.statistics['steps']:6.0f} {len(found.events):5d}",
+            flush=True,
+        )
+
+
+def drawn_map(rng, pixels, law_length):
+    """Return a drawn self-affine map whose zones have two to four pixels."""
+    pixel = 0.75 * law_length / rng.uniform(2, 4)
+    return self_affine(
+        pixels,
+        pixel,
+        hurst=rng.uniform(0.3, 1.0),
+        rms_height=GAP * 10 ** rng.uniform(-0.7, 0.7),
+        seed=int(rng.integers(1 << 30)),
+        roll_off=pixels * pixel * rng.uniform(0.3, 1.0),
+        shortest=pixel * rng.uniform(6, 12),
+        periodic=bool(rng.random() < 0.7),
+    )
+
+
+def drawn(rng, pixels):
+    """Return a drawn rough problem."""
+    k = 10 ** -rng.uniform(0, 3)
+    kind = rng.integers(4)
+    material = solid(1) if kind == 0 else solid(k)
+    if kind == 2:
+        material = vt.RetardationPowerLaw(
+            **PLATEAUS, glassy_modulus=1.5e6 / k, exponent=rng.uniform(0.2, 0.9), tau0=0.1
+        )
+    law = vt.LennardJones(work_of_adhesion=10 ** rng.uniform(-2, 0), equilibrium_gap=GAP)
+    length = material.contact_modulus * GAP**2 / law.work_of_adhesion
+    surface = drawn_map(rng, pixels, length)
+    stress = law.strength * 10 ** rng.uniform(-2, -0.5)
+    preload = AtForce(stress * surface.area)
+    speed = 10 ** rng.uniform(-7, -2)
+    stiffness = None
+    if rng.random() < 0.3:
+        stiffness = law.strength * surface.area / GAP * 10 ** rng.uniform(-1.5, 0.5)
+    if rng.random() < 0.4:
+        moves = (Approach(speed=speed, to=preload), Dwell(duration=10 ** rng.uniform(-3, 1)))
+        start = Apart(6 * GAP)
+        test = Retraction(start=start, moves=moves, speed=speed, stiffness=stiffness)
+    else:
+        test = Retraction(start=preload, speed=speed, stiffness=stiffness)
+    body = HalfSpace()
+    if rng.random() < 0.3:
+        thickness = min(surface.size) * rng.uniform(0.05, 0.5)
+        base = Bonded(poisson_ratio=0.5) if rng.random() < 0.5 else None
+        body = Layer(thickness=thickness, **({"base": base} if base else {}))
+    return RoughProblem(surface=surface, material=material, traction=law, protocol=test, body=body)
+
+
+def random(given):
+    """Simulate drawn problems and count how they end."""
+    rng = np.random.default_rng(given.seed)
+    endings: dict[str, int] = {}
+    worst = 0.0
+    for number in range(given.count):
+        began = process_time()
+        try:
+            problem = drawn(rng, given.pixels)
+            found = pull(problem, estimate_error=False, time_limit=given.limit)
+            word = found.status.split(";")[0][:60]
+            word = word.split(" at ")[0].split(" at depth")[0]
+            residual = found.energy_residual
+            if not word.startswith("stopped"):
+                worst = max(worst, residual)
+            about = f"{residual:.1e} {found.statistics['steps']:.0f} steps"
+        except InputError as error:
+            word, about = f"refused: {error}"[:50], ""
+        except Exception:  # what is looked for
+            word, about = "TRACEBACK", traceback.format_exc().splitlines()[-1]
+        endings[word] = endings.get(word, 0) + 1
+        print(f"{number:4d} {process_time() - began:6.1f} s  {word}  {about}", flush=True)
+    for word, count in sorted(endings.items(), key=lambda pair: -pair[1]):
+        print(f"{count:5d}  {word}")
+    print(f"largest energy residual of complete runs: {worst:.1e}")
+
+
+def trust(given):
+    """Compare stated errors with the difference to finer pixels and steps."""
+    rng = np.random.default_rng(given.seed)
+    inside = {"force": [], "work": []}
+    for _ in range(given.count):
+        tabor, k = rng.uniform(0.3, 2.0), float(rng.choice([1, 0.3, 0.1, 0.01]))
+        speed, press = 10 ** rng.uniform(-6, -2.5), rng.uniform(0, 0.6)
+
+        def test(F, v=speed, p=press):
+            return Retraction(start=AtForce(p * F), speed=v)
+
+        zone = 0.75 * ALONG * tabor**-1.5
+        half = 6.0
+        side = round(2 * half * ALONG / (zone / rng.uniform(1.6, 4)))
+        problem, exact, unit = of_sphere(tabor, solid(k), test, min(max(side, 48), 160), half)
+        found, force, work, _ = compared(problem, exact, unit)
+        stated = found.error_estimate or {}
+        for name, value in (("force", force), ("work", work)):
+            inside[name].append(abs(value) <= stated[name])
+        print(
+            f"sphere mu {tabor:.2f} k {k:g} {problem.zone.pixels:.2f} px: force "
+            f"{100 * force:+.3f} of {100 * stated['force']:.3f} %, work {100 * work:+.3f} of "
+            f"{100 * stated['work']:.3f} %",
+            flush=True,
+        )
+    for name, found in inside.items():
+        print(f"{name}: {np.mean(found):.0%} of {len(found)} within the stated error")
+
+
+def size(given):
+    """Show processor time and memory of one pull by the number of pixels."""
+    print("pixels  CPU s  s per inner iteration  peak memory MB")
+    for side in (64, 128, 256, 512):
+        if side > given.pixels:
+            break
+        pixel = 10e-6
+        surface = self_affine(
+            side, pixel, hurst=0.8, rms_height=1.5e-6, seed=4, roll_off=640e-6, shortest=80e-6
+        )
+        law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
+        test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
+        material = vt.RelaxationPowerLaw(
+            rubbery_modulus=0.75e6, glassy_modulus=15e6, exponent=0.5, tau0=0.05, poisson_ratio=0.5
+        )
+        problem = RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+        began = process_time()
+        found = pull(problem, estimate_error=False)
+        spent = process_time() - began
+        memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        many = found.statistics["newton_iterations"]
+        print(
+            f"{side:4d}^2 {spent:7.1f} {1e3 * spent / many:8.1f} ms per iteration of Newton, "
+            f"{found.statistics['steps']:.0f} steps, {memory:.0f} MB, "
+            f"{found.pull_off_stress / 1e3:.3f} kPa",
+            flush=True,
+        )
+
+
+def main():
+    """Run one part."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("part", choices=["spheres", "pixels", "trust", "random", "size"])
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--pixels", type=int, default=64)
+    parser.add_argument("--limit", type=float, default=60.0)
+    given = parser.parse_args()
+    globals()[given.part](given)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,128 @@
+"""The operation ``rough``: a rough surface pulled off a soft body."""
+
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.problem.accuracy import TimeLimit
+from viscotack.units import readable
+
+from .declare.answer import Answer, Caller, Output, csv_file, picture
+from .declare.cards import FileOfNames, Placed, Switch, Whole, number_of
+from .declare.options import Operation
+from .simulate import Accuracy
+
+# Frames of a film, if nothing else is asked for.
+_FRAMES = 60
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfRough(Operation):
+    """Press a rough surface against a soft body and pull it off, by simulation on a grid.
+
+    The surface is a map of heights from a file or generated. Force, contact area, energies and maps
+    of gap and pressure follow with error estimates; docs/rough_surfaces.md describes the file and
+    the theory.
+
+    Example: viscotack rough rough_rubber.toml --plot rough.png
+    """
+
+    word: ClassVar = "rough"
+    outputs: ClassVar = (
+        csv_file("Write force, contact area and energies by time; - is standard output."),
+        Output("maps", "Write maps of gap and pressure to a .npz file.", "binary", ending=".npz"),
+        picture("Draw the force curve and the contact to a .png, .pdf or .svg file."),
+        Output("film", "Write the detachment as a film to a .gif file.", "binary", ending=".gif"),
+    )
+    takes_own: ClassVar = True
+
+    file: Annotated[
+        Placed,
+        FileOfNames(
+            "The tables [surface], [material], [interface] and [protocol]; perhaps [layer].",
+            metavar="ROUGH.toml",
+            argument=True,
+        ),
+    ]
+    accuracy: Accuracy = 2e-3
+    moments: Annotated[
+        int | None,
+        Whole(
+            "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
+            "the largest tension.",
+            least=2,
+            most=1000,
+        ),
+    ] = None
+    force: Annotated[bool, Switch("Answer although a zone at an edge has less than one pixel.")] = (
+        False
+    )
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 600.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Simulate the test, telling ``share``."""
+        from viscotack.pictures.rough import draw_rough, film_of_pull
+        from viscotack.rough import pull, read_rough
+        from viscotack.surfaces import roughness
+
+        from .parts.tables import rows_as_csv
+
+        problem = read_rough(self.file.path, also=caller.also, beside=self.file.inside.file)
+        moments = self.moments or (_FRAMES if "film" in caller.wants else 0)
+        found = pull(
+            problem,
+            accuracy=self.accuracy,
+            maps=moments,
+            time_limit=self.time_limit,
+            force_coarse=self.force,
+            progress=lambda share: caller.tell({"share": share}),
+        )
+        spread = roughness(problem.surface)
+        about = {
+            "rms_height_m": spread.rms_height,
+            "rms_slope": spread.rms_slope,
+            "rms_curvature_per_m": spread.rms_curvature,
+            "pixels_per_zone": problem.zone.pixels,
+        }
+        return Answer(
+            found,
+            record=lambda: found.summary | about,
+            words=lambda: _words(found, about),
+            files={
+                "csv": rows_as_csv(found.rows()),
+                "maps": found.save_maps,
+                "film": lambda target: film_of_pull(found, target),
+            },
+            pictures={"plot": lambda: draw_rough(found)},
+            notes=found.warnings,
+            status=1 if found.status.startswith("stopped") else 0,
+        )
+
+
+def _words(found: Any, about: dict[str, float]) -> str:
+    """Return the answer as lines."""
+    errors = found.error_estimate or {}
+
+    def within(name: str) -> str:
+        return f" +- {100 * errors[name]:.2g} %" if name in errors else ""
+
+    at = found.at_pull_off
+    share = 100 * found.area[at] / found.nominal_area
+    lines = [
+        f"surface: rms height {readable(about['rms_height_m'], 'm')}, rms slope "
+        f"{about['rms_slope']:.3g}, {about['pixels_per_zone']:.2g} pixels in a zone at an edge",
+        f"pull-off force: {readable(found.pull_off_force, 'N')}{within('force')}, a stress of "
+        f"{readable(found.pull_off_stress, 'Pa')}",
+        f"there: depth {readable(float(found.depth[at]), 'm')}, {share:.3g} % of the map in "
+        f"contact in {int(found.patches[at])} patches",
+    ]
+    if not found.status.startswith(("stopped", "still")):
+        lines.append(
+            f"work of separation: {readable(found.work_of_separation, 'J')}{within('work')}"
+        )
+    lines += [
+        f"lost: {readable(float(found.heat[-1]), 'J')} as heat in the solid, "
+        f"{readable(float(found.jumps[-1]), 'J')} in {len(found.events)} jumps",
+        f"energy balance: {found.energy_residual:.1g}; {found.status}",
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,117 @@
+"""Figure and film of a pull on a rough surface: force curve, contact and gap."""
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.files.whole import Target, write_whole
+from viscotack.rough.result import FieldMap, RoughResult
+
+from .plot import axis_unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+# Frames of a film in a second, and dots per inch.
+_PER_SECOND, _DPI = 12, 80
+
+
+def draw_rough(found: RoughResult) -> "Figure":
+    """Draw force and contact by depth, and the pressure over the map at the largest tension.
+
+    Parameters
+    ----------
+    found : RoughResult
+        Result of :func:`viscotack.rough.pull`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Left the tension, with the share of the map in contact; right the pressure at pull-off,
+        tension in blue, compression in red.
+    """
+    figure, _ = _figure(found, found.strongest)
+    return figure
+
+
+def film_of_pull(found: RoughResult, target: Target) -> None:
+    """Write the detachment as a film (GIF): the pressure over the map beside the force curve.
+
+    Raises
+    ------
+    ValueError
+        If the result has fewer than two maps; ask :func:`viscotack.rough.pull` for some.
+    """
+    import matplotlib.style
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL import Image
+
+    if len(found.maps) < 2:
+        raise InputError("a film needs maps of several instants; ask for at least 2")
+    with matplotlib.style.context(_STYLE):
+        figure, parts = _figure(found, found.maps[0])
+        figure.set_dpi(_DPI)
+        canvas, frames = FigureCanvasAgg(figure), []
+        for each in found.maps:
+            parts["image"].set_data(each.pressure / parts["stress"])
+            parts["mark"].set_data([each.depth / parts["length"]], [-each.force / parts["force"]])
+            canvas.draw()
+            frames.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("P"))
+    held, each = io.BytesIO(), 1000 // _PER_SECOND
+    frames[0].save(held, "gif", save_all=True, append_images=frames[1:], duration=each, loop=0)
+    write_whole(target, held.getvalue())
+
+
+def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, Any]]:
+    """Return the figure and the parts that a film changes."""
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    length, length_unit = axis_unit(float(np.abs(found.depth).max()), "m")
+    force, force_unit = axis_unit(float(np.abs(found.force).max()), "N")
+    stress, stress_unit = axis_unit(float(np.abs(found.strongest.pressure).max()), "Pa")
+    rows, columns = shown.pressure.shape
+    side, side_unit = axis_unit(found.pixel * max(rows, columns), "m")
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+        left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
+        left.axhline(0, color="0.6", lw=0.8)
+        left.plot(found.depth / length, -found.force / force, color="#08519c", label="tension")
+        (mark,) = left.plot(
+            [shown.depth / length], [-shown.force / force], "o", color="#d94801", zorder=3
+        )
+        left.set_xlabel(f"depth [{length_unit}]")
+        left.set_ylabel(f"tension [{force_unit}]")
+        left.invert_xaxis()
+        share = left.twinx()
+        share.plot(
+            found.depth / length,
+            100 * found.area / found.nominal_area,
+            color="0.55",
+            lw=1.0,
+            ls="--",
+        )
+        share.set_ylabel("map in contact [%], dashed")
+        share.set_ylim(0, None)
+        share.grid(False)
+        left.set_title(f"largest tension {found.pull_off_force / force:.3g} {force_unit}")
+        most = float(np.quantile(np.abs(found.strongest.pressure), 0.999)) / stress
+        image = right.imshow(
+            shown.pressure / stress,
+            cmap="RdBu_r",
+            vmin=-most,
+            vmax=most,
+            extent=(0, columns * found.pixel / side, 0, rows * found.pixel / side),
+            interpolation="nearest",
+        )
+        right.grid(False)
+        right.set_xlabel(f"x [{side_unit}]")
+        right.set_ylabel(f"y [{side_unit}]")
+        right.set_title("pressure at the point")
+        figure.colorbar(image, ax=right, label=f"pressure [{stress_unit}]")
+    parts = {"image": image, "mark": mark, "stress": stress, "force": force, "length": length}
+    return figure, parts

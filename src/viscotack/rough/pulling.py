@@ -1,0 +1,258 @@
+"""Simulation of a pull on a rough surface."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from viscotack.bem.bounds import check_clock
+from viscotack.bem.grid.descent import Found
+from viscotack.bem.grid.run import Frame, GridRun, march_on_grid, relaxed
+from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
+from viscotack.bem.machine import spring_energy
+from viscotack.bem.settings import Settings
+from viscotack.bem.solver import modes_of_run
+from viscotack.bem.verdict import status_of
+from viscotack.clock import TimeUp, limited
+from viscotack.errors import InputError
+from viscotack.protocol import Move
+from viscotack.result import Event
+
+from .problem import COARSE, COARSEST, FINE, RoughProblem
+from .result import FieldMap, RoughResult
+
+DEFAULT_ACCURACY = 2e-3
+# Relative error of the force by pixels per zone, measured on spheres (benchmarks/grid.py).
+_PIXELS = (0.8, 1.3, 1.75, 2.2, 2.7, 4.0)
+_ERRORS = (0.08, 0.03, 6e-3, 3e-3, 1.5e-3, 1e-3)
+# Ratio of the errors of the coarser run, and safety factors on its difference.
+_COARSER, _MARGIN = 4.0, {"force": 3.0, "work": 3.5}
+# Smallest error of the work over that of the force.
+_WORK = 2.0
+# Share of the main run in the total work.
+_MAIN = 0.65
+
+
+def pull(
+    problem: RoughProblem,
+    *,
+    accuracy: float = DEFAULT_ACCURACY,
+    estimate_error: bool = True,
+    maps: int = 0,
+    time_limit: float | None = None,
+    force_coarse: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> RoughResult:
+    """Press a rough surface against a soft body and pull it off, by simulation on its pixels.
+
+    Parameters
+    ----------
+    problem : RoughProblem
+        Surface, solid, interface and test.
+    accuracy : float
+        Relative error of the pull-off force that steps and modes of the solid are made for; the
+        error of the pixels is that of the map.
+    estimate_error : bool
+        Whether errors are estimated, from a second run with coarser steps, which takes half as
+        long, and the pixels per zone.
+    maps : int
+        Up to how many maps of gap and pressure are kept, besides that of the largest tension.
+    time_limit : float, optional
+        Wall time after which the simulation stops [s]; what was found so far is returned.
+    force_coarse : bool
+        Whether to answer although a zone at an edge has less than one pixel.
+    progress : callable, optional
+        Called with the completed share of the work, 0 to 1.
+
+    Returns
+    -------
+    RoughResult
+        Curves, errors and maps in SI.
+
+    Raises
+    ------
+    ValueError
+        If the pixels are too coarse, the start is not possible, or the time limit is met before
+        the test begins.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, LennardJones, Retraction
+    >>> from viscotack.surfaces import sphere
+    >>> glass = sphere(96, 20e-6, radius=5e-3)
+    >>> problem = RoughProblem(
+    ...     surface=glass,
+    ...     material=Elastic(rubbery_modulus=0.4e6, poisson_ratio=0.5),
+    ...     traction=LennardJones(work_of_adhesion=0.15, equilibrium_gap=4e-6),
+    ...     protocol=Retraction(start=AtDepth(4e-6), speed=1e-6),
+    ... )
+    >>> found = pull(problem, estimate_error=False)
+    >>> f"{found.pull_off_force * 1e3:.2f} mN"
+    '3.76 mN'
+    """
+    began = perf_counter()
+    warnings = _resolved(problem, force_coarse)
+    settings = Settings.for_accuracy(accuracy)
+    share = _MAIN if estimate_error else 1.0
+
+    def part(begin: float, end: float) -> Callable[[float], None] | None:
+        tell = progress
+        return None if tell is None else lambda done: tell(begin + (end - begin) * done)
+
+    with limited(time_limit):
+        try:
+            start = relaxed(problem.contact, problem.units.start(problem.protocol.start))
+        except TimeUp as limit:
+            raise InputError(f"{limit} before the relaxed start was found") from None
+        except ArithmeticError as reason:
+            raise InputError(f"the relaxed start was not found: {reason}") from None
+        run = _run(problem, start, settings, maps, part(0.0, share))
+        result = _result(problem, run, settings, warnings)
+        if estimate_error and not result.status.startswith("stopped"):
+            light = _run(problem, start, settings.coarser(_COARSER), 0, part(share, 1.0))
+            coarse = _result(problem, light, settings, ())
+            if not coarse.status.startswith("stopped"):
+                result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
+    statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
+    return replace(result, statistics=statistics)
+
+
+def _resolved(problem: RoughProblem, forced: bool) -> tuple[str, ...]:
+    """Return a warning where a zone has few pixels; InputError where it has less than one."""
+    pixels = problem.zone.pixels
+    if pixels >= COARSE:
+        return ()
+    law = problem.traction
+    longer = law.equilibrium_gap * np.sqrt(FINE / pixels)
+    words = (
+        f"the zone at an edge is {problem.zone.length:.3g} m long and has {pixels:.2g} pixels of "
+        f"{problem.surface.pixel:.3g} m; {FINE:g} are needed, as with pixels of "
+        f"{problem.zone.length / FINE:.3g} m, or an equilibrium gap of {longer:.3g} m"
+    )
+    if pixels < COARSEST and not forced:
+        raise InputError(words)
+    return (words,)
+
+
+def _run(
+    problem: RoughProblem,
+    start: Found,
+    settings: Settings,
+    maps: int,
+    progress: Callable[[float], None] | None,
+) -> GridRun:
+    """Simulate the test."""
+    contact, units, test = problem.contact, problem.units, problem.protocol
+    material = problem.material.reduced()
+    moves: tuple[Move, ...] = units.moves(test.moves)
+    rate, stiffness = units.speed(test.speed), units.stiffness(test.stiffness)
+    legs = legs_of(moves, rate, stiffness, contact, settings)  # type: ignore[arg-type]
+    began: Any = _Start(start.depth, _force(problem, start))
+    depths = reached(began, moves, contact)  # type: ignore[arg-type]
+    check_clock(legs, moves, depths, contact)  # type: ignore[arg-type]
+    spring = spring_travel(began, depths, moves, stiffness, material.modulus_ratio, contact)  # type: ignore[arg-type]
+    longest = longest_time(depths, moves, rate, contact, spring)  # type: ignore[arg-type]
+    modes = modes_of_run(material, legs, longest, settings)
+    return march_on_grid(
+        contact, start, modes, legs, settings, stiffness=stiffness, frames=maps, progress=progress
+    )
+
+
+class _Start:
+    """Depth and force of a relaxed start."""
+
+    def __init__(self, depth: float, force: float) -> None:
+        self.depth, self.force = depth, force
+
+
+def _force(problem: RoughProblem, start: Found) -> float:
+    contact = problem.contact
+    pulled = contact.unit * contact.area * float(start.tension.sum())
+    return contact.tail_force(start.depth) - pulled
+
+
+def _result(
+    problem: RoughProblem, run: GridRun, settings: Settings, warnings: tuple[str, ...]
+) -> RoughResult:
+    """Return the result of a run in SI."""
+    history, contact = run.history, problem.contact
+    law = problem.traction
+    h0, force_unit, time = law.equilibrium_gap, problem.force, problem.time
+    energy = force_unit * h0
+    seen, books = history.snapshots, history.books
+    force = np.array([s.force for s in seen])
+    units = problem.units
+    stiffness = units.stiffness(problem.protocol.stiffness)
+    spring, depth = spring_energy(force, stiffness), np.array([s.depth for s in seen])
+    residual = float(np.max(np.abs(history.imbalances())))
+    touching = np.array(run.touching)
+    legs = np.array(history.legs)
+    last = int(np.argmax(legs == len(run.legs) - 1)) if legs[-1] == len(run.legs) - 1 else 0
+
+    def shown(frame: Frame) -> FieldMap:
+        return FieldMap(
+            frame.time * time,
+            frame.depth * h0,
+            frame.force * force_unit,
+            frame.gap * np.float32(h0),
+            frame.pressure * np.float32(law.work_of_adhesion / h0),
+        )
+
+    return RoughResult(
+        time=time * np.array([s.time for s in seen]),
+        depth=h0 * depth,
+        drive=h0 * (depth if stiffness is None else depth + force / stiffness),
+        force=force_unit * force,
+        area=touching[:, 0] * problem.surface.pixel**2,
+        patches=touching[:, 1],
+        work=energy * (np.array([b.work for b in books]) + spring - spring[0]),
+        elastic=energy * np.array([s.elastic for s in seen]),
+        interface=energy * np.array([s.interface for s in seen]),
+        heat=energy * np.array([b.heat.sum() for b in books]),
+        jumps=energy * np.array([b.jumps for b in books]),
+        last_leg=last,
+        status=status_of(history, residual, contact.law),
+        events=tuple(
+            Event(e.kind, e.time * time, e.depth * h0, e.force * force_unit, e.energy * energy)
+            for e in history.events
+        ),
+        energy_residual=residual,
+        strongest=shown(run.frames.strongest[0]),
+        nominal_area=problem.surface.area,
+        pixel=problem.surface.pixel,
+        warnings=warnings,
+        maps=tuple(shown(frame) for frame in run.frames.kept),
+        statistics={
+            "steps": len(seen) - 1,
+            "newton_iterations": history.iterations,
+            "rejected_steps": history.rejected,
+            "pixels": problem.surface.heights.size,
+            "modes": len(run.body.weights),
+        },
+    )
+
+
+def _errors(
+    problem: RoughProblem, result: RoughResult, coarse: RoughResult, accuracy: float
+) -> dict[str, float]:
+    """Return the relative errors of force and work: of the pixels, and of steps and modes."""
+    pixels = float(np.exp(np.interp(np.log(problem.zone.pixels), np.log(_PIXELS), np.log(_ERRORS))))
+    found = {"force": pixels, "work": _WORK * pixels}
+    force, other = result.pull_off_force, coarse.pull_off_force
+    scale = max(force, other)
+    if scale > 0:
+        steps = _MARGIN["force"] / (_COARSER - 1) * abs(force - other) / scale
+        found["force"] = float(np.hypot(found["force"], max(steps, 0.2 * accuracy)))
+    try:
+        work, rough = result.work_of_separation, coarse.work_of_separation
+    except InputError:
+        del found["work"]
+        return found
+    if max(work, rough) > 0:
+        steps = _MARGIN["work"] / (_COARSER - 1) * abs(work - rough) / max(work, rough)
+        found["work"] = float(np.hypot(found["work"], max(steps, 0.4 * accuracy)))
+    return found

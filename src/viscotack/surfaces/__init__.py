@@ -1,0 +1,18 @@
+"""Surfaces as maps of heights: from files, generated, and their statistics."""
+
+from .generated import bumps, pillars, self_affine, sphere
+from .heights import HeightMap
+from .map_file import read_map, write_map
+from .statistics import Roughness, roughness
+
+__all__ = [
+    "HeightMap",
+    "Roughness",
+    "bumps",
+    "pillars",
+    "read_map",
+    "roughness",
+    "self_affine",
+    "sphere",
+    "write_map",
+]

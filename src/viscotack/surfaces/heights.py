@@ -1,0 +1,116 @@
+"""A map of heights on square pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.units import positive
+
+# Smallest and largest number of pixels of a side.
+FEWEST, MOST = 8, 4096
+
+
+@dataclass(frozen=True, eq=False)
+class HeightMap:
+    """Heights of a rigid surface above a reference plane, positive towards the solid.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (rows, columns)
+        Heights at the centres of the pixels [m].
+    pixel : float
+        Side of a pixel [m].
+    periodic : bool
+        Whether the map repeats in both directions; otherwise nothing lies around it.
+    beyond : float or None
+        Radius [m] of the paraboloid, centred in the middle of the map, in which it continues.
+
+    Raises
+    ------
+    ValueError
+        If the heights are not finite, a side has less than 8 or more than 4096 pixels, or a
+        periodic map continues as a paraboloid.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> ramp = HeightMap(1e-9 * np.add.outer(np.arange(8.0), np.zeros(8)), pixel=1e-6)
+    >>> bool(np.ptp(ramp.levelled().heights) < 1e-22)
+    True
+    """
+
+    heights: npt.NDArray
+    pixel: float
+    periodic: bool = False
+    beyond: float | None = None
+
+    def __post_init__(self) -> None:
+        h = np.array(self.heights, dtype=float)
+        if h.ndim != 2 or not all(FEWEST <= side <= MOST for side in h.shape):
+            raise InputError(
+                f"a map of heights has {FEWEST} to {MOST} pixels in each direction, got an array "
+                f"of shape {h.shape}"
+            )
+        if not np.all(np.isfinite(h)):
+            missing = int(np.count_nonzero(~np.isfinite(h)))
+            raise InputError(
+                f"{missing} heights of the map are not numbers; fill the gaps of a measurement "
+                "before"
+            )
+        h.setflags(write=False)
+        object.__setattr__(self, "heights", h)
+        object.__setattr__(self, "pixel", positive("pixel", self.pixel, "m"))
+        if self.beyond is not None:
+            object.__setattr__(self, "beyond", positive("beyond", self.beyond, "m"))
+            if self.periodic:
+                raise InputError("a periodic map repeats and does not continue as a paraboloid")
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Lengths of the sides [m]."""
+        rows, columns = self.heights.shape
+        return rows * self.pixel, columns * self.pixel
+
+    @property
+    def area(self) -> float:
+        """Area of the map [m^2]."""
+        return self.heights.size * self.pixel**2
+
+    def __add__(self, other: HeightMap) -> HeightMap:
+        """Return the sum of two maps, such as a sphere and a roughness."""
+        same = self.heights.shape == other.heights.shape and self.pixel == other.pixel
+        if not (same and self.periodic == other.periodic):
+            raise InputError("maps that are added must have the same pixels and be alike periodic")
+        return replace(
+            self, heights=self.heights + other.heights, beyond=self.beyond or other.beyond
+        )
+
+    def scaled(self, factor: float) -> HeightMap:
+        """Return the map with all heights multiplied by a factor."""
+        return replace(self, heights=factor * self.heights)
+
+    def levelled(self, *, curvature: bool = False) -> HeightMap:
+        """Return the map without its mean and tilt, with `curvature` without a paraboloid too.
+
+        They are those of the least squares over all pixels. Not for a periodic map, which has none.
+        """
+        if self.periodic:
+            raise InputError("a periodic map has neither tilt nor curvature to remove")
+        rows, columns = self.heights.shape
+        x = np.linspace(-1, 1, rows)[:, None] + np.zeros(columns)
+        y = np.zeros(rows)[:, None] + np.linspace(-1, 1, columns)
+        parts = [np.ones_like(x), x, y, *((x * x, x * y, y * y) if curvature else ())]
+        matrix = np.array([part.ravel() for part in parts]).T
+        found, *_ = np.linalg.lstsq(matrix, self.heights.ravel(), rcond=None)
+        return replace(self, heights=self.heights - (matrix @ found).reshape(rows, columns))
+
+    def coarser(self) -> HeightMap:
+        """Return the map on pixels twice as large, each the mean of four."""
+        rows, columns = (side - side % 2 for side in self.heights.shape)
+        h = self.heights[:rows, :columns]
+        mean = (h[::2, ::2] + h[1::2, ::2] + h[::2, 1::2] + h[1::2, 1::2]) / 4
+        return replace(self, heights=mean, pixel=2 * self.pixel)

@@ -1,0 +1,117 @@
+"""Maps of heights in files: tables of numbers (CSV and other text) and NumPy arrays (.npy)."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.files.bounded import open_regular, read_bytes
+from viscotack.files.whole import Target, write_whole
+
+from .heights import MOST, HeightMap
+
+# Largest size of a file, 4096 x 4096 numbers of 25 characters [bytes].
+_LARGEST = 420_000_000
+_SEPARATORS = (",", ";", "\t", None)
+# Header of an array [bytes].
+_HEADER = 10_000
+
+
+def read_map(
+    path: str | os.PathLike[str],
+    *,
+    pixel: float,
+    unit: float = 1.0,
+    periodic: bool = False,
+) -> HeightMap:
+    """Read a map of heights from a file.
+
+    Parameters
+    ----------
+    path : path
+        A `.npy` file with an array of two dimensions; or text, one row of the map in each line,
+        separated by commas, semicolons, tabs or blanks. Lines that begin with # are skipped.
+    pixel : float
+        Side of a pixel [m].
+    unit : float
+        Unit of the heights [m], for example 1e-9.
+    periodic : bool
+        Whether the map repeats in both directions.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the file does not exist.
+    ValueError
+        If it contains no such map; the message names the line.
+    """
+    path = Path(path)
+    try:
+        heights = _array(path) if path.suffix.lower() == ".npy" else _table(path)
+        return HeightMap(heights * unit, pixel, periodic)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def write_map(surface: HeightMap, target: Target) -> None:
+    """Write the heights [m] of a map as an array (.npy), whole or not at all."""
+    held = io.BytesIO()
+    np.save(held, surface.heights, allow_pickle=False)
+    write_whole(target, held.getvalue())
+
+
+def _array(path: Path) -> npt.NDArray:
+    """Return the numbers of a .npy file, whose header is checked before memory is taken."""
+    with open_regular(path) as file:
+        try:
+            version = np.lib.format.read_magic(file)
+            read = {
+                (1, 0): np.lib.format.read_array_header_1_0,
+                (2, 0): np.lib.format.read_array_header_2_0,
+            }[version]
+            shape, _, kind = read(file, max_header_size=_HEADER)
+        except (ValueError, KeyError, EOFError) as error:
+            raise InputError(f"it is no array of NumPy: {error}") from None
+        if kind.hasobject or kind.kind not in "iuf" or len(shape) != 2 or max(shape) > MOST:
+            raise InputError(
+                f"the array must have two dimensions of up to {MOST} numbers, got {shape} of {kind}"
+            )
+        there = os.fstat(file.fileno()).st_size - file.tell()
+        if there != math.prod(shape) * kind.itemsize:
+            raise InputError("the file is cut off, or longer than its header says")
+        file.seek(0)
+        return np.load(file, allow_pickle=False).astype(float)
+
+
+def _table(path: Path) -> npt.NDArray:
+    """Return the numbers of a text file."""
+    text = read_bytes(path, _LARGEST).decode("utf-8", errors="replace").lstrip("\ufeff")
+    rows: list[npt.NDArray] = []
+    separator: str | None = None
+    for number, line in enumerate(text.splitlines(), 1):
+        line = line.strip()
+        if not line or line.startswith("#"):
+            continue
+        if not rows:
+            separator = next(sep for sep in _SEPARATORS if sep is None or sep in line)
+        if len(rows) == MOST:
+            raise InputError(f"a map has up to {MOST} rows")
+        parts = line.rstrip(separator or "").split(separator)
+        try:
+            row = np.array([float(part) for part in parts])
+        except ValueError as error:
+            raise InputError(f"line {number}: {error}; a map has only numbers") from None
+        if rows and len(row) != len(rows[0]):
+            raise InputError(
+                f"line {number} has {len(row)} numbers, and the first row {len(rows[0])}"
+            )
+        rows.append(row)
+    if not rows:
+        raise InputError("it has no numbers")
+    return np.array(rows)

@@ -1,0 +1,235 @@
+"""The grid beside contacts of revolution, limits and symmetries that need no reference."""
+
+from dataclasses import replace
+from itertools import count
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.errors import InputError
+from viscotack.geometry import Bonded, HalfSpace, Layer
+from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.protocol import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Dwell,
+    LoadTo,
+    Retraction,
+)
+from viscotack.result.observables import work_of_separation
+from viscotack.rough import RoughProblem, pull
+from viscotack.surfaces import HeightMap, self_affine, sphere
+
+RADIUS, GAP = 5e-3, 1.5e-6
+ALONG = np.sqrt(RADIUS * GAP)
+PLATEAUS = {"rubbery_modulus": 1.5e6, "poisson_ratio": 0.5}
+ELASTIC = Elastic(**PLATEAUS)
+VISCOUS = StandardSolid(**PLATEAUS, glassy_modulus=15e6, tau0=0.1)
+POWER = RetardationPowerLaw(**PLATEAUS, glassy_modulus=150e6, exponent=0.5, tau0=0.1)
+SOFT = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=GAP)
+
+
+def law(tabor, material=ELASTIC):
+    """Return a law with which the sphere has this Tabor number."""
+    work = np.sqrt(tabor**3 * material.contact_modulus**2 * GAP**3 / RADIUS)
+    return vt.LennardJones(work_of_adhesion=work, equilibrium_gap=GAP)
+
+
+def stated(found, name):
+    """Return a stated error."""
+    assert found.error_estimate is not None
+    return found.error_estimate[name]
+
+
+def both(tabor, material, test, *, pixels=64, half=6.0, body=None):
+    """Pull a sphere on the grid and as a contact of revolution; forces in 1.5 pi R dg."""
+    traction = law(tabor, material)
+    unit = 1.5 * np.pi * RADIUS * traction.work_of_adhesion
+    common = {"material": VISCOUS, "traction": traction, "protocol": test(unit)}
+    common["body"] = HalfSpace() if body is None else body
+    surface = sphere(pixels, 2 * half * ALONG / pixels, radius=RADIUS)
+    found = pull(RoughProblem(surface=surface, **common))
+    exact = vt.solve(vt.Problem(geometry=vt.Sphere(RADIUS), **common), until="detached")
+    return found, exact, unit
+
+
+@pytest.mark.parametrize(
+    ("tabor", "material", "test", "body"),
+    [
+        (0.5, ELASTIC, lambda F: Retraction(start=AtForce(0.3 * F), speed=30e-6), None),
+        (0.7, POWER, lambda F: Retraction(start=AtForce(0.3 * F), speed=30e-6), None),
+        (
+            1.0,
+            VISCOUS,
+            lambda F: Retraction(
+                start=Apart(10e-6),
+                moves=(Approach(speed=10e-6, to=AtForce(0.5 * F)), Dwell(duration=0.3)),
+                speed=100e-6,
+                stiffness=0.3 * F / GAP,
+            ),
+            None,
+        ),
+        (
+            1.0,
+            VISCOUS,
+            lambda F: Retraction(start=AtForce(0.3 * F), speed=30e-6),
+            Layer(thickness=2 * ALONG, base=Bonded(poisson_ratio=0.5)),
+        ),
+        (
+            1.0,
+            VISCOUS,
+            lambda F: Retraction(start=AtForce(0.3 * F), speed=30e-6),
+            Layer(thickness=2 * ALONG),
+        ),
+    ],
+    ids=["elastic", "power law", "spring, approach and dwell", "glued layer", "sliding layer"],
+)
+def test_a_sphere_pulls_off_as_one_of_revolution(tabor, material, test, body):
+    found, exact, unit = both(tabor, material, test, body=body)
+    assert found.pull_off_force / unit == pytest.approx(vt.pull_off_force(exact), rel=2e-3)
+    assert found.work_of_separation / (unit * GAP) == pytest.approx(
+        work_of_separation(exact), rel=4e-3
+    )
+    assert found.energy_residual < 1e-3
+    assert len(found.events) == len(exact.events)
+
+
+def test_a_dead_load_falls_after_the_same_time():
+    def test(F):
+        moves = (LoadTo(force=-1.3 * F, duration=0.05), Dwell(duration=10.0, hold="force"))
+        return Retraction(start=AtForce(0.3 * F), moves=moves, speed=None)
+
+    found, exact, _ = both(1.0, VISCOUS, test)
+    held = exact.events[-1].time * exact.problem.scales().time  # type: ignore[union-attr]
+    assert found.events[-1].time == pytest.approx(held, rel=1e-2)
+    assert found.events[-1].kind == "jump out of contact"
+
+
+def flat(pixels=8, body=None, **more):
+    test = Retraction(start=AtDepth(0.0), speed=1e-6)
+    # narrow: a wide one in tension is not stable and opens in waves
+    plane = HeightMap(np.zeros((pixels, pixels)), 2e-6, periodic=True)
+    return RoughProblem(
+        surface=plane,
+        material=ELASTIC,
+        traction=SOFT,
+        protocol=test,
+        body=body or HalfSpace(),
+        **more,
+    )
+
+
+def test_a_flat_map_on_a_half_space_has_the_strength_of_the_law():
+    found = pull(flat())
+    # the mean plane is held, so that nothing jumps and the curve is the law's
+    assert found.pull_off_stress == pytest.approx(SOFT.strength, rel=1e-3)
+    assert found.work_of_separation / found.nominal_area == pytest.approx(0.15, rel=2e-3)
+    assert found.area.max() == found.nominal_area
+
+
+def test_a_flat_map_on_a_layer_jumps_off_at_the_strength():
+    layer = Layer(thickness=1e-3)
+    found = pull(flat(body=layer))
+    assert found.pull_off_stress == pytest.approx(SOFT.strength, rel=5e-3)
+    assert found.events[-1].kind.startswith("jump")
+    # elongation of the layer at the strength, of E* = E/(1 - nu^2)
+    drawn = SOFT.strength * layer.thickness / ELASTIC.contact_modulus
+    at = found.depth[found.at_pull_off]
+    assert -at == pytest.approx(drawn + SOFT.edge_gap - GAP, rel=5e-3)
+
+
+def rough(surface=None, **more):
+    surface = surface or self_affine(32, 1e-5, hurst=0.8, rms_height=1.5e-6, seed=3, shortest=8e-5)
+    test = Retraction(start=AtForce(0.02 * SOFT.strength * surface.area), speed=20e-6)
+    given = {"material": VISCOUS, "traction": SOFT, "protocol": test} | more
+    return RoughProblem(surface=surface, **given)
+
+
+def test_shifted_turned_and_repeated_maps_answer_alike():
+    problem = rough()
+    first = pull(problem, estimate_error=False)
+    heights = problem.surface.heights
+    for same in (np.roll(heights, (5, 11), (0, 1)), heights.T, heights[::-1]):
+        moved = pull(rough(replace(problem.surface, heights=same)), estimate_error=False)
+        assert moved.pull_off_force == pytest.approx(first.pull_off_force, rel=1e-6)
+    twice = pull(
+        rough(replace(problem.surface, heights=np.tile(heights, (1, 2)))), estimate_error=False
+    )
+    assert twice.pull_off_force == pytest.approx(2 * first.pull_off_force, rel=1e-3)
+
+
+def test_a_rough_elastic_map_loses_energy_only_in_jumps():
+    found = pull(rough(material=ELASTIC), estimate_error=False)
+    assert found.heat[-1] == 0
+    assert found.events
+    assert found.jumps[-1] == pytest.approx(sum(event.energy for event in found.events), rel=0.05)
+    balance = found.work - (found.elastic - found.elastic[0])
+    balance = balance - (found.interface - found.interface[0]) - found.jumps
+    assert np.abs(balance).max() < 1e-3 * np.abs(found.work).max()
+
+
+def test_faster_pulls_of_a_rough_map_take_more():
+    slow, fast = (
+        pull(rough(protocol=Retraction(start=AtDepth(2e-6), speed=v)), estimate_error=False)
+        for v in (1e-6, 1e-3)
+    )
+    assert fast.pull_off_force > 1.5 * slow.pull_off_force
+
+
+def test_stated_errors_hold_against_a_better_accuracy():
+    problem = rough()
+    found, better = pull(problem), pull(problem, accuracy=2e-4, estimate_error=False)
+    away = abs(found.pull_off_force / better.pull_off_force - 1)
+    assert away < stated(found, "force") < 0.01
+    away = abs(found.work_of_separation / better.work_of_separation - 1)
+    assert away < stated(found, "work") < 0.02
+
+
+def test_maps_are_of_the_instants_that_they_name():
+    found = pull(rough(), estimate_error=False, maps=12)
+    assert 6 <= len(found.maps) <= 12
+    for each in (*found.maps, found.strongest):
+        total = float(each.pressure.sum()) * found.pixel**2
+        assert total == pytest.approx(each.force, abs=1e-3 * found.pull_off_force)
+    assert found.strongest.force == pytest.approx(-found.pull_off_force)
+    assert np.all(np.diff([each.time for each in found.maps]) > 0)
+
+
+def test_a_time_limit_returns_what_was_found(monkeypatch):
+    # on a clock that goes on by a hundredth of a second whenever somebody looks at it
+    monkeypatch.setattr("viscotack.clock.perf_counter", count(100.0, 0.01).__next__)
+    found = pull(rough(), time_limit=2.0)
+    assert found.status.startswith("stopped because the time limit")
+    assert len(found.force) > 1
+    with pytest.raises(InputError, match="have not separated"):
+        found.work_of_separation  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"surface": 3.0}, "must be a HeightMap"),
+        ({"traction": vt.LogarithmicAgeing.of(SOFT, reference_time=2.0, sensitivity=0.1)}, "ages"),
+        ({"protocol": Retraction(start=AtRadius(1e-5), speed=1e-6)}, "no contact radius"),
+        ({"surface": self_affine(32, 1e-7, hurst=0.8, rms_height=1e-6, seed=1)}, "rms slope"),
+        (
+            {"surface": sphere(32, 1e-5, radius=1e-2), "body": Layer(thickness=1e-3)},
+            "its side thick",
+        ),
+    ],
+)
+def test_what_is_not_computed_is_refused(change, words):
+    with pytest.raises(InputError, match=words):
+        replace(rough(), **change)
+
+
+def test_coarse_pixels_are_refused_unless_forced():
+    coarse = self_affine(32, 5e-5, hurst=0.8, rms_height=1.5e-6, seed=3, shortest=4e-4)
+    with pytest.raises(InputError, match="2 are needed, as with pixels of 1.13e-05 m"):
+        pull(rough(coarse))
+    found = pull(rough(coarse), force_coarse=True, estimate_error=False)
+    assert "pixels" in found.warnings[0]
