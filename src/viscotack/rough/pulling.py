@@ -26,9 +26,10 @@ from .problem import COARSE, COARSEST, FINE, RoughProblem
 from .result import FieldMap, RoughResult
 
 DEFAULT_ACCURACY = 2e-3
-# Relative error of the force by pixels per zone, measured on spheres (benchmarks/grid.py).
-_PIXELS = (0.8, 1.3, 1.75, 2.2, 2.7, 4.0)
-_ERRORS = (0.08, 0.03, 6e-3, 3e-3, 1.5e-3, 1e-3)
+# Largest relative error of the force by pixels per zone, measured on spheres (benchmarks/grid.py
+# pixels); that of an elastic solid, whose edge moves from pixel to pixel.
+_PIXELS = (1.0, 1.5, 2.0, 3.0, 4.0)
+_ERRORS = (0.12, 0.05, 0.02, 4.5e-3, 1.3e-3)
 # Ratio of the errors of the coarser run, and safety factors on its difference.
 _COARSER, _MARGIN = 4.0, {"force": 3.0, "work": 3.5}
 # Smallest error of the work over that of the force.
