@@ -33,6 +33,7 @@ def test_every_example_is_run_here():
         "studies",  # test_operations_page.py
         "window",  # test_window_file.py
         "array",  # test_array_file.py
+        "rough",  # test_rough_file.py
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",

@@ -41,6 +41,7 @@ FILES = [
     *(ROOT / "examples").glob("from_toml/*.toml"),
     *(ROOT / "examples").glob("window/*.toml"),
     *(ROOT / "examples").glob("array/*.toml"),
+    *(ROOT / "examples").glob("rough/*.toml"),
     ROOT / "examples/own/plan.toml",
 ]
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
@@ -96,6 +97,7 @@ NOT_DRAWN = {
     "simulate": [{"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"}],
     "sweep": [SWEEP],
     "array": [{"file": "wafer_pad.toml", "accuracy": 0.01}],
+    "rough": [{"file": "bumps.toml", "accuracy": 0.02}],
     "window": [{"file": "kinetic_stamp.toml", "simulate": True}],
 }
 

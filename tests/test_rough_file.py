@@ -1,0 +1,203 @@
+"""Rough surfaces in files: through all front ends, outputs, and what is refused."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from front_ends import Http, Question, through_all
+from viscotack.app.cli import application
+from viscotack.errors import InputError
+from viscotack.operations import ask
+from viscotack.rough import read_rough
+from viscotack.surfaces import (
+    HeightMap,
+    bumps,
+    pillars,
+    read_map,
+    roughness,
+    self_affine,
+    sphere,
+    write_map,
+)
+
+EXAMPLES = Path(__file__).parents[1] / "examples" / "rough"
+SMALL = """
+[surface]
+file = "map.csv"
+pixel = "10 um"
+height_unit = "1 um"
+level = true
+
+[material]
+model = "elastic"
+rubbery_modulus = "0.75 MPa"
+poisson_ratio = 0.5
+
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "100 mJ/m^2"
+equilibrium_gap = "1.5 um"
+
+[protocol]
+preload_depth = "1 um"
+speed = "20 um/s"
+"""
+LAYER = '[layer]\nthickness = "1 mm"\nbase = "frictionless"\n[material]'
+
+
+@pytest.fixture
+def small(tmp_path, monkeypatch):
+    """Return a file with a map of 16 x 16 heights beside it, in a folder to work in."""
+    monkeypatch.chdir(tmp_path)
+    x = np.linspace(-1, 1, 16)
+    heights = 2 - 2 * np.add.outer(x**2, x**2) + 3 * x
+    lines = ["# micrometres", *(",".join(f"{h:.6f}" for h in row) for row in heights)]
+    Path("map.csv").write_text("\n".join(lines))
+    path = Path("small.toml")
+    path.write_text(SMALL)
+    return path
+
+
+def test_all_front_ends_answer_alike(small):
+    client = Http()
+    try:
+        found = through_all(Question("rough", {"file": "small.toml"}), client)
+    finally:
+        client.close()
+    record = found["Python"].record
+    assert record["pull_off_force_N"] > 0
+    assert record["status"].startswith("jumped")
+    for other in found.values():
+        assert other.record == record
+
+
+def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
+    line = ["rough", "small.toml", "--csv", "f.csv", "--maps", "m.npz", "--plot", "a.svg"]
+    done = CliRunner().invoke(application(), [*line, "--film", "a.gif", "--moments", "6"])
+    assert done.exit_code == 0, done.output
+    assert "pull-off force" in done.output
+    rows = list(csv.DictReader(Path("f.csv").read_text().splitlines()))
+    assert float(rows[-1]["contact_area_m2"]) == 0
+    with np.load("m.npz") as maps:
+        assert maps["map_gap_m"].shape[1:] == (16, 16)
+        assert 3 <= len(maps["map_gap_m"]) <= 6
+        force = -json.loads(str(maps["summary"]))["pull_off_force_N"]
+        assert maps["force_N"].min() == pytest.approx(force)
+    assert Path("a.svg").stat().st_size > 5000
+    assert Path("a.gif").read_bytes()[:6] == b"GIF89a"
+
+
+def test_the_examples_are_read_and_bumps_pull_off():
+    assert read_rough(EXAMPLES / "rough_rubber.toml").zone.pixels > 1.5
+    record = ask("rough", file=str(EXAMPLES / "bumps.toml"), accuracy=0.01).record()
+    assert record["status"].startswith("detached")
+    assert record["patches_at_pull_off"] <= 9
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('file = "map.csv"', 'kind = "cones"', "kind must be one of sphere, self-affine"),
+        ('pixel = "10 um"', "", "pixel is missing"),
+        ('pixel = "10 um"', 'pixel = "10 um"\ncolour = 1', "unknown key 'colour'"),
+        ("level = true", "level = 1", "level must be true or false"),
+        ("level = true", "periodic = true\nlevel = true", "neither tilt nor curvature"),
+        ('preload_depth = "1 um"', 'preload_radius = "1 um"', "no contact radius"),
+        ("[surface]", "[sphere]\nradius = 1\n[surface]", "unknown table 'sphere'"),
+        (
+            'speed = "20 um/s"',
+            'speed = "20 um/s"\n[layer]\nthickness = "1 mm"\nbase = "frictionless"',
+            "its side thick",
+        ),
+    ],
+)
+def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
+    assert old in SMALL
+    small.write_text(SMALL.replace(old, new))
+    with pytest.raises(InputError, match=words):
+        read_rough(small)
+
+
+def test_a_map_that_is_too_coarse_is_refused_unless_forced(small):
+    small.write_text(SMALL.replace('pixel = "10 um"', 'pixel = "60 um"'))
+    with pytest.raises(InputError, match="2 are needed"):
+        ask("rough", file="small.toml")
+    answer = ask("rough", file="small.toml", force=True)
+    assert "pixels" in answer.notes[0]
+
+
+def test_maps_are_written_and_read_alike(tmp_path):
+    surface = self_affine(16, 1e-6, hurst=0.5, rms_height=1e-7, seed=1)
+    path = tmp_path / "map.npy"
+    write_map(surface, path)
+    again = read_map(path, pixel=1e-6, periodic=True)
+    assert np.array_equal(again.heights, surface.heights)
+    text = tmp_path / "map.txt"
+    np.savetxt(text, surface.heights * 1e9, delimiter="\t")
+    again = read_map(text, pixel=1e-6, unit=1e-9)
+    assert again.heights == pytest.approx(surface.heights, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("a.csv", b"1,2\n3\n", "line 2 has 1 numbers, and the first row 2"),
+        ("a.csv", b"1,2\n3,x\n", "line 2: could not convert"),
+        ("a.csv", b"\n# nothing\n", "it has no numbers"),
+        ("a.csv", b"1 2\n3 4\n", "8 to 4096 pixels"),
+        ("a.npy", b"no array", "it is no array of NumPy"),
+    ],
+)
+def test_a_damaged_map_is_refused(tmp_path, name, content, words):
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=words):
+        read_map(path, pixel=1e-6)
+
+
+def test_an_array_with_a_false_size_is_refused_before_it_takes_memory(tmp_path):
+    path = tmp_path / "a.npy"
+    np.save(path, np.zeros((16, 16)))
+    whole = path.read_bytes()
+    path.write_bytes(whole.replace(b"(16, 16)", b"(4000, 4)"))
+    with pytest.raises(InputError, match="cut off, or longer"):
+        read_map(path, pixel=1e-6)
+    path.write_bytes(whole[:-8])
+    with pytest.raises(InputError, match="cut off, or longer"):
+        read_map(path, pixel=1e-6)
+    np.save(path, np.array([[None] * 8] * 8), allow_pickle=True)
+    with pytest.raises(InputError, match="two dimensions"):
+        read_map(path, pixel=1e-6)
+
+
+def test_statistics_of_a_spectrum_are_those_asked_for():
+    found = self_affine(256, 1e-6, hurst=0.7, rms_height=2e-7, seed=5, shortest=8e-6)
+    spread = roughness(found)
+    assert spread.rms_height == pytest.approx(2e-7, rel=1e-12)
+    # Parseval: rms values are sums over the spectrum
+    inside = (spread.wave_number > 1e5) & (spread.wave_number < 7e5)
+    q, C = spread.wave_number[inside], spread.spectrum[inside]
+    slope = np.polyfit(np.log(q), np.log(C), 1)[0]
+    assert slope == pytest.approx(-2 * 1.7, abs=0.15)
+
+
+def test_levelling_removes_tilt_and_curvature():
+    cap = sphere(32, 1e-6, radius=1e-3)
+    ramp = HeightMap(1e-7 * np.add.outer(np.arange(32), 2 * np.arange(32)), 1e-6)
+    flat = (cap + ramp).levelled(curvature=True)
+    assert np.abs(flat.heights).max() < 1e-18
+    assert roughness(cap).rms_curvature == pytest.approx(1e3, rel=1e-6)
+
+
+def test_bumps_and_pillars_repeat():
+    made = bumps(32, 1e-6, radius=2e-5, spacing=8e-6, height=1e-6)
+    assert made.heights[:8] == pytest.approx(made.heights[8:16], abs=1e-18)
+    assert made.heights == pytest.approx(made.heights.T, abs=1e-18)
+    tops = pillars(32, 1e-6, radius=2e-6, spacing=8e-6, height=1e-6)
+    assert np.unique(tops.heights).tolist() == [0.0, 1e-6]
+    with pytest.raises(InputError, match="multiple of the spacing"):
+        pillars(32, 1e-6, radius=2e-6, spacing=7e-6, height=1e-6)
