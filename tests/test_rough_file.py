@@ -46,6 +46,15 @@ equilibrium_gap = "1.5 um"
 preload_depth = "1 um"
 speed = "20 um/s"
 """
+MAP = 'file = "map.csv"\npixel = "10 um"\nheight_unit = "1 um"\nlevel = true'
+BUMPS = """
+kind = "bumps"
+pixels = 16
+pixel = "10 um"
+radius = "200 um"
+spacing = "80 um"
+height = "5 um"
+"""
 LAYER = '[layer]\nthickness = "1 mm"\nbase = "frictionless"\n[material]'
 
 
@@ -65,12 +74,17 @@ def small(tmp_path, monkeypatch):
 def test_all_front_ends_answer_alike(small):
     client = Http()
     try:
+        unsent = through_all(Question("rough", {"file": "small.toml"}), client)
+        small.write_text(SMALL.replace(MAP, BUMPS))
         found = through_all(Question("rough", {"file": "small.toml"}), client)
     finally:
         client.close()
+    # a file that a file names must be sent with it
+    assert unsent["Python"].record == unsent["command line"].record == unsent["study"].record
+    assert "no file 'map.csv' was sent" in unsent["HTTP"].refused
     record = found["Python"].record
     assert record["pull_off_force_N"] > 0
-    assert record["status"].startswith("jumped")
+    assert record["status"].startswith(("detached", "jumped"))
     for other in found.values():
         assert other.record == record
 
