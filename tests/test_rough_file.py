@@ -2,6 +2,7 @@
 
 import csv
 import json
+import runpy
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +111,18 @@ def test_the_examples_are_read_and_bumps_pull_off():
     record = ask("rough", file=str(EXAMPLES / "bumps.toml"), accuracy=0.01).record()
     assert record["status"].startswith("detached")
     assert record["patches_at_pull_off"] <= 9
+
+
+@pytest.mark.slow
+def test_a_stiff_rubber_loses_its_grip_on_a_rough_sphere_first(tmp_path):
+    picture = tmp_path / "why.png"
+    example = runpy.run_path(str(EXAMPLES / "why_not_sticky.py"))
+    forces = example["main"](picture, heights=(0.0, 4e-6), accuracy=0.02)
+    kept = {name: rough / smooth for name, (smooth, rough) in forces.items()}
+    assert kept["0.75 MPa", "10 um/s"] > 0.6 > 0.3 > kept["3 MPa", "10 um/s"]
+    # a fast pull gives a part of it back
+    assert kept["3 MPa", "1 mm/s"] > 1.5 * kept["3 MPa", "10 um/s"]
+    assert picture.stat().st_size > 10_000
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ class OfRough(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Simulate the test, telling ``share``."""
         from viscotack.pictures.rough import draw_rough, film_of_pull
-        from viscotack.rough import pull, read_rough
+        from viscotack.rough import pull, read_rough, stickiness
         from viscotack.surfaces import roughness
 
         from .parts.tables import rows_as_csv
@@ -77,12 +77,15 @@ class OfRough(Operation):
             force_coarse=self.force,
             progress=lambda share: caller.tell({"share": share}),
         )
-        spread = roughness(problem.surface)
+        spread, measures = roughness(problem.surface), stickiness(problem)
         about = {
             "rms_height_m": spread.rms_height,
             "rms_slope": spread.rms_slope,
             "rms_curvature_per_m": spread.rms_curvature,
             "pixels_per_zone": problem.zone.pixels,
+            "full_contact_energy_over_work": measures.full_contact,
+            "full_contact_energy_over_work_fast": measures.full_contact_fast,
+            "fuller_tabor": measures.fuller_tabor,
         }
         return Answer(
             found,
@@ -111,6 +114,10 @@ def _words(found: Any, about: dict[str, float]) -> str:
     lines = [
         f"surface: rms height {readable(about['rms_height_m'], 'm')}, rms slope "
         f"{about['rms_slope']:.3g}, {about['pixels_per_zone']:.2g} pixels in a zone at an edge",
+        f"energy of full contact over the work of adhesion: "
+        f"{about['full_contact_energy_over_work']:.3g} slow, "
+        f"{about['full_contact_energy_over_work_fast']:.3g} fast; Fuller-Tabor parameter "
+        f"{about['fuller_tabor']:.3g}",
         f"pull-off force: {readable(found.pull_off_force, 'N')}{within('force')}, a stress of "
         f"{readable(found.pull_off_stress, 'Pa')}",
         f"there: depth {readable(float(found.depth[at]), 'm')}, {share:.3g} % of the map in "
