@@ -2,7 +2,7 @@
 
 python benchmarks/grid.py spheres           # forces, works and processor time of 22 spheres
 python benchmarks/grid.py pixels            # errors of the force by pixels per zone
-python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres and rough maps
+python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres
 python benchmarks/grid.py random --count 50 # drawn problems: endings, residuals and times
 python benchmarks/grid.py size              # time and memory by the number of pixels
 """
@@ -11,10 +11,12 @@ import argparse
 import resource
 import sys
 import traceback
+from dataclasses import replace
 from itertools import product
 from time import process_time
 
 import numpy as np
+from scipy.signal import resample
 
 import viscotack as vt
 from viscotack.errors import InputError
@@ -221,6 +223,48 @@ def trust(given):
         print(f"{name}: {np.mean(found):.0%} of {len(found)} within the stated error")
 
 
+def finer(surface):
+    """Return a periodic map with few waves on pixels half as large, exactly."""
+    fine = resample(
+        resample(surface.heights, 2 * len(surface.heights), axis=0),
+        2 * len(surface.heights[0]),
+        axis=1,
+    )
+    return replace(surface, heights=fine, pixel=surface.pixel / 2)
+
+
+def rough(given):
+    """Compare stated errors of drawn rough maps with pixels half as large and finer steps."""
+    rng = np.random.default_rng(given.seed)
+    inside = {"force": [], "work": []}
+    while len(inside["force"]) < given.count:
+        try:
+            problem = drawn(rng, given.pixels)
+        except InputError:
+            continue
+        if not problem.surface.periodic:
+            continue
+        found = pull(problem, time_limit=given.limit)
+        fine = replace(problem, surface=finer(problem.surface))
+        better = pull(fine, accuracy=5e-4, estimate_error=False, time_limit=4 * given.limit)
+        if any(each.status.startswith("stopped") for each in (found, better)):
+            print(f"{found.status}; {better.status}", flush=True)
+            continue
+        stated = found.error_estimate or {}
+        force = found.pull_off_force / better.pull_off_force - 1
+        work = found.work_of_separation / better.work_of_separation - 1
+        for name, value in (("force", force), ("work", work)):
+            inside[name].append(abs(value) <= stated[name])
+        print(
+            f"k {problem.material.modulus_ratio:.3g}, {problem.zone.pixels:.2f} px, "
+            f"{len(found.events)} jumps: force {100 * force:+.2f} of {100 * stated['force']:.2f} %,"
+            f" work {100 * work:+.2f} of {100 * stated['work']:.2f} %",
+            flush=True,
+        )
+    for name, found in inside.items():
+        print(f"{name}: {np.mean(found):.0%} of {len(found)} within the stated error")
+
+
 def size(given):
     """Show processor time and memory of one pull by the number of pixels."""
     print("pixels  CPU s  s per inner iteration  peak memory MB")
@@ -253,7 +297,7 @@ def size(given):
 def main():
     """Run one part."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("part", choices=["spheres", "pixels", "trust", "random", "size"])
+    parser.add_argument("part", choices=["spheres", "pixels", "trust", "rough", "random", "size"])
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--pixels", type=int, default=64)
