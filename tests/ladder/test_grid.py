@@ -184,9 +184,9 @@ def test_stated_errors_hold_against_a_better_accuracy():
     problem = rough()
     found, better = pull(problem), pull(problem, accuracy=2e-4, estimate_error=False)
     away = abs(found.pull_off_force / better.pull_off_force - 1)
-    assert away < stated(found, "force") < 0.01
+    assert away < stated(found, "force") < 0.03
     away = abs(found.work_of_separation / better.work_of_separation - 1)
-    assert away < stated(found, "work") < 0.02
+    assert away < stated(found, "work") < 0.06
 
 
 def test_maps_are_of_the_instants_that_they_name():
