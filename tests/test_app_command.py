@@ -15,6 +15,7 @@ from app_server import running
 from command_line import exit_status
 from processes import children, lives, until
 from viscotack.app.cli.page import _query, _token
+from viscotack.errors import install_command
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
 
@@ -46,7 +47,8 @@ def test_a_missing_library_is_said_in_words(monkeypatch, capsys):
 
     monkeypatch.setattr(builtins, "__import__", without)
     assert exit_status(["app", "--no-browser"]) == 2
-    assert "need uvicorn; install it: pip install viscotack[app]" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"need uvicorn; install it with: {install_command('app')}" in " ".join(said.split())
 
 
 def test_a_port_that_is_taken_is_said_in_words(capsys):

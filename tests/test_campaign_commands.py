@@ -10,6 +10,7 @@ from campaign_work import InlineCrew, employ, picky, plan_of
 from command_line import exit_status
 from viscotack.campaign import CaseSettings, Store, run
 from viscotack.campaign.running import Progress
+from viscotack.errors import install_command
 from viscotack.files.lock import locked
 from viscotack.operations import operation
 from viscotack.operations.campaign import _progress_words
@@ -215,9 +216,9 @@ def test_a_folder_in_use_is_refused(cases, tmp_path, capsys):
 def test_a_missing_extra_is_named(cases, tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "distributed", None)
     arguments = ["run", cases, "--out", tmp_path / "study", "--scheduler", "tcp://localhost:1"]
-    assert "pip install 'viscotack[cluster]'" in wrong(capsys, *arguments)
+    assert install_command("cluster") in wrong(capsys, *arguments)
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    assert "pip install 'viscotack[campaign]'" in wrong(capsys, *arguments)
+    assert install_command("campaign") in wrong(capsys, *arguments)
 
 
 def test_the_commands_explain_themselves(capsys):

@@ -196,7 +196,7 @@ def test_a_surrogate_of_another_contact_is_refused(tmp_path):
 
 def test_without_onnx_the_error_states_what_to_install(surrogate, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "onnx", None)
-    with pytest.raises(ModuleNotFoundError, match=r"viscotack\[onnx\]"):
+    with pytest.raises(ModuleNotFoundError, match=r"pip install .*\[onnx\]'"):
         export(surrogate, tmp_path / "tack.onnx")
 
 

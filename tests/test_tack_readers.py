@@ -223,7 +223,7 @@ def test_files_that_this_package_reads_itself_are_not_given_to_afmformats(tmp_pa
 
 def test_without_afmformats_the_error_states_how_to_install_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "afmformats", None)
-    with pytest.raises(InputError, match=r"map.jpk-qi-data: .*pip install viscotack\[afm\]"):
+    with pytest.raises(InputError, match=r"map.jpk-qi-data: .*\[afm\]'"):
         read(tmp_path, tack_files.jpk(WHOLE), "map.jpk-qi-data")
     # it does not hide the others
     (tmp_path / "plain.csv").write_bytes(PLAIN)

@@ -1,5 +1,7 @@
 """Exceptions for invalid input, as opposed to defects of the package."""
 
+from pathlib import Path
+
 # Message for numbers that overflow or divide by zero, such as 1e300 squared.
 TOO_LARGE = "a number is too large or too small to compute with; check its unit"
 
@@ -18,3 +20,42 @@ class NotInstalled(InputError, ModuleNotFoundError):
 
 class OutOfRange(InputError):
     """A problem outside the range of a theory or surrogate; the message names the quantity."""
+
+
+def install_command(extra: str) -> str:
+    """Command that installs an extra, a group of optional libraries, beside this package.
+
+    Parameters
+    ----------
+    extra : str
+        Name of the extra, such as "lab".
+
+    Returns
+    -------
+    str
+        For a package installed from PyPI or a wheel ``python -m pip install 'viscotack[lab]'``;
+        for an editable installation the command with the path of the checkout, because the name
+        alone would replace the checkout by a released version.
+    """
+    checkout = _checkout()
+    if checkout is None:
+        return f"python -m pip install 'viscotack[{extra}]'"
+    place = "." if Path.cwd() == checkout else checkout
+    return f"python -m pip install -e '{place}[{extra}]'"
+
+
+def _checkout() -> Path | None:
+    """Folder of an editable installation (PEP 610), or None."""
+    # imported here: a command that needs no other library starts sooner without them
+    import json
+    from importlib.metadata import PackageNotFoundError, distribution
+    from urllib.parse import urlparse
+    from urllib.request import url2pathname
+
+    try:
+        origin = json.loads(distribution("viscotack").read_text("direct_url.json") or "{}")
+    except PackageNotFoundError:
+        return None
+    if not origin.get("dir_info", {}).get("editable"):
+        return None
+    return Path(url2pathname(urlparse(origin["url"]).path))

@@ -14,7 +14,7 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any
 
-from viscotack.errors import InputError, NotInstalled
+from viscotack.errors import InputError, NotInstalled, install_command
 from viscotack.files.bounded import LARGEST_TEXT, read_bytes
 from viscotack.pool import NoWorker
 
@@ -323,7 +323,7 @@ def check_installed() -> None:
         import distributed  # noqa: F401
     except ImportError:
         raise NotInstalled(
-            "a cluster needs Dask distributed; install it with pip install 'viscotack[cluster]'"
+            f"a cluster needs Dask distributed; install it with: {install_command('cluster')}"
         ) from None
 
 

@@ -6,7 +6,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from viscotack.errors import InputError, NotInstalled
+from viscotack.errors import InputError, NotInstalled, install_command
 from viscotack.files.arrow import arrow
 from viscotack.problem.older import upgraded_output
 from viscotack.version import __version__
@@ -180,7 +180,7 @@ def _folder() -> Path:
     if found is None or found.origin is None:
         raise NotInstalled(
             f"the datasets are in the distribution {_DISTRIBUTION}, which is not installed; "
-            "install it with pip install 'viscotack[data]', or from a checkout with "
+            f"install it with: {install_command('data')}, or from a checkout with "
             "pip install ./data"
         )
     return Path(found.origin).parent

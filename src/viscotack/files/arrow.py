@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from viscotack.errors import NotInstalled
+from viscotack.errors import NotInstalled, install_command
 
 
 def import_arrow(given: None) -> None:
@@ -30,7 +30,7 @@ def arrow(stored: str = "campaigns are stored") -> Any:
         import pyarrow.parquet
     except ImportError:
         raise NotInstalled(
-            f"{stored} in Parquet, which needs pyarrow; install it with "
-            "pip install 'viscotack[campaign]'"
+            f"{stored} in Parquet, which needs pyarrow; install it with: "
+            f"{install_command('campaign')}"
         ) from None
     return pyarrow

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 
 from .objective import Best, Objective, Parameter
 
@@ -120,7 +120,7 @@ def _sampled(objective: Objective, best: Best, steps: int, seed: int) -> tuple[A
         import emcee
     except ImportError as error:
         raise InputError(
-            "sampling needs emcee; install it with: pip install 'viscotack[lab]'"
+            f"sampling needs emcee; install it with: {install_command('lab')}"
         ) from error
 
     parameters = objective.parameters

@@ -11,6 +11,8 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
+from viscotack.errors import install_command
+
 from .lab_file import LabFile, refuse_huge
 from .numbers import is_number
 from .rheocompass_layout import begins_interval, intervals
@@ -121,7 +123,7 @@ def sheets(file: LabFile) -> dict[str, Cells]:
         return dict(_old(file.content) if old else _new(file.content))
     except ImportError as error:
         raise ImportError(
-            f"workbooks need {error.name}, which is not installed: pip install viscotack[lab]"
+            f"workbooks need {error.name}; install it with: {install_command('lab')}"
         ) from None
     except MemoryError:
         raise

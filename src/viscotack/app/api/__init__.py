@@ -5,7 +5,7 @@ from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
 from viscotack.app.engine.jobs import Engine
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -86,6 +86,6 @@ def _fastapi() -> type["FastAPI"]:
         from fastapi import FastAPI
     except ImportError as error:
         raise InputError(
-            f"the page and the API need {error.name}; install it: pip install viscotack[app]"
+            f"the page and the API need {error.name}; install it with: {install_command('app')}"
         ) from None
     return FastAPI

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 
 from .commands import With, application, wrong_input
 
@@ -82,7 +82,7 @@ def _uvicorn() -> Any:
         import uvicorn
     except ImportError as error:
         raise InputError(
-            f"the page and the API need {error.name}; install it: pip install viscotack[app]"
+            f"the page and the API need {error.name}; install it with: {install_command('app')}"
         ) from None
     return uvicorn
 

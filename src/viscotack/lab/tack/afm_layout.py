@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 from viscotack.lab.lab_file import LabFile, refuse_huge
 
 from .grid import Given, time_by_speed
@@ -61,7 +61,7 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
         library = import_module("afmformats")
     except ImportError:
         raise file.error(
-            "this format needs afmformats, which is not installed: pip install viscotack[afm]"
+            f"this format needs afmformats; install it with: {install_command('afm')}"
         ) from None
     if file.content.startswith(b"PK"):
         try:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 from viscotack.units import prefixed
 
 from .tables import Writer
@@ -47,7 +47,7 @@ def _content(sheets: Mapping[str, Rows]) -> bytes:
         from openpyxl.styles import Font
     except ImportError as error:
         raise InputError(
-            "a workbook needs openpyxl; install it with: pip install 'viscotack[lab]', or write "
+            f"a workbook needs openpyxl; install it with: {install_command('lab')}, or write "
             "a CSV table"
         ) from error
     book = Workbook()

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
@@ -152,6 +152,6 @@ def _onnx() -> Any:
         import onnx
     except ImportError:
         raise ModuleNotFoundError(
-            "the export needs onnx; install it with pip install 'viscotack[onnx]'"
+            f"the export needs onnx; install it with: {install_command('onnx')}"
         ) from None
     return onnx

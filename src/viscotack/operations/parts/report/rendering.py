@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 from viscotack.geometry import Layer
 from viscotack.identify import RateForecast
 from viscotack.identify.speed_table import SpeedTable, jkr_work, speed_table
@@ -45,7 +45,7 @@ def page(found: Answer, forecast: RateForecast) -> str:
         from jinja2 import Environment, FileSystemLoader, StrictUndefined
     except ImportError as error:
         raise InputError(
-            "a report needs Jinja2; install it with: pip install 'viscotack[lab]'"
+            f"a report needs Jinja2; install it with: {install_command('lab')}"
         ) from error
     from viscotack.pictures.identify import draw_fitted_curves, draw_posterior, draw_rate_series
     from viscotack.pictures.tack import draw_tests
