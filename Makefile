@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz fuzz-files farm \
-	verification lock sbom audit clean
+	verification lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -110,6 +110,12 @@ sbom: $(VENV)/.installed
 	$(INSTALL) "cyclonedx-bom>=4.4"
 	mkdir -p out
 	$(BIN)/cyclonedx-py environment --pyproject pyproject.toml --output-file out/sbom.json $(BIN)/python
+
+# The release folder out/release of the last commit, built twice: fails where the bytes differ. URL is where
+# the files of the release can be read, for the links of the README on an index. Two minutes.
+release: sbom
+	$(INSTALL) --editable ".[release]"
+	$(BIN)/python -m release --sbom out/sbom.json $(URL:%=--url %)
 
 audit: $(VENV)/.installed
 	$(INSTALL) "pip-audit>=2.7"

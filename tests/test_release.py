@@ -1,0 +1,137 @@
+"""The release: current metadata, archives with the same bytes, a folder to install from."""
+
+import gzip
+import io
+import re
+import subprocess
+import sys
+import tarfile
+import venv
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from release.building import settled
+from release.metadata import CODEMETA, ROOT, codemeta, notes, project, readme_for_index, recipe
+from viscotack import __version__
+
+RUN = ["--tabor", "3.24", "--modulus-ratio", "0.1", "--exponent", "0.8", "--preload", "73"]
+# Quick tests of the sdist that need the examples, the pages and the data sets.
+SHORT = ["tests/test_package_data.py", "tests/test_examples.py", "tests/test_release.py"]
+
+
+def test_codemeta_is_that_of_the_project():
+    assert CODEMETA.read_text() == codemeta(), "run: python -m release --codemeta"
+
+
+def test_the_citation_has_version_licence_and_title_of_the_project():
+    entry = (ROOT / "CITATION.cff").read_text()
+    told = project()
+    assert f"\nversion: {__version__}\n" in entry and told["version"] == __version__
+    assert f"\nlicense: {told['license']}\n" in entry
+    assert f'\ntitle: "{told["name"]}: ' in entry
+    keywords = entry.partition("keywords:\n")[2].partition("references:")[0]
+    assert set(re.findall(r"- (.*)", keywords)) <= set(told["keywords"])
+
+
+def test_the_recipe_has_every_dependency_and_the_sdist():
+    text = recipe("viscotack-9.tar.gz", "ab12")
+    run = text.split("  run:\n")[1].split("tests:")[0]
+    names = re.findall(r"^    - ([\w-]+)", run, re.MULTILINE)
+    wanted = [re.split(r"[^\w-]", line)[0] for line in project()["dependencies"]]
+    assert [name.removesuffix("-base") for name in names] == ["python", *wanted]
+    assert "path: viscotack-9.tar.gz\n  sha256: ab12\n" in text
+
+
+def test_notes_are_the_newest_section_of_the_changelog():
+    assert notes().startswith("## [Unreleased]") and notes().count("\n## ") == 0
+
+
+def test_the_readme_of_an_index_has_no_link_into_the_checkout():
+    text = "![lens](docs/lens.png)\n\nSee [this](docs/start.md#one) and [that](http://x.org/y)."
+    assert readme_for_index(text) == "See this and [that](http://x.org/y)."
+    absolute = readme_for_index(text, "http://x.org/v1/")
+    assert "![lens](http://x.org/v1/docs/lens.png)" in absolute
+    assert "[this](http://x.org/v1/docs/start.md#one)" in absolute
+    assert not re.findall(r"\]\((?!http)", readme_for_index((ROOT / "README.md").read_text()))
+
+
+def packed(names, time):
+    """Make a tar archive of small files, as a build at some time does."""
+    content = io.BytesIO()
+    with tarfile.open(fileobj=content, mode="w:gz") as archive:
+        for name in names:
+            member = tarfile.TarInfo(name)
+            member.size, member.mtime, member.uname = len(name), time, f"user {time}"
+            archive.addfile(member, io.BytesIO(name.encode()))
+    return content.getvalue()
+
+
+def test_archives_have_the_same_bytes_whenever_they_are_built():
+    one, other = packed(["b", "a"], 1_600_000_000), packed(["a", "b"], 1_700_000_000.5)
+    assert gzip.decompress(one) != gzip.decompress(other)
+    assert settled(one, 1_500_000_000) == settled(other, 1_500_000_000)
+    with tarfile.open(fileobj=io.BytesIO(settled(one, 1_500_000_000))) as archive:
+        assert [m.name for m in archive] == ["a", "b"]
+        assert archive.extractfile("b").read() == b"b"
+        assert {(m.mtime, m.uname) for m in archive} == {(1_500_000_000, "")}
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """Return a release folder of the last commit."""
+    if find_spec("build") is None:
+        pytest.fail("nothing to build with: pip install 'viscotack[release]'")
+    out = tmp_path_factory.mktemp("release") / "out"
+    subprocess.run([sys.executable, "-m", "release", "--out", out], cwd=ROOT, check=True)
+    return out
+
+
+@pytest.fixture(scope="session")
+def environment(tmp_path_factory):
+    """Return the Python of a fresh environment that has all libraries of this one but viscotack."""
+    place = tmp_path_factory.mktemp("environment")
+    venv.create(place / "venv", with_pip=True)
+    libraries = place / "libraries"
+    libraries.mkdir()
+    left_out = re.compile(r"viscotack|__editable__|pip\b|pip-|.*\.pth$|__pycache__")
+    for home in dict.fromkeys(path for path in sys.path if path.endswith("site-packages")):
+        for path in Path(home).iterdir():
+            link = libraries / path.name
+            if not (left_out.match(path.name) or link.exists()):
+                link.symlink_to(path)
+    site = next((place / "venv").glob("lib/python*/site-packages"))
+    (site / "libraries.pth").write_text(f"{libraries}\n")
+    return place / "venv/bin/python"
+
+
+@pytest.mark.outside
+def test_the_package_is_installed_from_the_folder(folder, environment, tmp_path):
+    """As docs/install.md states, with the libraries of this environment instead of an index."""
+    install = ["-m", "pip", "install", "--quiet", "--no-index", "--find-links", folder]
+    subprocess.run([environment, *install, "viscotack[app,campaign,data,lab]"], check=True)
+    where = "import viscotack; print(viscotack.__file__)"
+    said = subprocess.run(
+        [environment, "-c", where], cwd=tmp_path, check=True, capture_output=True, text=True
+    ).stdout
+    assert str(environment.parents[1]) in said
+    command = [environment.parent / "viscotack", "predict", "sphere", *RUN, "--rate", "316.23"]
+    said = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+    assert "7.3" in said
+    sets = "from viscotack import datasets; print(datasets.load('punch_faces').num_rows)"
+    done = subprocess.run([environment, "-c", sets], cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout == "174\n"
+
+
+@pytest.mark.outside
+def test_tests_of_the_sdist_run(folder, environment, tmp_path):
+    (sdist,) = folder.glob("*.tar.gz")
+    with tarfile.open(sdist) as archive:
+        archive.extractall(tmp_path, filter="data")
+    (source,) = tmp_path.iterdir()
+    test = [environment, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    quick = ["-m", "not slow and not outside"]
+    settings = {"PYTHONPATH": str(source / "src"), "PATH": "/usr/bin:/bin"}
+    for more in (["--collect-only", "-qq"], SHORT):
+        subprocess.run([*test, *quick, *more], cwd=source, env=settings, check=True)
