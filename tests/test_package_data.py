@@ -85,6 +85,7 @@ def test_data_sets_are_found_in_an_installed_distribution(tmp_path, monkeypatch)
 
 def test_without_data_sets_the_error_has_the_command_that_installs_them(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "_CHECKOUT", tmp_path / "no checkout")
+    monkeypatch.setattr(files, "find_spec", lambda name: None)
     wanted = rf"viscotack-data=={__version__}.*pip install .*\[data\]'"
     with pytest.raises(ModuleNotFoundError, match=wanted):
         datasets.load("thesis")
