@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz fuzz-files farm \
-	verification lock sbom release audit clean
+	verification docs docs-check lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -120,6 +120,15 @@ release: sbom
 audit: $(VENV)/.installed
 	$(INSTALL) "pip-audit>=2.7"
 	$(BIN)/pip-audit --disable-pip --no-deps --require-hashes --requirement requirements/dev.txt
+
+# The site in out/site, from every page and docstring; a warning is an error. Two minutes.
+docs: $(VENV)/.demo
+	$(INSTALL) --editable ".[docs]"
+	$(BIN)/python -m sphinx -q -W --keep-going -b html -c docs -d out/site-cache . out/site
+
+# Runs the commands whose output the pages show, and compares; WRITE=1 renews the pages. Two minutes.
+docs-check: $(VENV)/.installed
+	$(BIN)/python benchmarks/docs_check.py $(if $(WRITE),--write)
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

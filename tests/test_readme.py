@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from benchmarks import docs_check
+
 ROOT = Path(__file__).parents[1]
 REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
 PAGES = [
@@ -24,7 +26,7 @@ PAGES = [
 NOT_AT_HAND = ("tcp://", "tls://", "viscotack app")
 ASKS_A_SERVER = ROOT / "docs/api.md"
 # From rig files to a report takes half a minute, in the README and in docs/tack_tests.md alike.
-STUDY = ("viscotack identify rates", "viscotack forecast", "viscotack report")
+STUDY = docs_check.SLOW
 
 
 def name(page):
@@ -70,10 +72,7 @@ def studies():
 @pytest.fixture
 def anywhere(tmp_path, monkeypatch):
     """Stand in a folder that looks like the checkout, and may be written to."""
-    shutil.copytree(ROOT / "examples", tmp_path / "examples")
-    shutil.copy(ROOT / "examples" / "from_toml" / "lens.toml", tmp_path)
-    cases = "tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n2,0.1,0.8,5,10\n"
-    (tmp_path / "cases.csv").write_text(cases)
+    docs_check.stage(tmp_path)
     monkeypatch.chdir(tmp_path)
 
 
@@ -125,6 +124,47 @@ def test_studies_of_the_pages_run(anywhere):
     assert studies()
     for lines in studies():
         run(lines)
+
+
+SHOWING = [page for page in docs_check.PAGES if [*docs_check.sessions(page.read_text())]]
+
+
+@pytest.mark.parametrize("page", SHOWING, ids=name)
+def test_commands_print_what_the_pages_show(page, anywhere):
+    assert docs_check.stale(page, slow=False) == {}, "run: python benchmarks/docs_check.py --write"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", SHOWING, ids=name)
+def test_slow_commands_print_what_the_pages_show(page, anywhere):
+    if any(s.command.startswith(STUDY) for s in docs_check.sessions(page.read_text())):
+        assert docs_check.stale(page) == {}
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "same"),
+    [
+        ("force 4.665 mN, 182 steps", "force   4.6655 mN, 182 steps", True),
+        ("force 4.665 mN, 182 steps", "force 4.667 mN, 182 steps", False),
+        ("force 4.665 mN, 182 steps", "force 4.665 mN, 183 steps", False),
+        ("force 4.665 mN", "force 4.665 uN", False),
+        ("error 4.3e-04", "error 4.4e-04", True),
+        ("error 4.3e-04", "error 4.3e-03", False),
+        ("depth -1.8599", "depth 1.8599", False),
+    ],
+)
+def test_lines_agree_to_the_last_digit_shown(shown, printed, same):
+    assert docs_check.agrees(shown, printed) is same
+
+
+def test_a_stale_session_is_found_and_renewed(monkeypatch):
+    page = "Text 1.0\n```console\n$ viscotack x\na 1.2\n...\nz 3\n$ viscotack y\n```\n"
+    (session,) = docs_check.sessions(page)
+    assert docs_check.difference(session, ["a 1.2", "b", "c", "z 3"]) == ""
+    assert "1.5" in docs_check.difference(session, ["a 1.5", "b", "z 3"])
+    assert "lines" in docs_check.difference(session, ["a 1.2"])
+    fresh = docs_check.renewed(page, {session: ["a 1.5", "b", "z 4"]})
+    assert fresh == page.replace("1.2", "1.5").replace("z 3", "z 4")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
