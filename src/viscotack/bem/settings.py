@@ -51,7 +51,7 @@ class Settings:
     step_error : float
         Largest error of a linear load in a step, as displacement [range of the law].
     force_change : float
-        Largest change of the force in a step, relative to |force| + 1.5 pi R dg0.
+        Largest change of the force in a step, relative to its size + 1.5 pi R dg0.
     travel, first_travel : float
         Largest and first travel of the drive in a step [mu h0 + range of the law].
     imbalance : float

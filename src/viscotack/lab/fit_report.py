@@ -184,7 +184,7 @@ class FitReport:
 
     @property
     def median_error(self) -> float:
-        """Median of |fitted/measured - 1| over all numbers."""
+        """Median relative deviation of the fit from the data, over all numbers."""
         return float(np.median(np.abs(np.expm1(-self.residuals))))
 
     def band(self, at: npt.ArrayLike) -> tuple[Array, Array]:

@@ -97,7 +97,7 @@ class TabulatedSpectrum:
 
     @property
     def time_unit(self) -> float:
-        """Unit of time of dimensionless speeds [s]: one second."""
+        """Unit of time of dimensionless speeds, one second [s]."""
         return 1.0
 
     def creep(self, time: Values) -> float | npt.NDArray[np.float64]:

@@ -45,9 +45,9 @@ def crack_speed(rate: Values, *, tabor: Values) -> Number:
     ----------
     rate : array_like
         :math:`\hat r` by one of the three functions below, not negative.
-        tabor : array_like
-            Tabor number of the case. It has no effect; a ``UserWarning`` is issued if it differs
-            from the 3.24 of the fit by more than a quarter.
+    tabor : array_like
+        Tabor number of the case. It has no effect; a ``UserWarning`` is issued if it differs from
+        the 3.24 of the fit by more than a quarter.
 
     Examples
     --------

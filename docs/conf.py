@@ -1,0 +1,121 @@
+"""The site: every page of the checkout in its place, and the reference from the docstrings.
+
+`make docs` builds it. The root of the checkout is the source folder, so that the links between
+pages are the same in the checkout and on the site.
+"""
+
+import importlib
+import shutil
+import sys
+from pathlib import Path
+from types import ModuleType
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "src"))
+
+from viscotack.version import __version__  # noqa: E402
+
+project = "viscotack"
+author = "The viscotack developers"
+project_copyright = author
+version = release = __version__
+root_doc = "docs/index"
+include_patterns = [
+    "docs/*.md",
+    "docs/gallery/**.md",
+    "docs/reference/**.rst",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "replication/**.md",
+    "examples/**/README.md",
+    "tests/data/README.md",
+    "data/viscotack_data/README.md",
+]
+exclude_patterns = ["**/node_modules", ".*", "out", "build"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+]
+
+myst_enable_extensions = ["deflist"]
+myst_heading_anchors = 4
+# Blocks typed into a terminal are not highlighted as sessions: they have no prompt.
+highlight_language = "none"
+
+templates_path = [str(ROOT / "docs/templates")]
+autosummary_generate = True
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = False
+
+html_theme = "pydata_sphinx_theme"
+html_title = "viscotack"
+html_extra_path = ["site"]
+html_copy_source = False
+html_theme_options = {
+    "header_links_before_dropdown": 7,
+    "show_toc_level": 2,
+    "navigation_with_keys": False,
+    "show_prev_next": False,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+}
+
+
+def write_reference(app, config):
+    """Write the pages of the reference: the public names by module, in the order of data flow."""
+    import viscotack
+
+    folder = ROOT / "docs/reference"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    face = [(room, "viscotack", names) for room, names in viscotack._NAMES.items()]
+    pages = {"viscotack": face}
+    for room in viscotack._ROOMS:
+        module = importlib.import_module(f"viscotack.{room}")
+        pages[room] = list(_sections(module, set(viscotack._HOMES)))
+    for name, sections in pages.items():
+        title = name if name == "viscotack" else f"viscotack.{name}"
+        about = f".. automodule:: {title}\n   :no-members:\n"
+        told = "\n".join(_listed(*section) for section in sections)
+        (folder / f"{name}.rst").write_text(f"{title}\n{'=' * len(title)}\n\n{about}\n{told}")
+
+
+def _sections(module, elsewhere):
+    """Names of a room, then those of each of its public modules that the room exports."""
+    names = [n for n in module.__all__ if callable(getattr(module, n)) and n not in elsewhere]
+    if names:
+        yield "", module.__name__, names
+    for name in module.__all__:
+        inner = getattr(module, name)
+        if isinstance(inner, ModuleType):
+            own = [n for n, x in vars(inner).items() if not n.startswith("_") and _own(x, inner)]
+            if own:
+                yield inner.__name__, inner.__name__, own
+
+
+def _own(thing, module):
+    return getattr(thing, "__module__", None) == module.__name__
+
+
+def _listed(title, module, names):
+    heading = f"{title}\n{'-' * len(title)}\n\n" if title else ""
+    rows = "".join(f"   {name}\n" for name in names)
+    return (
+        f"{heading}.. currentmodule:: {module}\n\n.. autosummary::\n   :toctree: made\n\n{rows}\n"
+    )
+
+
+def leave_out(app, kind, name, member, skip, options):
+    """Whether to leave out a field of a named tuple: the docstring of its class has it."""
+    return True if type(member).__name__ == "_tuplegetter" else None
+
+
+def setup(app):
+    """Have the reference written before Sphinx looks for pages."""
+    app.connect("config-inited", write_reference)
+    app.connect("autodoc-skip-member", leave_out)
