@@ -76,10 +76,22 @@ def anywhere(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def test_readme_has_one_example_of_ten_lines_or_so(anywhere, capsys):
+def test_the_readme_has_one_short_example(anywhere, capsys):
     (example,) = blocks(ROOT / "README.md", "python")
-    assert len([line for line in example.splitlines() if line.strip()]) <= 13
+    assert len([line for line in example.splitlines() if line.strip()]) <= 8
     exec(compile(example, "README.md", "exec"), {})
+    stated = re.search(r"# ([\d.]+) mN", example)
+    assert stated and capsys.readouterr().out == f"pull-off force {stated[1]} mN\n"
+
+
+def test_the_readme_fits_on_a_screen():
+    lines = (ROOT / "README.md").read_text().splitlines()
+    assert len([line for line in lines if line.strip()]) < 60
+
+
+def test_first_steps_have_an_example_in_python(anywhere, capsys):
+    example = blocks(ROOT / "docs/start.md", "python")[0]
+    exec(compile(example, "start.md", "exec"), {})
     printed = capsys.readouterr().out
     stated = re.search(r"# ([\d.]+) mN; slowly, it is ([\d.]+) mN", example)
     assert stated and printed.endswith(f"pull-off force {stated[1]} mN\n")
