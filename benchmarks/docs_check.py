@@ -20,7 +20,6 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 # Half a minute each, and what needs their files.
 SLOW = ("viscotack identify rates", "viscotack forecast", "viscotack report")
-CASES = "tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n2,0.1,0.8,5,10\n"
 # What another processor may change, relative.
 PROCESSORS = 1e-5
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -38,7 +37,6 @@ def stage(folder: Path) -> None:
     """Fill a folder so that it looks like the checkout to the commands of the pages."""
     shutil.copytree(ROOT / "examples", folder / "examples")
     shutil.copy(ROOT / "examples/from_toml/lens.toml", folder)
-    (folder / "cases.csv").write_text(CASES)
 
 
 def sessions(text: str) -> Iterator[Session]:

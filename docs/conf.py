@@ -26,6 +26,8 @@ include_patterns = [
     "docs/reference/**.rst",
     "CONTRIBUTING.md",
     "CHANGELOG.md",
+    "CODE_OF_CONDUCT.md",
+    "SECURITY.md",
     "replication/**.md",
     "examples/**/README.md",
     "tests/data/README.md",

@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[1]
 REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
 PAGES = [
     ROOT / "README.md",
-    ROOT / "CONTRIBUTING.md",
+    *(ROOT / f"{word}.md" for word in ("CONTRIBUTING", "CODE_OF_CONDUCT", "SECURITY")),
     *sorted((ROOT / "docs").glob("*.md")),
     *REPLICATION,
 ]
@@ -209,6 +209,18 @@ def test_links_lead_somewhere(page):
         if not target.startswith("http"):
             path = (page.parent / target).resolve()
             assert path.exists(), f"{name(page)}: {target}"
+
+
+def test_every_page_is_in_the_navigation_of_the_site():
+    pages = {page.stem for page in (ROOT / "docs").glob("*.md")}
+    listed = [
+        entry
+        for page in (ROOT / "docs").glob("*.md")
+        for block in re.findall(r"```{toctree}\n(.*?)```", page.read_text(), re.DOTALL)
+        for entry in re.findall(r"(?m)^([\w./-]+)$", block)
+    ]
+    assert len(listed) == len(set(listed))
+    assert set(listed) >= pages - {"index"}
 
 
 def test_picture_of_the_readme_is_small():
