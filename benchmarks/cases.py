@@ -53,7 +53,7 @@ REFINED = {
     "C: mu 1, n 0.4, k 0.01, depth 20, rate 10^3": (case(1.0, 0.01, 0.4, 20, 1e3), 8.3126),
     "D: mu 0.3, n 0.6, k 0.1, depth 10, rate 10^4": (case(0.3, 0.1, 0.6, 10, 1e4), 6.6754),
 } | {
-    f"standard solid, mu 3.24, k 0.1, rate {rate:g}": (
+    f"standard solid, mu 3.24, k 0.1, start at force 28.865, rate {rate:g}": (
         Groups(tabor=3.24, material=standard_solid(0.1), start=AtForce(28.865), rate=rate),
         force,
     )
