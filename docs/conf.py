@@ -62,6 +62,8 @@ html_theme_options = {
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
     "navigation_with_keys": False,
+    # without it every page has a menu of all others
+    "collapse_navigation": True,
     "show_prev_next": False,
     "footer_start": ["copyright"],
     "footer_end": [],
@@ -121,3 +123,6 @@ def setup(app):
     """Have the reference written before Sphinx looks for pages."""
     app.connect("config-inited", write_reference)
     app.connect("autodoc-skip-member", leave_out)
+    # the buttons of the theme's menu have no name for screen readers
+    label = 'for (const s of document.querySelectorAll("nav summary")) s.ariaLabel = "pages inside";'
+    app.add_js_file(None, body=f'addEventListener("DOMContentLoaded", () => {{ {label} }});')
