@@ -22,7 +22,6 @@ version = release = __version__
 root_doc = "docs/index"
 include_patterns = [
     "docs/*.md",
-    "docs/gallery/**.md",
     "docs/reference/**.rst",
     "CONTRIBUTING.md",
     "CHANGELOG.md",
@@ -124,5 +123,7 @@ def setup(app):
     app.connect("config-inited", write_reference)
     app.connect("autodoc-skip-member", leave_out)
     # the buttons of the theme's menu have no name for screen readers
-    label = 'for (const s of document.querySelectorAll("nav summary")) s.ariaLabel = "pages inside";'
+    label = (
+        'for (const s of document.querySelectorAll("nav summary")) s.ariaLabel = "pages inside";'
+    )
     app.add_js_file(None, body=f'addEventListener("DOMContentLoaded", () => {{ {label} }});')
