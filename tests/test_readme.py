@@ -223,6 +223,14 @@ def test_every_page_is_in_the_navigation_of_the_site():
     assert set(listed) >= pages - {"index"}
 
 
+def test_every_example_is_on_its_page():
+    text = (ROOT / "docs/examples.md").read_text()
+    kinds = [*ROOT.glob("examples/*.py"), *ROOT.glob("examples/own/**/*.py")]
+    kinds += [*ROOT.glob("examples/array/*.toml"), *ROOT.glob("examples/from_toml/*.toml")]
+    assert len(kinds) > 15
+    assert [path.name for path in kinds if f"{path.relative_to(ROOT)})" not in text] == []
+
+
 def test_picture_of_the_readme_is_small():
     assert (ROOT / "docs" / "pdms_lens.png").stat().st_size < 150_000
 
