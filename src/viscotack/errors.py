@@ -33,7 +33,7 @@ def install_command(extra: str) -> str:
     Returns
     -------
     str
-        For a package installed from PyPI or a wheel ``python -m pip install 'viscotack[lab]'``;
+        For a package installed from an index or a wheel ``python -m pip install 'viscotack[lab]'``;
         for an editable installation the command with the path of the checkout, because the name
         alone would replace the checkout by a released version.
     """
