@@ -213,6 +213,7 @@ def test_a_time_limit_returns_what_was_found(monkeypatch):
     ("change", "words"),
     [
         ({"surface": 3.0}, "must be a HeightMap"),
+        ({"surface": HeightMap(np.zeros((2049, 2048)), 1e-5)}, "up to 4,194,304"),
         ({"traction": vt.LogarithmicAgeing.of(SOFT, reference_time=2.0, sensitivity=0.1)}, "ages"),
         ({"protocol": Retraction(start=AtRadius(1e-5), speed=1e-6)}, "no contact radius"),
         ({"surface": self_affine(32, 1e-7, hurst=0.8, rms_height=1e-6, seed=1)}, "rms slope"),

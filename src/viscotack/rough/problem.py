@@ -31,6 +31,8 @@ from viscotack.traction import Traction, effective_range, has_rest
 _ZONE = 0.75
 # Largest rms slope of small strain, and fewest thicknesses of a layer across a free map.
 _STEEPEST, _FEWEST = 0.5, 2.0
+# Most pixels; each takes about 1 kB, and twice as many about three times as long.
+_MOST = 2048 * 2048
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
 # warning, the third is asked for.
 COARSEST, COARSE, FINE = 1.0, 1.5, 2.0
@@ -95,6 +97,11 @@ class RoughProblem:
             raise InputError(
                 f"surface must be a HeightMap, got {type(self.surface).__name__}; read one with "
                 "viscotack.surfaces.read_map"
+            )
+        if (many := self.surface.heights.size) > _MOST:
+            raise InputError(
+                f"the map has {many:,} pixels, and a simulation takes up to {_MOST:,}; cut it, or "
+                "make it coarser (HeightMap.coarser) as far as a zone at an edge has 2 pixels"
             )
         if has_rest(self.traction):
             raise InputError(
