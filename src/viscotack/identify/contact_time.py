@@ -165,7 +165,7 @@ def identify_dwell(
     >>> noise = 1 + 0.002 * np.cos(np.arange(6) ** 2)
     >>> fit = identify_dwell(t, 1e-3 * (1 + 0.1 * np.log1p(t / 0.01)) * noise, radius=5e-3)
     >>> f"{fit.law}: {fit.growth_per_decade:.1%} in a decade"
-    'logarithmic-ageing: 13.4% in a decade'
+    'logarithmic-ageing: 13.1% in a decade'
     """
     t, F = _checked(times, forces, radius, level)
     middle = float(np.exp(np.log(t).mean()))

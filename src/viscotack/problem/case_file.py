@@ -178,9 +178,9 @@ def _stated(
             "docs/input.md"
         )
     units = (plane if plain else revolution).SI
-    parts = _parts(path, tables, nouns, bodies, units, beside, temperature)
     table = Table(path, shape, tables, beside)
     geometry = _shape(table, nouns.shapes[shape])
+    parts = _parts(path, tables, nouns, bodies, units, beside, temperature)
     table.finish()
     try:
         return Problem(geometry=geometry, **parts)

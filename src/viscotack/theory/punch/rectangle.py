@@ -127,7 +127,7 @@ def on_layer(
     >>> stamp = dict(half_width=1e-4, contact_modulus=1e6, work_of_adhesion=0.05)
     >>> low, high = on_layer(2e-4, **stamp, thickness=2e-5, base=Frictionless())
     >>> f"{low * 1e3:.2f} to {high * 1e3:.2f} mN"
-    '5.86 to 6.07 mN'
+    '5.86 to 5.96 mN'
     """
     one, other = positive(half_length=half_length, half_width=half_width)
     a, b = max(float(one), float(other)), min(float(one), float(other))
