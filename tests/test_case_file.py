@@ -13,6 +13,7 @@ from viscotack.materials import (
     RelaxationPowerLaw,
     RetardationPowerLaw,
     StandardSolid,
+    published,
 )
 from viscotack.problem import Problem
 from viscotack.problem.case_file import case_of_tables, read_case
@@ -291,6 +292,14 @@ def test_all_that_is_missing_is_named_at_once(edit, said, tmp_path):
 
 def test_tables_that_were_sent_state_what_the_file_states():
     assert case_of_tables(tomllib.loads(POWER_LAW)) == LENS
+
+
+def test_a_published_material_is_named_without_a_file():
+    tables = tomllib.loads(POWER_LAW) | {"material": {"passport": "pdms-10-1"}}
+    passport = published("pdms-10-1")
+    assert case_of_tables(tables).material == passport.material
+    tables["material"]["temperature"] = "0 degC"
+    assert case_of_tables(tables).material == passport.at_temperature(273.15)
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,7 @@ def test_every_example_is_run_here():
         "window",  # test_window_file.py
         "array",  # test_array_file.py
         "rough",  # test_rough_file.py
+        "design",  # test_design_file.py
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",

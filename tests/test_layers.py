@@ -43,6 +43,7 @@ ROOMS = (
     "series",
     "pads",
     "rough",
+    "design",
     "identify",
     "pictures",
     "operations",

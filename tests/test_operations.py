@@ -42,6 +42,7 @@ FILES = [
     *(ROOT / "examples").glob("window/*.toml"),
     *(ROOT / "examples").glob("array/*.toml"),
     *(ROOT / "examples").glob("rough/*.toml"),
+    *(ROOT / "examples").glob("design/*.toml"),
     ROOT / "examples/own/plan.toml",
 ]
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
@@ -98,6 +99,7 @@ NOT_DRAWN = {
     "sweep": [SWEEP],
     "array": [{"file": "wafer_pad.toml", "accuracy": 0.01}],
     "rough": [{"file": "bumps.toml", "accuracy": 0.02}],
+    "design": [{"file": "lift_and_let_go.toml", "confirm": 0}],
     "window": [{"file": "kinetic_stamp.toml", "simulate": True}],
 }
 

@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from . import theory as theory
     from .bem import SimulationError as SimulationError
     from .cards import Quantity as Quantity
+    from .design import Design as Design
+    from .design import DesignSpace as DesignSpace
+    from .design import Targets as Targets
+    from .design import find_design as find_design
+    from .design import read_design as read_design
     from .errors import InputError as InputError
     from .errors import OutOfRange as OutOfRange
     from .forecast import Advice as Advice
@@ -245,6 +250,7 @@ _NAMES = {
         "array_yield",
         "ArrayYield",
     ),
+    "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
     "pictures.forecast": ("draw_prediction",),
     "operations": ("ask",),
 }

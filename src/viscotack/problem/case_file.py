@@ -23,6 +23,7 @@ from viscotack.geometry import (
 )
 from viscotack.materials import Material, Prony
 from viscotack.materials.checks import rests
+from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY
@@ -317,7 +318,12 @@ def _passport(
 ) -> tuple[Passport, float | None]:
     """Return the passport next to the file, and the requested temperature [K]."""
     own = nouns.materials.values()
-    passport = read_passport(table.beside("passport", '"pdms.toml"'), also=own)
+    name = table.get("passport", '"pdms.toml"')
+    passport = (
+        published(name)
+        if name in MATERIALS
+        else read_passport(table.beside("passport", '"pdms.toml"'), also=own)
+    )
     stated = None
     if "temperature" in table.values:
         stated = table.quantity("temperature", "K", '"20 degC"')

@@ -1,0 +1,25 @@
+"""Design of pads for wanted forces: radius, preload, number and speeds.
+
+The search uses the fast tiers with their intervals, and a simulation of the best candidates
+decides. docs/design.md describes file, method and limits.
+"""
+
+from .confirming import Simulated
+from .design_file import DesignFile, read_design
+from .finding import Candidate, Design, find_design
+from .limits import Limit
+from .space import Bounds, Choice, DesignSpace, Targets
+
+__all__ = [
+    "Bounds",
+    "Candidate",
+    "Choice",
+    "Design",
+    "DesignFile",
+    "DesignSpace",
+    "Limit",
+    "Simulated",
+    "Targets",
+    "find_design",
+    "read_design",
+]

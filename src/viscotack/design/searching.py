@@ -1,0 +1,106 @@
+"""Search of a space of designs by differential evolution (SciPy)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil
+from typing import Any
+
+import numpy as np
+import scipy.optimize
+
+from viscotack.arrays import Array
+
+from .space import HOLD_SPEED, PADS, RELEASE_SPEED, Choice, DesignSpace
+
+# Rating of a design without a prediction or without room.
+NONE = -1e3
+# Fewest members that SciPy accepts.
+_FEWEST = 5
+# Of differential evolution: forces are smooth, so that most variables may change together.
+_RECOMBINATION, _MUTATION = 0.9, (0.3, 0.8)
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Size of a search: designs in a generation, and generations, each times free variables + 1."""
+
+    members: float
+    generations: float
+
+    def of(self, free: int) -> tuple[int, int]:
+        """Return members for each free variable, and generations."""
+        members = max(self.members * (free + 1), _FEWEST)
+        return ceil(members / free), ceil(self.generations * (free + 1))
+
+
+def search(
+    rating: Callable[[Choice], float],
+    space: DesignSpace,
+    material: str,
+    *,
+    effort: Effort,
+    seed: int,
+    tell: Callable[[float], None] = lambda share: None,
+) -> Choice:
+    """Return the design with the largest rating that differential evolution finds.
+
+    Parameters
+    ----------
+    rating : callable
+        Number of a design; :data:`NONE` or less if it is none.
+    space : DesignSpace
+        Bounds of the variables.
+    material : str
+        Name of the material.
+    effort : Effort
+        Size of the search.
+    seed : int
+        Of the random numbers.
+    tell : callable
+        Called with the completed share.
+    """
+
+    def cost(places: Array) -> float:
+        choice = space.choice(material, places)
+        room = space.most_pads(choice.radius)
+        # the penalty falls towards smaller areas
+        return -NONE + choice.pads - room if choice.pads > room else -rating(choice)
+
+    if not space.free:
+        only = np.array([])
+        cost(only)
+        return space.choice(material, only)
+
+    ends = space.ends()
+    # the name that every supported version of scipy knows; the checker knows the newest only
+    generator: dict[str, Any] = {"seed": seed}
+    members, most = effort.of(len(ends))
+    generations = iter(range(1, most + 2))
+    found = scipy.optimize.differential_evolution(
+        cost,
+        ends,
+        integrality=[name == PADS for name in space.free],
+        x0=_likely(space, ends),
+        popsize=members,
+        maxiter=most,
+        tol=0,
+        polish=False,
+        recombination=_RECOMBINATION,
+        mutation=_MUTATION,
+        **generator,
+        callback=lambda x, convergence: tell(next(generations) / (most + 1)),
+    )
+    return space.choice(material, np.asarray(found.x))
+
+
+def _likely(space: DesignSpace, ends: list[tuple[float, float]]) -> Array:
+    """Return where to begin: fast to hold, slow to release, and the middle of other ranges."""
+    # just inside, because SciPy rejects ends that round-off moves out
+    share = {HOLD_SPEED: 0.999, RELEASE_SPEED: 0.001}
+    places = [
+        low + share.get(name, 0.5) * (high - low)
+        for name, (low, high) in zip(space.free, ends, strict=True)
+    ]
+    return np.array([round(x) if n == PADS else x for n, x in zip(space.free, places, strict=True)])

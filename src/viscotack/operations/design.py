@@ -1,0 +1,196 @@
+"""The operation ``design``: what to build for wanted forces."""
+
+from dataclasses import dataclass
+from math import exp
+from typing import Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
+
+from .declare.answer import Answer, Caller, csv_file, picture
+from .declare.cards import FileOfNames, Placed, Whole, number_of
+from .declare.options import Operation
+from .simulate import Accuracy
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfDesign(Operation):
+    """Find radius, preload, number of pads and speeds that hold and release wanted forces.
+
+    Surrogates or theories with their intervals are searched for the largest margin of the worst
+    target, and simulations of the best designs decide. Out of reach, the answer states the bound.
+    docs/design.md describes the file and the method.
+
+    Example: viscotack design lift_and_let_go.toml --plot design.png
+    """
+
+    word: ClassVar = "design"
+    outputs: ClassVar = (
+        csv_file("Write a row for each design; - is standard output."),
+        picture("Draw forces by speed, and elasticities, to a .png, .pdf or .svg file."),
+    )
+    takes_own: ClassVar = True
+
+    file: Annotated[
+        Placed,
+        FileOfNames(
+            "The [targets], [bounds] of variables, the [interface], and [material] or "
+            "[[materials]].",
+            metavar="DESIGN.toml",
+            argument=True,
+        ),
+    ]
+    confirm: Annotated[int, Whole("Number of designs that are simulated.", least=0, most=3)] = 3
+    seed: Annotated[int, Whole("Seed of the search.", least=0, most=2**32 - 1)] = 0
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Search and simulate, telling ``share``."""
+        from viscotack.design import find_design, read_design
+        from viscotack.pictures.design import draw_design
+
+        from .parts.tables import rows_as_csv
+
+        stated = read_design(self.file.path, also=caller.also, beside=self.file.inside.file)
+        found = find_design(
+            stated.materials,
+            stated.traction,
+            stated.space,
+            stated.targets,
+            confirm=self.confirm,
+            seed=self.seed,
+            accuracy=self.accuracy,
+            time_limit=self.time_limit,
+            progress=lambda share: caller.tell({"share": share}),
+        )
+        rows = [_row(*pair) for pair in zip(found.candidates, found.simulated, strict=True)]
+        return Answer(
+            found,
+            record=lambda: _record(found, rows),
+            words=lambda: _words(found),
+            files={"csv": rows_as_csv(rows)},
+            pictures={"plot": lambda: draw_design(found, stated)},
+        )
+
+
+_FORCE = ("N", "low_N", "high_N")
+
+
+def _row(one: Any, run: Any) -> dict[str, Any]:
+    """Return the row of a design."""
+    choice = one.choice
+    row: dict[str, Any] = {
+        "material": choice.material,
+        "radius_m": choice.radius,
+        "preload_N": choice.preload,
+        "pads": choice.pads,
+        "hold_speed_m_per_s": choice.hold_speed,
+        "release_speed_m_per_s": choice.release_speed,
+    }
+    for name in ("hold", "release"):
+        force = getattr(one, name)
+        values = (None,) * 3 if force is None else (force.value, force.low, force.high)
+        row |= {f"{name}_{unit}": x for unit, x in zip(_FORCE, values, strict=True)}
+        row[f"{name}_method"] = None if force is None else force.method
+        row[f"simulated_{name}_N"] = None if run is None else getattr(run, name)
+    row["margin"] = one.margin
+    row["simulated_margin"] = None if run is None else run.margin
+    row["meets"] = None if run is None else run.meets
+    return row | {"why": "" if run is None else run.why}
+
+
+def _record(found: Any, rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    return {
+        "meets": found.meets,
+        "designs": rows,
+        "binding": list(found.binding),
+        "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
+        "limits": [
+            {
+                "target": each.target,
+                "wanted": each.wanted,
+                "reach": each.reach,
+                "cause": each.cause,
+                "excludes": each.excludes,
+                "why": each.why,
+            }
+            for each in found.limits
+        ],
+        "predictions": found.predictions,
+        "tier": found.tier,
+    }
+
+
+_VERDICTS = {
+    True: "the targets are met, by simulation",
+    False: "the targets are not met",
+    None: "not confirmed by simulation",
+}
+
+
+def _words(found: Any) -> str:
+    """Return the answer as lines."""
+    lines = [_VERDICTS[found.meets]]
+    for number, (one, run) in enumerate(zip(found.candidates, found.simulated, strict=True), 1):
+        lines += [f"design {number}: {_choice_words(one.choice)}", *_force_words(one, run)]
+    lines.append(f"binding: {', '.join(found.binding)}")
+    for name, slopes in found.elasticities.items():
+        known = ", ".join(f"{x} {s:+.2f}" for x, s in slopes.items() if s is not None)
+        lines.append(f"d ln P/d ln x of the force to {name}: {known}")
+    return "\n".join([*lines, *(_limit_words(each) for each in found.excluded), *_apart(found)])
+
+
+def _choice_words(choice: Any) -> str:
+    parts = [
+        f"{choice.pads} pad{'s' if choice.pads > 1 else ''} of {choice.material}",
+        f"R = {readable(choice.radius, 'm')}",
+        f"preload {readable(choice.preload, 'N')}",
+    ]
+    for name in ("hold", "release"):
+        if (speed := getattr(choice, f"{name}_speed")) is not None:
+            parts.append(f"{name} at {readable(speed, 'm/s')}")
+    return ", ".join(parts)
+
+
+def _force_words(one: Any, run: Any) -> list[str]:
+    """Return the forces and margins of a design as lines."""
+    lines = []
+    for name in ("hold", "release"):
+        force = getattr(one, name)
+        if force is None:
+            continue
+        line = (
+            f"  {name}: {readable(force.value, 'N')} "
+            f"({readable(force.low, 'N', to=force.high)}, {force.method})"
+        )
+        value = None if run is None else getattr(run, name)
+        if run is not None and value is not None:
+            line += f"; {run.method} {readable(value, 'N')} within {run.errors[name]:.1g}"
+        lines.append(line)
+    margin = one.margin if run is None or run.margin is None else run.margin
+    by = "the fast tier" if margin is one.margin else "simulation"
+    lines.append(f"  worst target: {exp(margin) - 1:+.1%} by {by}")
+    return lines + ([f"  not simulated: {run.why}"] if run is not None and run.why else [])
+
+
+def _limit_words(limit: Any) -> str:
+    """Return a bound that excludes a target as a line."""
+    unit = "1" if limit.target == "ratio" else "N"
+    end = ("at least", "at most")[limit.target == "release"]
+    reach = ("at most", "at least")[limit.target == "release"]
+    wanted, reached = (readable(x, unit) for x in (limit.wanted, limit.reach))
+    cause = {"solid": "the solid permits", "speeds": "designs between the bounds reach"}
+    return (
+        f"out of reach: {limit.target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
+        f"{limit.why}"
+    )
+
+
+def _apart(found: Any) -> list[str]:
+    """Return a line if each target alone is in reach, but not all together."""
+    if found.meets is not False or found.excluded or found.simulated[0] is not None:
+        return []
+    return ["each target alone is within reach, but no design between the bounds meets all"]

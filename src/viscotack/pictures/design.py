@@ -1,0 +1,105 @@
+"""Figure of a design: forces by speed with their targets, and elasticities."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.design import Design, DesignFile
+from viscotack.design.fast import Force
+from viscotack.design.margins import pads_of
+
+from .plot import axis_unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+_COLOURS = {"hold": "#08519c", "release": "#d94801"}
+# Number of speeds, and factor on both ends of their range.
+_SPEEDS, _WIDER = 25, 2.0
+
+
+def draw_design(found: Design, stated: DesignFile) -> "Figure":
+    """Draw the pull-off force of the best design by speed, and its elasticities.
+
+    Parameters
+    ----------
+    found : Design
+        Result of :func:`viscotack.find_design`.
+    stated : DesignFile
+        Materials, interface and targets.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Left the force of all pads by speed with its interval, the targets, and simulations as
+        dots; right d ln P/d ln x of the two forces.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+        left, right = figure.subplots(1, 2, width_ratios=(1.35, 1))
+        _draw_forces(left, found, stated)
+        _draw_slopes(right, found)
+    return figure
+
+
+def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN001
+    best, run = found.best, found.simulated[0]
+    speeds = {"hold": best.choice.hold_speed, "release": best.choice.release_speed}
+    known = [speed for speed in speeds.values() if speed is not None]
+    pad = next(iter(pads_of(best.choice, stated.targets).values()))
+    points = np.geomspace(min(known) / _WIDER, max(known) * _WIDER, _SPEEDS).tolist()
+    forces = [found.fast.force(replace(pad, speed=v)) for v in points]
+    curve = [(v, f) for v, f in zip(points, forces, strict=True) if isinstance(f, Force)]
+    N, (unit, name) = best.choice.pads, axis_unit(_largest(found), "N")
+    if curve:
+        v = [v for v, _ in curve]
+        low, value, high = (
+            [N * getattr(f, end) / unit for _, f in curve] for end in ("low", "value", "high")
+        )
+        axes.fill_between(v, low, high, color="0.75", lw=0, label="90 % interval")
+        axes.plot(v, value, color="0.25", label=f"{N} pads, {found.tier}")
+    for target, speed in speeds.items():
+        if speed is None:
+            continue
+        axes.axvline(speed, color=_COLOURS[target], lw=0.8, ls=":")
+        wanted = getattr(stated.targets, target)
+        if wanted is not None:
+            words = f"{target}, {'at least' if target == 'hold' else 'at most'}"
+            axes.axhline(wanted / unit, color=_COLOURS[target], ls="--", label=words)
+        value = None if run is None else getattr(run, target)
+        if value is not None:
+            axes.plot(
+                speed, value / unit, "o", color=_COLOURS[target], label=f"{target}, simulated"
+            )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("speed [m/s]")
+    axes.set_ylabel(f"pull-off force [{name}]")
+    axes.set_title(f"worst target {np.expm1(best.margin):+.0%}")
+    axes.legend(frameon=False, fontsize=8, loc="lower right")
+
+
+def _largest(found: Design) -> float:
+    best = found.best
+    return max(force.value for force in (best.hold, best.release) if force is not None)
+
+
+def _draw_slopes(axes, found: Design) -> None:  # noqa: ANN001
+    names = list(dict.fromkeys(x for each in found.elasticities.values() for x in each))
+    height = 0.8 / max(len(found.elasticities), 1)
+    for i, (force, slopes) in enumerate(found.elasticities.items()):
+        at = [names.index(x) + (i - 0.5) * height for x in slopes]
+        values = [np.nan if s is None else s for s in slopes.values()]
+        axes.barh(at, values, height=height, color=_COLOURS[force], label=f"force to {force}")
+    axes.set_yticks(range(len(names)), [x.replace("_", " ") for x in names])
+    axes.invert_yaxis()
+    axes.axvline(0, color="0.4", lw=0.8)
+    axes.set_xlabel("d ln P/d ln x")
+    axes.set_title("what matters")
+    axes.legend(frameon=False, fontsize=8)

@@ -1,0 +1,248 @@
+"""Tests of the search for designs: forces, margins, limits, what binds and what matters."""
+
+from dataclasses import replace
+from math import inf, log, pi
+
+import numpy as np
+import pytest
+
+from viscotack import (
+    Elastic,
+    InputError,
+    LennardJones,
+    OutOfRange,
+    PadArray,
+    RetardationPowerLaw,
+    StandardSolid,
+    pull_array,
+)
+from viscotack.design import Bounds, Choice, DesignSpace, Targets, find_design
+from viscotack.design.confirming import simulate
+from viscotack.design.fast import SURROGATES, FastTier, Force, Pad
+from viscotack.design.limits import solid_limits
+from viscotack.design.margins import judged, margins_of
+from viscotack.pads import grid
+
+RUBBER = RetardationPowerLaw(
+    rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.6, tau0=0.1, poisson_ratio=0.5
+)
+LAW = LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-7)
+SPACE = DesignSpace(
+    Bounds(1e-3, 4e-3),
+    Bounds(4e-3),
+    hold_speed=Bounds(1e-4, 1e-3),
+    release_speed=Bounds(1e-6, 1e-5),
+    pads=Bounds(2),
+)
+TARGETS = Targets(hold=5e-3, release=2.5e-3)
+HOW = {"confirm": 0, "seed": 3}
+
+
+@pytest.fixture(scope="module")
+def fast():
+    return FastTier({"rubber": RUBBER}, LAW, SURROGATES)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return find_design({"rubber": RUBBER}, LAW, SPACE, TARGETS, **HOW)
+
+
+@pytest.fixture(scope="module")
+def run(found):
+    return simulate(found.best, found.fast, TARGETS, accuracy=0.01, time_limit=None)
+
+
+def grid_of_margins(fast):
+    """Return the largest margin of the worst target on a fine grid of radii, at the best speeds."""
+    best = -inf
+    for radius in np.geomspace(1e-3, 4e-3, 100).tolist():
+        one = judged(Choice("rubber", radius, 4e-3, 2, 1e-3, 1e-6), fast, TARGETS)
+        best = max(best, one.margin if not isinstance(one, str) else -inf)
+    return best
+
+
+def test_the_search_finds_the_margin_of_a_fine_grid(fast, found):
+    assert found.best.margin == pytest.approx(grid_of_margins(fast), abs=3e-3)
+    assert found.best.choice.hold_speed == pytest.approx(1e-3, rel=0.03)
+    assert found.best.choice.release_speed == pytest.approx(1e-6, rel=0.03)
+
+
+def test_hold_and_release_bind_together_with_both_speeds(found):
+    assert set(found.binding) == {
+        "hold",
+        "release",
+        "hold_speed at most",
+        "release_speed at least",
+    }
+    margins = found.best.margins
+    assert margins["hold"] == pytest.approx(margins["release"], abs=5e-3)
+
+
+def test_margins_count_the_less_favourable_ends(found):
+    best = found.best
+    assert best.margins["hold"] == pytest.approx(log(best.hold.low / 5e-3), rel=1e-12)
+    assert best.margins["release"] == pytest.approx(log(2.5e-3 / best.release.high), rel=1e-12)
+    assert best.best_margins["hold"] == pytest.approx(log(best.hold.high / 5e-3), rel=1e-12)
+    assert margins_of(Targets(ratio=2.0), 0.0, 1.0)["ratio"] == -inf
+
+
+def test_two_pads_on_a_rigid_plate_hold_what_the_array_holds(found, run):
+    choice, fast = found.best.choice, found.fast
+    one = fast.problem(Pad("rubber", choice.radius, choice.preload / 2, choice.hold_speed))
+    array = PadArray(one, grid(1, 2, 0.1))
+    pulled = pull_array(array, speed=choice.hold_speed, preload=choice.preload, accuracy=0.01)
+    # another tier, with its own interval
+    assert pulled.interval[0] < run.hold < pulled.interval[1]
+    assert found.best.hold.low < run.hold < found.best.hold.high
+
+
+def test_elasticities_are_those_of_other_steps_and_of_scale(found):
+    choice, slopes = found.best.choice, found.elasticities["hold"]
+    pad = Pad("rubber", choice.radius, choice.preload / 2, choice.hold_speed)
+    for name, of in (("radius", "radius"), ("preload", "preload"), ("speed", "hold_speed")):
+        ends = [found.fast.force(replace(pad, **{name: getattr(pad, name) * f})) for f in (1, 1.1)]
+        assert slopes[of] == pytest.approx(log(ends[1].value / ends[0].value) / log(1.1), abs=0.02)
+    assert slopes["pads"] == 1 - slopes["preload"]
+    # P/(R dg) is a function of groups: lengths by s, forces by s^2 dg/h0, and speeds by s
+    law = replace(LAW, work_of_adhesion=0.1, equilibrium_gap=2e-7)
+    scaled = FastTier({"rubber": RUBBER}, law, SURROGATES)
+    two = Pad("rubber", 2 * pad.radius, 4 * pad.preload, 2 * pad.speed)
+    assert scaled.force(two).value == pytest.approx(4 * found.fast.force(pad).value, rel=1e-9)
+
+
+def test_the_solid_bounds_forces_and_their_ratio(fast):
+    limits = {x.target: x for x in solid_limits(fast, SPACE, TARGETS)}
+    jkr = 1.5 * pi * 4e-3 * 0.05 * 2
+    assert jkr / 0.1 < limits["hold"].reach < 4 / 3 * jkr / 0.1
+    assert 0.25 * jkr < limits["release"].reach < 0.25 * 4 / 3 * jkr
+    assert 10 < limits["ratio"].reach < 40 / 3
+    speeds = np.geomspace(1e-7, 1, 8).tolist()
+    forces = [fast.force(Pad("rubber", 4e-3, 2e-3, v)) for v in speeds]
+    known = [2 * x.value for x in forces if isinstance(x, Force)]
+    assert len(known) > 4
+    assert max(known) < limits["hold"].reach
+    assert min(known) > limits["release"].reach
+
+
+@pytest.mark.parametrize(
+    "targets, target, cause, reach",
+    [
+        (Targets(ratio=20.0), "ratio", "solid", (10, 40 / 3)),
+        (Targets(hold=0.2, release=0.1), "hold", "solid", (0.0188, 0.0252)),
+        (Targets(release=1e-4), "release", "solid", (4.7e-4, 6.3e-4)),
+        # below 1/k, but beyond what the speeds between the bounds reach
+        (Targets(hold=12e-3, release=2e-3), "ratio", "speeds", (2, 6)),
+    ],
+)
+def test_targets_out_of_reach_are_refused_with_the_bound(targets, target, cause, reach):
+    space = replace(SPACE, hold_speed=Bounds(1e-3), release_speed=Bounds(1e-6))
+    found = find_design({"rubber": RUBBER}, LAW, space, targets, seed=1)
+    assert found.meets is False
+    assert found.simulated == (None,)
+    limit = next(x for x in found.excluded if x.target == target)
+    assert limit.cause == cause
+    # two pads of 1 to 4 mm
+    low, high = reach if target != "hold" else (10 * 1.885e-3, 40 / 3 * 1.885e-3)
+    assert low < limit.reach < high
+
+
+def test_the_margins_of_a_simulation_are_those_of_its_forces(run):
+    assert run.meets is True
+    assert run.margins == pytest.approx(
+        {"hold": log(run.hold / 5e-3), "release": log(2.5e-3 / run.release)}
+    )
+
+
+def test_a_simulation_decides():
+    space = replace(SPACE, radius=Bounds(2e-3), hold_speed=Bounds(1e-3), release_speed=None)
+    answers = []
+    # the simulated force of 7.39 mN lies inside the interval of the fast tier
+    for hold in (7.3e-3, 7.5e-3):
+        targets = Targets(hold=hold)
+        answers.append(find_design({"rubber": RUBBER}, LAW, space, targets, accuracy=0.01))
+    assert [one.best.margin < 0 < one.best.best_margins["hold"] for one in answers] == [True, True]
+    assert [one.meets for one in answers] == [True, False]
+
+
+def test_a_simulation_that_is_not_started_leaves_the_answer_open(found):
+    assert found.meets is None
+    assert set(found.simulated) == {None}
+
+
+def test_the_area_limits_radius_and_number():
+    space = replace(SPACE, pads=Bounds(1, 6), area=6 * (2e-3) ** 2, radius=Bounds(1e-3, 2e-3))
+    space = replace(space, hold_speed=Bounds(1e-3))
+    found = find_design({"rubber": RUBBER}, LAW, space, Targets(hold=1e-3), **HOW)
+    assert {x.choice.pads * (2 * x.choice.radius) ** 2 <= space.area for x in found.candidates} == {
+        True
+    }
+    assert "area at most" in found.binding
+    with pytest.raises(InputError, match="smaller than that of the least pads"):
+        replace(space, area=1e-6)
+
+
+def test_the_better_of_two_materials_is_chosen():
+    materials = {"stiff": replace(RUBBER, glassy_modulus=2e6), "lossy": RUBBER}
+    space = replace(SPACE, radius=Bounds(2e-3), release_speed=Bounds(1e-6))
+    found = find_design(materials, LAW, space, Targets(ratio=1.1), **HOW)
+    assert found.best.choice.material == "lossy"
+
+
+def test_one_free_variable_and_none_are_designs_too():
+    space = DesignSpace(Bounds(2e-3), Bounds(2e-3), hold_speed=Bounds(1e-4))
+    found = find_design({"rubber": RUBBER}, LAW, space, Targets(hold=1e-4), **HOW)
+    assert found.best.release is None
+    assert found.binding == ("hold",)
+    assert found.best.choice == Choice("rubber", 2e-3, 2e-3, 1, 1e-4, None)
+
+
+def test_the_same_seed_gives_the_same_design():
+    space = replace(SPACE, hold_speed=Bounds(1e-3), release_speed=Bounds(1e-6))
+    one, again = (
+        find_design({"rubber": RUBBER}, LAW, space, TARGETS, **HOW).candidates for _ in range(2)
+    )
+    assert one == again
+
+
+def test_theories_answer_where_surrogates_do_not():
+    space = DesignSpace(Bounds(2e-3, 3e-3), Bounds(2e-3), hold_speed=Bounds(1e-4))
+    elastic = Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
+    law = replace(LAW, equilibrium_gap=1e-8)
+    found = find_design({"rubber": elastic}, law, space, Targets(hold=1e-4), **HOW)
+    assert found.tier == "theories"
+    assert found.best.hold.value == pytest.approx(1.5 * pi * 3e-3 * 0.05, rel=0.01)
+
+
+def test_a_space_without_a_prediction_is_refused_with_the_reason():
+    space = DesignSpace(Bounds(1e-4), Bounds(1e-1, 1.0), hold_speed=Bounds(1e-4))
+    with pytest.raises(OutOfRange, match="small strain"):
+        find_design({"rubber": RUBBER}, LAW, space, Targets(hold=1e-4), **HOW)
+
+
+@pytest.mark.parametrize(
+    "make, words",
+    [
+        (lambda: Targets(), "needs a target"),
+        (lambda: Targets(hold=-1.0), "must be positive"),
+        (lambda: Bounds(2.0, 1.0), "ascending"),
+        (lambda: replace(SPACE, pads=Bounds(1.5)), "whole number"),
+        (lambda: find_design({}, LAW, SPACE, TARGETS), "at least one material"),
+        (
+            lambda: find_design({"a": RUBBER}, LAW, replace(SPACE, release_speed=None), TARGETS),
+            "bounds of the release_speed",
+        ),
+    ],
+)
+def test_a_wrong_space_or_target_is_refused(make, words):
+    with pytest.raises(InputError, match=words):
+        make()
+
+
+def test_a_solid_that_is_no_power_law_is_designed_with():
+    solid = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=60e6, tau0=0.1, poisson_ratio=0.5)
+    law = replace(LAW, equilibrium_gap=4e-7)
+    space = replace(SPACE, release_speed=Bounds(1e-7), radius=Bounds(2e-3))
+    found = find_design({"rubber": solid}, law, space, Targets(ratio=2.0), **HOW)
+    assert found.best.hold.method == "surrogate of solids"
+    assert found.best.margin > 0

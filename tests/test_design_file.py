@@ -1,0 +1,161 @@
+"""Tests of the operation ``design``: its file, command, table, picture and words."""
+
+import csv
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from front_ends import Http, Question, through_all
+from viscotack.app.cli import application
+from viscotack.design import Bounds, Targets, read_design
+from viscotack.errors import InputError
+from viscotack.materials import published
+from viscotack.operations import ask
+from viscotack.pictures.design import draw_design
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "design" / "lift_and_let_go.toml"
+SMALL = """
+[targets]
+hold = "5 mN"
+release = "2.5 mN"
+
+[bounds]
+radius = "1 mm..4 mm"
+preload = "4 mN"
+hold_speed = "1 mm/s"
+release_speed = "1 um/s"
+pads = 2
+
+[material]
+model = "power-law"
+rubbery_modulus = "1.5 MPa"
+glassy_modulus = "15 MPa"
+exponent = 0.6
+tau0 = "0.1 s"
+poisson_ratio = 0.5
+
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "50 mJ/m^2"
+equilibrium_gap = "100 nm"
+"""
+
+
+@pytest.fixture
+def small(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("small.toml").write_text(SMALL)
+    return Path("small.toml")
+
+
+def test_a_file_states_targets_bounds_material_and_interface(small):
+    found = read_design(small)
+    assert found.targets == Targets(hold=5e-3, release=2.5e-3)
+    assert found.space.radius == Bounds(1e-3, 4e-3)
+    assert found.space.preload == Bounds(4e-3)
+    assert found.space.pads == Bounds(2)
+    assert found.space.free == ("radius",)
+    assert found.materials["material"].tau0 == 0.1
+    assert found.traction.equilibrium_gap == pytest.approx(1e-7)
+
+
+def test_the_example_names_a_published_material():
+    found = read_design(EXAMPLE)
+    assert found.materials["material"] == published("pdms-10-1").material
+    assert found.space.pads == Bounds(1, 12)
+    assert found.space.area == pytest.approx(1e-3)
+
+
+def test_materials_to_choose_from_have_names(small):
+    rubber = SMALL[SMALL.index("[material]") : SMALL.index("[interface]")]
+    pdms = '[[materials]]\nname = "pdms"\npassport = "pdms-10-1"\ntemperature = "0 degC"\n'
+    named = rubber.replace("[material]", '[[materials]]\nname = "rubber"')
+    small.write_text(SMALL.replace(rubber, named + pdms))
+    found = read_design(small).materials
+    assert list(found) == ["rubber", "pdms"]
+    assert found["pdms"].tau0 > published("pdms-10-1").material.tau0
+    small.write_text(SMALL.replace(rubber, pdms + pdms))
+    with pytest.raises(InputError, match="a name of its own; number 2 has 'pdms'"):
+        read_design(small)
+
+
+@pytest.mark.parametrize(
+    "old, new, words",
+    [
+        ("[bounds]", "[bouds]", "did you mean bounds"),
+        ('hold = "5 mN"\nrelease = "2.5 mN"', "", "needs a target"),
+        ('hold = "5 mN"', 'hold = "-5 mN"', "must be positive"),
+        ('hold = "5 mN"', "hold = 5", "text with a unit"),
+        ('hold = "5 mN"', 'hold = "5 mN"\nwork = "1 uJ"', "unknown key 'work'"),
+        ('"1 mm..4 mm"', '"4 mm..1 mm"', "ascending"),
+        ('"1 mm..4 mm"', '"1 mm..4 s"', "radius"),
+        ('"1 mm..4 mm"', "1", "text with a unit"),
+        ('preload = "4 mN"', "", "preload is missing"),
+        ("pads = 2", 'pads = "1..2.5"', "whole number"),
+        ("pads = 2", 'pads = 2\nshear = "1 mN"', "pulled along their axis"),
+        ("pads = 2", 'pads = 2\narea = "1 mm^2"', "smaller than that of the least pads"),
+        ("[material]", "[[materials]]", "needs a name of its own; number 1 has None"),
+        ("[material]", "[stuff]", "unknown table"),
+        ("[interface]", "[protocol]", "unknown table"),
+        ('work_of_adhesion = "50 mJ/m^2"', "", "work_of_adhesion is missing"),
+    ],
+)
+def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
+    assert old in SMALL
+    small.write_text(SMALL.replace(old, new))
+    with pytest.raises(InputError, match=words):
+        read_design(small)
+
+
+def test_a_target_without_its_speed_is_refused(small):
+    small.write_text(SMALL.replace('release_speed = "1 um/s"\n', ""))
+    with pytest.raises(InputError, match="bounds of the release_speed"):
+        ask("design", file="small.toml")
+
+
+def test_all_front_ends_answer_alike(small):
+    client = Http()
+    try:
+        given = {"file": "small.toml", "confirm": 0}
+        found = through_all(Question("design", given), client)
+    finally:
+        client.close()
+    record = found["Python"].record
+    assert record["meets"] is None
+    assert record["designs"][0]["margin"] > 0
+    assert record["binding"][:2] == ["hold", "release"]
+    for other in found.values():
+        assert other.record == record
+
+
+def test_the_command_writes_a_table_and_a_picture(small):
+    line = ["design", "small.toml", "--confirm", "1", "--accuracy", "0.01"]
+    done = CliRunner().invoke(application(), [*line, "--csv", "d.csv", "--plot", "d.svg"])
+    assert done.exit_code == 0, done.output
+    assert "the targets are met, by simulation" in done.output
+    assert "binding: hold, release" in done.output
+    row = next(csv.DictReader(Path("d.csv").read_text().splitlines()))
+    assert row["meets"] == "True"
+    assert float(row["simulated_hold_N"]) == pytest.approx(float(row["hold_N"]), rel=0.05)
+    assert Path("d.svg").stat().st_size > 5000
+
+
+def test_words_state_the_bound_of_a_target_out_of_reach(small):
+    small.write_text(SMALL.replace('hold = "5 mN"', 'hold = "60 mN"'))
+    answer = ask("design", file="small.toml")
+    assert answer.found.meets is False
+    assert "the targets are not met" in answer.words()
+    assert "out of reach: ratio of at least 24; the solid permits at most 10." in answer.words()
+    assert "1/k = 10" in answer.words()
+    axes = draw_design(answer.found, read_design(small)).axes
+    assert "worst target -" in axes[0].get_title(loc="left") + axes[0].get_title()
+
+
+def test_words_state_what_the_speeds_reach(small):
+    # 8 is less than 1/k
+    text = SMALL.replace('hold = "5 mN"', "ratio = 8").replace('"1 mm/s"', '"100 um/s"')
+    small.write_text(text)
+    words = ask("design", file="small.toml").words()
+    assert "out of reach: ratio of at least 8; designs between the bounds reach at most" in words
+    assert "a hold speed of 100 um/s and a release speed of 1 um/s" in words
