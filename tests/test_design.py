@@ -19,6 +19,7 @@ from viscotack import (
 from viscotack.design import Bounds, Choice, DesignSpace, Targets, find_design
 from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, FastTier, Force, Pad
+from viscotack.design.interpolating import interpolation
 from viscotack.design.limits import solid_limits
 from viscotack.design.margins import judged, margins_of
 from viscotack.pads import grid
@@ -218,6 +219,41 @@ def test_a_space_without_a_prediction_is_refused_with_the_reason():
     space = DesignSpace(Bounds(1e-4), Bounds(1e-1, 1.0), hold_speed=Bounds(1e-4))
     with pytest.raises(OutOfRange, match="small strain"):
         find_design({"rubber": RUBBER}, LAW, space, Targets(hold=1e-4), **HOW)
+
+
+def test_interpolation_is_exact_for_products_of_powers():
+    known, random = {}, np.random.default_rng(0)
+    for place in random.random((12, 2)):
+        radius, speed = (1e-3 * 5 ** place[0], 1e-6 * 100 ** place[1])
+        force = 0.2 * radius * speed**0.3
+        known[Pad("rubber", radius, 1e-3, speed)] = Force(force, 0.9 * force, 1.1 * force, "theory")
+    # a preload that does not vary, and a pad that no theory predicts
+    far = Pad("rubber", 1e-1, 1e-3, 1.0)
+    fast = FastTier({"rubber": RUBBER}, LAW, SURROGATES, {**known, far: "too fast"})
+    between = interpolation(fast, "rubber")
+    found = between.force(Pad("rubber", 2e-3, 1e-3, 1e-5))
+    force = 0.2 * 2e-3 * 1e-5**0.3
+    assert [found.value, found.low, found.high] == pytest.approx(
+        [force, 0.9 * force, 1.1 * force], rel=1e-9
+    )
+    assert between.force(Pad("rubber", 9e-2, 1e-3, 0.9)) == "too fast"
+    assert interpolation(FastTier({"rubber": RUBBER}, LAW, SURROGATES), "rubber") is None
+
+
+@pytest.mark.slow
+def test_theories_find_a_design_for_a_solid_beyond_the_surrogates():
+    solid = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=60e6, tau0=0.1, poisson_ratio=0.5)
+    space = DesignSpace(
+        Bounds(1e-3, 1e-2),
+        Bounds(1e-3, 2e-2),
+        hold_speed=Bounds(1e-4, 1e-2),
+        release_speed=Bounds(1e-7, 1e-5),
+        pads=Bounds(1, 12),
+    )
+    law = replace(LAW, equilibrium_gap=2e-8)
+    found = find_design({"rubber": solid}, law, space, Targets(hold=20e-3, release=5e-3), confirm=1)
+    assert found.tier == "theories"
+    assert found.meets is True
 
 
 @pytest.mark.parametrize(

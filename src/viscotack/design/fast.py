@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 from viscotack.errors import InputError
 from viscotack.forecast import predict
@@ -44,6 +44,14 @@ class Pad:
     radius: float
     preload: float
     speed: float
+
+
+class Forces(Protocol):
+    """What predicts the forces of pads."""
+
+    def force(self, pad: Pad) -> Force | str:
+        """Return the force of a pad, or a reason."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from math import exp, log
+from math import ceil, exp, log
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,8 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .confirming import Simulated, simulate
-from .fast import SURROGATES, THEORIES, FastTier, Pad
+from .fast import SURROGATES, THEORIES, FastTier, Forces, Pad
+from .interpolating import interpolation
 from .limits import SPEEDS, Limit, solid_limits, wanted
 from .margins import Candidate, judged, pads_of
 from .searching import NONE, Effort, search
@@ -38,9 +39,11 @@ from .space import (
     Targets,
 )
 
-# Sizes of searches. A prediction by surrogates takes 1 to 4 ms, by theories about 0.1 s.
-_EFFORTS = {SURROGATES: Effort(3.4, 6.2), THEORIES: Effort(2, 0.7)}
-_REACHES = {SURROGATES: Effort(4, 2), THEORIES: Effort(1.5, 0.4)}
+# Sizes of searches: of all targets together, and of one alone.
+_EFFORT, _REACH = Effort(3.3, 5.5), Effort(3.3, 2)
+# Designs that theories predict before they are interpolated, times free variables + 1, and rounds
+# of interpolation.
+_SAMPLED, _ROUNDS = 3.3, 4
 # Designs that are tried first, and the share of them that surrogates must predict.
 _TRIED, _COVERED = 16, 0.25
 # Distance of candidates in some variable, over its range.
@@ -149,23 +152,9 @@ def find_design(
     fast = _covering(materials, traction, space, targets, seed)
     share = 0.6 / len(materials)
     seen: dict[Choice, Candidate] = {}
-
-    def rating(choice: Choice) -> float:
-        found = judged(choice, fast, targets)
-        if isinstance(found, str):
-            return NONE
-        seen[choice] = found
-        return max(found.margin, NONE)
-
     for i, name in enumerate(materials):
-        search(
-            rating,
-            space,
-            name,
-            effort=_EFFORTS[fast.budget],
-            seed=seed,
-            tell=lambda done, i=i: progress((i + done) * share),
-        )
+        by = _searched if fast.budget == SURROGATES else _suggested
+        seen |= by(fast, space, targets, name, seed, lambda done, i=i: progress((i + done) * share))
     if not seen:
         raise OutOfRange(f"no fast tier predicts a design between the bounds: {_reason(fast)}")
     candidates = _apart(seen, space)
@@ -209,15 +198,65 @@ def _covering(
 ) -> FastTier:
     """Return the surrogates if they predict enough of the space, otherwise the theories."""
     fast = FastTier(materials, traction, SURROGATES)
-    ends = np.array(space.ends()).reshape(-1, 2)
-    tried = []
-    points = np.random.default_rng(seed).random((_TRIED, len(ends)))
-    for name in materials:
-        for point in points:
-            choice = space.choice(name, ends[:, 0] + point * (ends[:, 1] - ends[:, 0]))
-            tried.append(judged(choice, fast, targets))
+    tried = [
+        judged(choice, fast, targets)
+        for name in materials
+        for choice in _drawn(space, name, _TRIED, seed)
+    ]
     covered = sum(not isinstance(each, str) for each in tried) / len(tried)
     return fast if covered >= _COVERED else FastTier(materials, traction, THEORIES)
+
+
+def _searched(
+    forces: Forces,
+    space: DesignSpace,
+    targets: Targets,
+    material: str,
+    seed: int,
+    tell: Callable[[float], None] = lambda share: None,
+) -> dict[Choice, Candidate]:
+    """Return the designs of a search with their forces."""
+    seen: dict[Choice, Candidate] = {}
+
+    def rating(choice: Choice) -> float:
+        found = judged(choice, forces, targets)
+        if isinstance(found, str):
+            return NONE
+        seen[choice] = found
+        return max(found.margin, NONE)
+
+    search(rating, space, material, effort=_EFFORT, seed=seed, tell=tell)
+    return seen
+
+
+def _suggested(
+    fast: FastTier,
+    space: DesignSpace,
+    targets: Targets,
+    material: str,
+    seed: int,
+    tell: Callable[[float], None],
+) -> dict[Choice, Candidate]:
+    """Return designs that theories predict: some are drawn, and others interpolation suggests."""
+    choices = _drawn(space, material, ceil(_SAMPLED * (len(space.free) + 1)), seed)
+    seen: dict[Choice, Candidate] = {}
+    for number in range(_ROUNDS + 1):
+        tried = {choice: judged(choice, fast, targets) for choice in choices}
+        seen |= {choice: found for choice, found in tried.items() if not isinstance(found, str)}
+        tell((number + 1) / (_ROUNDS + 1))
+        between = interpolation(fast, material)
+        if between is None or number == _ROUNDS:
+            break
+        likely = _searched(between, space, targets, material, seed + number)
+        choices = [each.choice for each in _apart(likely, space)]
+    return seen
+
+
+def _drawn(space: DesignSpace, material: str, count: int, seed: int) -> list[Choice]:
+    """Return designs at random places between the bounds."""
+    low, high = np.array(space.ends()).reshape(-1, 2).T
+    points = np.random.default_rng(seed).random((count, low.size))
+    return [space.choice(material, low + point * (high - low)) for point in points]
 
 
 def _reason(fast: FastTier) -> str:
@@ -272,19 +311,23 @@ def _reached(fast: FastTier, space: DesignSpace, targets: Targets, seed: int) ->
     """Return the largest or smallest force or ratio between the bounds, each target alone."""
     found = []
     for target, value in wanted(targets).items():
-        rating = partial(_alone, fast=fast, targets=targets, target=target)
-        tried = [
-            search(rating, space, name, effort=_REACHES[fast.budget], seed=seed)
-            for name in fast.materials
-        ]
-        best = max(tried, key=rating)
-        reach = exp(rating(best))
+        rating = partial(_alone, targets=targets, target=target)
+        tried = []
+        for name in fast.materials:
+            forces = fast if fast.budget == SURROGATES else interpolation(fast, name) or fast
+            alone = partial(rating, fast=forces)
+            choice = search(alone, space, name, effort=_REACH, seed=seed)
+            # of a theory, if it predicts what the interpolation suggests
+            known = rating(choice, fast=fast)
+            tried.append((alone(choice) if known <= NONE else known, choice))
+        most, best = max(tried, key=lambda pair: pair[0])
+        reach = exp(most)
         reach = 1 / reach if target == RELEASE else reach
         found.append(Limit(target, value, reach, SPEEDS, _of_speeds(best, target)))
     return tuple(found)
 
 
-def _alone(choice: Choice, *, fast: FastTier, targets: Targets, target: str) -> float:
+def _alone(choice: Choice, *, fast: Forces, targets: Targets, target: str) -> float:
     """Return ln of the force or ratio of a design by the favourable ends; NONE without one."""
     needed = (HOLD, RELEASE) if target == RATIO else (target,)
     pads = pads_of(choice, targets)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, log
 
-from .fast import FastTier, Force, Pad
+from .fast import Force, Forces, Pad
 from .space import HOLD, RATIO, RELEASE, Choice, Targets
 
 
@@ -57,7 +57,7 @@ def pads_of(choice: Choice, targets: Targets) -> dict[str, Pad]:
     }
 
 
-def judged(choice: Choice, fast: FastTier, targets: Targets) -> Candidate | str:
+def judged(choice: Choice, fast: Forces, targets: Targets) -> Candidate | str:
     """Return a design with its forces and margins, or the reason why no tier predicts a force."""
     found: dict[str, Force] = {}
     for name, pad in pads_of(choice, targets).items():

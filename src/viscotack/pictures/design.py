@@ -82,7 +82,7 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
     axes.set_xlabel("speed [m/s]")
     axes.set_ylabel(f"pull-off force [{name}]")
     axes.set_title(f"worst target {np.expm1(best.margin):+.0%}")
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    axes.legend(frameon=False, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
 
 
 def _largest(found: Design) -> float:
