@@ -56,13 +56,13 @@ def test_a_file_states_targets_bounds_material_and_interface(small):
     assert found.space.preload == Bounds(4e-3)
     assert found.space.pads == Bounds(2)
     assert found.space.free == ("radius",)
-    assert found.materials["material"].tau0 == 0.1
+    assert found.materials["power-law"].tau0 == 0.1
     assert found.traction.equilibrium_gap == pytest.approx(1e-7)
 
 
 def test_the_example_names_a_published_material():
     found = read_design(EXAMPLE)
-    assert found.materials["material"] == published("pdms-10-1").material
+    assert found.materials["pdms-10-1"] == published("pdms-10-1").material
     assert found.space.pads == Bounds(1, 12)
     assert found.space.area == pytest.approx(1e-3)
 

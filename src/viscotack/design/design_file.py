@@ -112,7 +112,9 @@ def _materials(path: Path, tables: Mapping[str, Any]) -> dict[str, Any]:
     if ("material" in tables) == ("materials" in tables):
         raise InputError(f"{path}: a design needs either [material] or a list of [[materials]]")
     if "material" in tables:
-        return {"material": tables["material"]}
+        only = tables["material"]
+        named = only.get("passport", only.get("model")) if isinstance(only, Mapping) else None
+        return {named if isinstance(named, str) else "material": only}
     given = tables["materials"]
     if not isinstance(given, list) or not 0 < len(given) <= _MOST_MATERIALS:
         raise InputError(f"{path}: [[materials]] must be a list of 1 to {_MOST_MATERIALS} tables")

@@ -18,6 +18,7 @@ from math import inf
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.forecast.closed_forms import lennard_jones_alike
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.units import readable
@@ -85,7 +86,10 @@ def _of_material(name: str, fast: FastTier, space: DesignSpace) -> Mapping[str, 
         room = space.most_pads(R)
         if not room:
             continue
-        problem = fast.problem(Pad(name, R, _LIGHT, 1.0))
+        try:
+            problem = fast.problem(Pad(name, R, _LIGHT, 1.0))
+        except InputError:  # the sphere is too small for the range of attraction
+            continue
         groups = lennard_jones_alike(problem.groups())
         k, unit = groups.modulus_ratio, problem.scales().force
         slow, fast_one = (float(pull_off_ratio(groups.tabor * x)) for x in (1.0, k ** (1 / 3)))

@@ -321,7 +321,7 @@ def _passport(
     name = table.get("passport", '"pdms.toml"')
     passport = (
         published(name)
-        if name in MATERIALS
+        if isinstance(name, str) and name in MATERIALS
         else read_passport(table.beside("passport", '"pdms.toml"'), also=own)
     )
     stated = None
