@@ -79,7 +79,7 @@ def hidden(random):
         known = judged(choice, fast, any_targets)
         if isinstance(known, str) or known.margins["ratio"] < log(1.2):
             continue
-        run = simulate(known, fast, any_targets, accuracy=2e-3, time_limit=60.0)
+        run = simulate(known, fast, any_targets, accuracy=2e-3)
         if run.margin is not None:
             targets = Targets(hold=run.hold, release=run.release)
             return fast, space, targets, judged(choice, fast, targets)
@@ -100,9 +100,8 @@ def compare(count, seed, fixed):
         begin = process_time()
         found = find_design(fast.materials, fast.traction, space, targets, confirm=0, seed=seed)
         times.append(process_time() - begin)
-        how = {"accuracy": 2e-3, "time_limit": 60.0}
         runs = [
-            simulate(each, found.fast, targets, **how)
+            simulate(each, found.fast, targets, accuracy=2e-3)
             for each in found.candidates
             if each.is_possible
         ]

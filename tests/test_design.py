@@ -51,7 +51,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def run(found):
-    return simulate(found.best, found.fast, TARGETS, accuracy=0.01, time_limit=None)
+    return simulate(found.best, found.fast, TARGETS, accuracy=0.01)
 
 
 def grid_of_margins(fast):
@@ -171,6 +171,13 @@ def test_a_simulation_that_is_not_started_leaves_the_answer_open(found):
     assert set(found.simulated) == {None}
 
 
+def test_a_time_limit_leaves_the_answer_open():
+    space = replace(SPACE, radius=Bounds(2e-3), hold_speed=Bounds(1e-3), release_speed=None)
+    found = find_design({"rubber": RUBBER}, LAW, space, Targets(hold=5e-3), time_limit=1e-9)
+    assert found.meets is None
+    assert "time limit" in found.simulated[0].why
+
+
 def test_the_area_limits_radius_and_number():
     space = replace(SPACE, pads=Bounds(1, 6), area=6 * (2e-3) ** 2, radius=Bounds(1e-3, 2e-3))
     space = replace(space, hold_speed=Bounds(1e-3))
@@ -206,6 +213,7 @@ def test_the_same_seed_gives_the_same_design():
     assert one == again
 
 
+@pytest.mark.slow
 def test_theories_answer_where_surrogates_do_not():
     space = DesignSpace(Bounds(2e-3, 3e-3), Bounds(2e-3), hold_speed=Bounds(1e-4))
     elastic = Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)

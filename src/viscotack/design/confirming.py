@@ -57,7 +57,6 @@ def simulate(
     targets: Targets,
     *,
     accuracy: float,
-    time_limit: float | None,
 ) -> Simulated:
     """Simulate one pad of a design at both speeds.
 
@@ -69,14 +68,14 @@ def simulate(
         Has materials and interface.
     targets : Targets
         The targets.
-    accuracy, time_limit : float
+    accuracy : float
         Of each simulation, as for :func:`viscotack.solve`.
     """
     forces: dict[str, float] = {}
     errors: dict[str, float] = {}
     methods, reasons = [], []
     for name, pad in pads_of(candidate.choice, targets).items():
-        found = _pulled(pad, fast, accuracy, time_limit)
+        found = _pulled(pad, fast, accuracy)
         if isinstance(found, str):
             reasons.append(f"{name}: {found}")
             continue
@@ -94,15 +93,11 @@ def simulate(
     )
 
 
-def _pulled(
-    pad: Pad, fast: FastTier, accuracy: float, time_limit: float | None
-) -> tuple[float, float, str] | str:
+def _pulled(pad: Pad, fast: FastTier, accuracy: float) -> tuple[float, float, str] | str:
     """Return the simulated force of a pad [N], its relative error and method, or a reason."""
     problem = fast.problem(pad)
     try:
-        found = solve(
-            problem, accuracy=accuracy, until="pull-off", throw=False, time_limit=time_limit
-        )
+        found = solve(problem, accuracy=accuracy, until="pull-off", throw=False)
         if found.outcome is Outcome.STOPPED:
             return found.status
         force = pull_off(found).force * problem.scales().force

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.clock import limited
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Material
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
@@ -136,8 +137,10 @@ def find_design(
         Number of candidates that are simulated, 0 to 3.
     seed : int
         Of the search.
-    accuracy, time_limit : float
+    accuracy : float
         Of each simulation, as for :func:`viscotack.solve`.
+    time_limit : float, optional
+        Longest wall time of all simulations [s]; those that it stops leave the answer open.
     progress : callable
         Called with the completed share.
 
@@ -163,9 +166,10 @@ def find_design(
         limits += _reached(fast, space, targets, seed)
     some = [each for each in candidates[:confirm] if each.is_possible]
     runs: list[Simulated] = []
-    for each in some:
-        runs.append(simulate(each, fast, targets, accuracy=accuracy, time_limit=time_limit))
-        progress(0.6 + 0.4 * len(runs) / len(some))
+    with limited(time_limit):
+        for each in some:
+            runs.append(simulate(each, fast, targets, accuracy=accuracy))
+            progress(0.6 + 0.4 * len(runs) / len(some))
     candidates, simulated = _ranked(candidates, runs)
     best = candidates[0]
     slopes = _elasticities(best, fast, targets)
