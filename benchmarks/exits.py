@@ -3,7 +3,8 @@
 Runs ``campaign verify`` on an intact folder 300 times and every other command 50 times, beside
 processes that keep all cores busy, and counts the exit statuses. It ends with 1 if one differs from
 that of its command: threads that a library leaves running abort a process at its end. With a log,
-runs are added to those that it has, up to the numbers.
+runs are added to those that it has, up to the numbers; a row has the load of the machine after its
+runs, too. With ``--only`` the other commands run only if they write what others read.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import argparse
 import json
 import multiprocessing
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -19,6 +21,8 @@ import sys
 import tempfile
 from collections import Counter
 from pathlib import Path
+
+import psutil
 
 # Commands and their exit statuses; {run} numbers the runs of a command.
 VERIFY = "campaign verify c"
@@ -141,6 +145,7 @@ def main() -> int:
     parser.add_argument("--verify", type=int, default=300, help="runs of campaign verify")
     parser.add_argument("--others", type=int, default=50, help="runs of each other command")
     parser.add_argument("--load", type=int, default=os.cpu_count() or 1, help="busy processes")
+    parser.add_argument("--only", default="", help="regular expression of the commands' beginnings")
     parser.add_argument("--log", type=Path, help="a line for each command that was run")
     asked = parser.parse_args()
     done = recorded(asked.log)
@@ -153,14 +158,18 @@ def main() -> int:
             process.start()
         for command, status in COMMANDS.items():
             wanted = asked.verify if command == VERIFY else asked.others
-            # at least once: later commands read files that it writes
-            runs = max(1, wanted - done[command])
+            left = wanted - done[command] if re.match(asked.only, command) else 0
+            # later commands read files that it writes
+            runs = max(left, int(" --save " in command or " -o " in command))
+            if not runs:
+                continue
             found, said = statuses(command, runs, folder)
             bad = runs - found[status]
             wrong += bad
             if asked.log:
                 with asked.log.open("a", encoding="utf-8") as log:
                     row = {"command": command, "runs": runs, "statuses": found}
+                    row["load"] = psutil.getloadavg()[0]
                     print(json.dumps(row), file=log)
             print(f"{bad or 'none'} of {runs} wrong: {command}: {dict(found)} {said}", flush=True)
         for process in load:
