@@ -34,7 +34,7 @@ def _import(name, globals=None, locals=None, fromlist=(), level=0):
         return types.SimpleNamespace(locking=_locking, LK_NBLCK=2)
     found = _IMPORT(name, globals, locals, fromlist, level)
     if asker == "viscotack.system" and name == "psutil":
-        found.BELOW_NORMAL_PRIORITY_CLASS = 10  # of Windows; here a nice value
+        found.BELOW_NORMAL_PRIORITY_CLASS = 19  # of Windows; here the highest niceness
     return found
 
 
