@@ -180,7 +180,7 @@ def random(given):
             word = found.status.split(";")[0][:60]
             word = word.split(" at ")[0].split(" at depth")[0]
             residual = found.energy_residual
-            if not word.startswith("stopped"):
+            if found.outcome is not vt.Outcome.STOPPED:
                 worst = max(worst, residual)
             about = f"{residual:.1e} {found.statistics['steps']:.0f} steps"
         except InputError as error:
@@ -194,8 +194,23 @@ def random(given):
     print(f"largest energy residual of complete runs: {worst:.1e}")
 
 
+def judge(inside, about, found, **off):
+    """Print errors beside the stated ones, and note whether they are within."""
+    stated = found.error_estimate or {}
+    for name, value in off.items():
+        inside[name].append(abs(value) <= stated[name])
+    pairs = [f"{name} {100 * x:+.3f} of {100 * stated[name]:.3f} %" for name, x in off.items()]
+    print(f"{about}: {', '.join(pairs)}", flush=True)
+
+
+def summed(inside):
+    """Print how many errors are within the stated ones."""
+    for name, found in inside.items():
+        print(f"{name}: {np.mean(found):.0%} of {len(found)} within the stated error")
+
+
 def trust(given):
-    """Compare stated errors with the difference to finer pixels and steps."""
+    """Compare stated errors of drawn spheres with contacts of revolution."""
     rng = np.random.default_rng(given.seed)
     inside = {"force": [], "work": []}
     for _ in range(given.count):
@@ -210,17 +225,9 @@ def trust(given):
         side = round(2 * half * ALONG / (zone / rng.uniform(1.6, 4)))
         problem, exact, unit = of_sphere(tabor, solid(k), test, min(max(side, 48), 160), half)
         found, force, work, _ = compared(problem, exact, unit)
-        stated = found.error_estimate or {}
-        for name, value in (("force", force), ("work", work)):
-            inside[name].append(abs(value) <= stated[name])
-        print(
-            f"sphere mu {tabor:.2f} k {k:g} {problem.zone.pixels:.2f} px: force "
-            f"{100 * force:+.3f} of {100 * stated['force']:.3f} %, work {100 * work:+.3f} of "
-            f"{100 * stated['work']:.3f} %",
-            flush=True,
-        )
-    for name, found in inside.items():
-        print(f"{name}: {np.mean(found):.0%} of {len(found)} within the stated error")
+        about = f"sphere mu {tabor:.2f} k {k:g} {problem.zone.pixels:.2f} px"
+        judge(inside, about, found, force=force, work=work)
+    summed(inside)
 
 
 def finer(surface):
@@ -247,22 +254,21 @@ def rough(given):
         found = pull(problem, time_limit=given.limit)
         fine = replace(problem, surface=finer(problem.surface))
         better = pull(fine, accuracy=5e-4, estimate_error=False, time_limit=4 * given.limit)
-        if any(each.status.startswith("stopped") for each in (found, better)):
+        if vt.Outcome.STOPPED in (found.outcome, better.outcome):
             print(f"{found.status}; {better.status}", flush=True)
             continue
-        stated = found.error_estimate or {}
-        force = found.pull_off_force / better.pull_off_force - 1
-        work = found.work_of_separation / better.work_of_separation - 1
-        for name, value in (("force", force), ("work", work)):
-            inside[name].append(abs(value) <= stated[name])
-        print(
+        about = (
             f"k {problem.material.modulus_ratio:.3g}, {problem.zone.pixels:.2f} px, "
-            f"{len(found.events)} jumps: force {100 * force:+.2f} of {100 * stated['force']:.2f} %,"
-            f" work {100 * work:+.2f} of {100 * stated['work']:.2f} %",
-            flush=True,
+            f"{len(found.events)} jumps"
         )
-    for name, found in inside.items():
-        print(f"{name}: {np.mean(found):.0%} of {len(found)} within the stated error")
+        judge(
+            inside,
+            about,
+            found,
+            force=found.pull_off_force / better.pull_off_force - 1,
+            work=found.work_of_separation / better.work_of_separation - 1,
+        )
+    summed(inside)
 
 
 def size(given):

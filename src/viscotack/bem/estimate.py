@@ -89,7 +89,7 @@ def _of_end(
     try:
         if _holds(result):
             value, other = time_held(result), time_held(coarse)
-            estimate = {"time": _from_difference("time", abs(value - other) / value, accuracy)}
+            estimate = {"time": from_difference("time", abs(value - other) / value, accuracy)}
         else:
             found = pull_off(result)
             alike = min(peaks(coarse), key=lambda peak: abs(peak.depth - found.depth))
@@ -121,7 +121,7 @@ def _of_pull_off(
         more *= _SPRINGS
     shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
     share = abs(found.force - alike.force) / found.force
-    force = more * _from_difference("force", share, accuracy)
+    force = more * from_difference("force", share, accuracy)
     # under a growing load both end by chance near the largest force, and may end at one place;
     # where the force bends within a step, both may have their minimum at the same wrong place
     place = hypot(fold_shift(result, force), step_shift(result))
@@ -146,7 +146,7 @@ def _of_pull_off(
     }
 
 
-def _from_difference(name: str, share: float, accuracy: float) -> float:
+def from_difference(name: str, share: float, accuracy: float) -> float:
     """Return the error estimated from a relative difference to the coarser run."""
     return max(_MARGIN[name] * share / (COARSER - 1), _FLOOR[name] * accuracy)
 

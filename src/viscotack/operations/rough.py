@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
-from viscotack.problem.accuracy import TimeLimit
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
@@ -44,7 +44,7 @@ class OfRough(Operation):
             argument=True,
         ),
     ]
-    accuracy: Accuracy = 2e-3
+    accuracy: Accuracy = DEFAULT_ACCURACY
     moments: Annotated[
         int | None,
         Whole(
@@ -62,8 +62,8 @@ class OfRough(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Simulate the test, telling ``share``."""
         from viscotack.pictures.rough import draw_rough, film_of_pull
+        from viscotack.result import Outcome
         from viscotack.rough import pull, read_rough, stickiness
-        from viscotack.surfaces import roughness
 
         from .parts.tables import rows_as_csv
 
@@ -77,7 +77,7 @@ class OfRough(Operation):
             force_coarse=self.force,
             progress=lambda share: caller.tell({"share": share}),
         )
-        spread, measures = roughness(problem.surface), stickiness(problem)
+        spread, measures = problem.roughness, stickiness(problem)
         about = {
             "rms_height_m": spread.rms_height,
             "rms_slope": spread.rms_slope,
@@ -98,7 +98,7 @@ class OfRough(Operation):
             },
             pictures={"plot": lambda: draw_rough(found)},
             notes=found.warnings,
-            status=1 if found.status.startswith("stopped") else 0,
+            status=1 if found.outcome is Outcome.STOPPED else 0,
         )
 
 
@@ -123,7 +123,7 @@ def _words(found: Any, about: dict[str, float]) -> str:
         f"there: depth {readable(float(found.depth[at]), 'm')}, {share:.3g} % of the map in "
         f"contact in {int(found.patches[at])} patches",
     ]
-    if not found.status.startswith(("stopped", "still")):
+    if found.has_separated:
         lines.append(
             f"work of separation: {readable(found.work_of_separation, 'J')}{within('work')}"
         )

@@ -15,7 +15,6 @@ from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.problem.case_file import case_of_tables
 from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
-from viscotack.units import parse
 
 from .payload import Hold
 from .pulling import MOST_PADS, Backing, PadArray, grid
@@ -147,7 +146,7 @@ def _places(table: Table) -> tuple[tuple[float, float], ...]:
         ):
             raise InputError(f"{table.name} positions must be a list of pairs of lengths")
         return tuple(
-            (_length(table, "positions", x), _length(table, "positions", y)) for x, y in given
+            (table.parsed("positions", x, "m"), table.parsed("positions", y, "m")) for x, y in given
         )
     rows, columns = (_count(table, key) for key in ("rows", "columns"))
     if rows * columns > MOST_PADS:
@@ -168,19 +167,12 @@ def _scatter(table: Table) -> tuple[Scatter | None, int]:
     given = table.values
     if not {"height_scatter", "work_scatter"} & given.keys():
         return None, _DRAWS
-    height = _length(table, "height_scatter", given.get("height_scatter", 0.0))
+    height = table.parsed("height_scatter", given.get("height_scatter", 0.0), "m")
     work = table.quantity("work_scatter", "1") if "work_scatter" in given else 0.0
     seed, draws = given.get("seed", 0), given.get("draws", _DRAWS)
     if any(not isinstance(x, int) or isinstance(x, bool) or x < 0 for x in (seed, draws)):
         raise InputError(f"{table.name} seed and draws must be whole numbers")
     return table.make(Scatter, height=height, work=work, seed=seed), draws
-
-
-def _length(table: Table, key: str, given: Any, unit: str = "m") -> float:
-    try:
-        return float(parse(given, unit))
-    except ValueError as error:
-        raise InputError(f"{table.name} {key}: {error}") from None
 
 
 def _numbers(table: Table, key: str, unit: str) -> tuple[float, ...]:
@@ -189,7 +181,7 @@ def _numbers(table: Table, key: str, unit: str) -> tuple[float, ...]:
     given = table.values.get(key, [])
     if not isinstance(given, list):
         raise InputError(f"{table.name} {key} must be a list, one entry for each pad")
-    return tuple(_length(table, key, each, unit) for each in given)
+    return tuple(table.parsed(key, each, unit) for each in given)
 
 
 def _optional(

@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -80,21 +81,23 @@ class Curve:
 
     def at(self, position: Array) -> Array:
         """Return the force [N] at positions, before a jump there; 0 beyond the end."""
-        x, F = self._ascending
-        place = np.clip(np.searchsorted(x, position, side="right") - 1, 0, x.size - 2)
-        width = x[place + 1] - x[place]
-        share = np.where(width > 0, (position - x[place]) / np.where(width > 0, width, 1.0), 1.0)
-        found = F[place] + np.clip(share, 0.0, 1.0) * (F[place + 1] - F[place])
-        return np.where(position < x[0], 0.0, found)
+        found = self._between(position, "right", 1.0)
+        return np.where(position < self._ascending[0][0], 0.0, found)
 
     def after(self, position: Array) -> Array:
         """Return the force [N] at positions, after a jump there."""
+        found = self._between(position, "left", 0.0)
+        return np.where(position <= self._ascending[0][0], 0.0, found)
+
+    def _between(self, position: Array, side: Literal["left", "right"], at_jump: float) -> Array:
+        """Return forces between points, at a jump of the share `at_jump` between its two ends."""
         x, F = self._ascending
-        place = np.clip(np.searchsorted(x, position, side="left") - 1, 0, x.size - 2)
+        place = np.clip(np.searchsorted(x, position, side=side) - 1, 0, x.size - 2)
         width = x[place + 1] - x[place]
-        share = np.where(width > 0, (position - x[place]) / np.where(width > 0, width, 1.0), 0.0)
-        found = F[place] + np.clip(share, 0.0, 1.0) * (F[place + 1] - F[place])
-        return np.where(position <= x[0], 0.0, found)
+        share = np.where(
+            width > 0, (position - x[place]) / np.where(width > 0, width, 1.0), at_jump
+        )
+        return F[place] + np.clip(share, 0.0, 1.0) * (F[place + 1] - F[place])
 
     def moved(self, by: float) -> Curve:
         """Return the curve with all positions increased by a length [m]."""

@@ -122,6 +122,13 @@ class Table:
             raise InputError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
         return plausible(f"{self.name} {key}", number, unit)
 
+    def parsed(self, key: str, given: Any, unit: str) -> float:
+        """Return one of the numbers of a key in an SI unit; the error names table and key."""
+        try:
+            return float(parse(given, unit))
+        except ValueError as error:
+            raise InputError(f"{self.name} {key}: {error}") from None
+
     def number(self, field: Field, key: str = "", unit: str = "") -> float:
         """Return the number described by a card, from the key of its field or another key."""
         card, key = field.card, key or field.name

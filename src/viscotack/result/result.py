@@ -68,6 +68,11 @@ class Outcome(StrEnum):
     STOPPED = "stopped"
     """The solver could not continue: "stopped because ...; cure". The series are incomplete."""
 
+    @classmethod
+    def of(cls, status: str) -> "Outcome":
+        """Return the outcome at the beginning of a status sentence."""
+        return next(each for each in cls if status.startswith(each))
+
 
 @dataclass(frozen=True)
 class Event:
@@ -262,7 +267,7 @@ class Result:
     @property
     def outcome(self) -> Outcome:
         """Outcome at the beginning of the status sentence."""
-        return next(o for o in Outcome if self.status.startswith(o))
+        return Outcome.of(self.status)
 
     @property
     def accuracy_met(self) -> bool | None:

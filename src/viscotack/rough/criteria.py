@@ -28,7 +28,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscotack.bem.grid.plane import Plane
-from viscotack.surfaces import roughness
 
 from .problem import RoughProblem
 
@@ -80,7 +79,7 @@ def stickiness(problem: RoughProblem) -> Stickiness:
     h = surface.heights - surface.heights.mean()
     E, work = problem.material.contact_modulus, law.work_of_adhesion
     full = E * float(np.mean(h * plane.held(h))) / 2 / work
-    spread = roughness(surface)
+    spread = problem.roughness
     return Stickiness(
         full,
         full / problem.material.modulus_ratio,

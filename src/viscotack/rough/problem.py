@@ -24,14 +24,14 @@ from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Layer
 from viscotack.problem.units import time_unit
 from viscotack.protocol import Apart, Approach, AtRadius, Retract, Retraction, Units
-from viscotack.surfaces import HeightMap, roughness
+from viscotack.surfaces import HeightMap, Roughness, roughness
 from viscotack.traction import Traction, effective_range, has_rest
 
 # Length of the zone in l, of a law as long as Lennard-Jones.
 _ZONE = 0.75
 # Largest rms slope of small strain, and fewest thicknesses of a layer across a free map.
 _STEEPEST, _FEWEST = 0.5, 2.0
-# Most pixels; each takes about 1 kB, and twice as many about three times as long.
+# Most pixels: 512 x 512 take 0.5 GB and two minutes (benchmarks/grid.py size).
 _MOST = 2048 * 2048
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
 # warning, the third is asked for.
@@ -53,8 +53,8 @@ class RoughProblem:
     Parameters
     ----------
     surface : HeightMap
-        Heights of the rigid surface. Only sums of roughness matter: a rough solid against a flat
-        rigid surface is the same problem in the linear theory of small slopes.
+        Heights of the rigid surface. A rough solid against a flat rigid surface is the same problem
+        in the linear theory of small slopes.
     material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
         Material of the soft body.
     traction : LennardJones, Dugdale, Exponential or Tabulated
@@ -110,7 +110,7 @@ class RoughProblem:
             )
         if not isinstance(self.body, HalfSpace | Layer):
             raise InputError(f"a map of heights lies on a half-space or a layer, not {self.body}")
-        if (slope := roughness(self.surface).rms_slope) > _STEEPEST:
+        if (slope := self.roughness.rms_slope) > _STEEPEST:
             raise InputError(
                 f"the rms slope of the map is {slope:.3g}, and small strain holds up to "
                 f"{_STEEPEST}; give heights and pixel in the same unit, or a smoother map"
@@ -126,6 +126,11 @@ class RoughProblem:
         ends = [m.to for m in protocol.moves if isinstance(m, Approach | Retract)]
         if any(isinstance(state, AtRadius) for state in (protocol.start, *ends)):
             raise InputError("a map has no contact radius; give a depth or a force")
+
+    @cached_property
+    def roughness(self) -> Roughness:
+        """Statistics of the surface."""
+        return roughness(self.surface)
 
     @property
     def length(self) -> float:

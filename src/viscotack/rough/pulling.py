@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscotack.bem.bounds import check_clock
+from viscotack.bem.estimate import COARSER, from_difference
 from viscotack.bem.grid.descent import Found
 from viscotack.bem.grid.run import Frame, GridRun, march_on_grid, relaxed
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
@@ -19,13 +20,13 @@ from viscotack.bem.solver import modes_of_run
 from viscotack.bem.verdict import status_of
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import Move
-from viscotack.result import Event
+from viscotack.result import Event, Outcome
 
 from .problem import COARSE, COARSEST, FINE, RoughProblem
 from .result import FieldMap, RoughResult
 
-DEFAULT_ACCURACY = 2e-3
 # Largest relative error of the force by pixels per zone, measured on spheres (benchmarks/grid.py
 # pixels); that of an elastic solid, whose edge moves from pixel to pixel.
 _PIXELS = (1.0, 1.5, 2.0, 3.0, 4.0)
@@ -33,8 +34,6 @@ _ERRORS = (0.12, 0.05, 0.02, 4.5e-3, 1.3e-3)
 # Relative error of the force times the number of pixels in contact at the largest tension: what
 # pixels do not know of the summits between them (benchmarks/grid.py rough).
 _FEW = 0.4
-# Ratio of the errors of the coarser run, and safety factors on its difference.
-_COARSER, _MARGIN = 4.0, {"force": 3.0, "work": 3.5}
 # Smallest error of the work over that of the force.
 _WORK = 2.0
 # Share of the main run in the total work.
@@ -116,10 +115,10 @@ def pull(
             raise InputError(f"the relaxed start was not found: {reason}") from None
         run = _run(problem, start, settings, maps, part(0.0, share))
         result = _result(problem, run, settings, warnings)
-        if estimate_error and not result.status.startswith("stopped"):
-            light = _run(problem, start, settings.coarser(_COARSER), 0, part(share, 1.0))
+        if estimate_error and result.outcome is not Outcome.STOPPED:
+            light = _run(problem, start, settings.coarser(COARSER), 0, part(share, 1.0))
             coarse = _result(problem, light, settings, ())
-            if not coarse.status.startswith("stopped"):
+            if coarse.outcome is not Outcome.STOPPED:
                 result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     return replace(result, statistics=statistics)
@@ -155,7 +154,7 @@ def _run(
     moves: tuple[Move, ...] = units.moves(test.moves)
     rate, stiffness = units.speed(test.speed), units.stiffness(test.stiffness)
     legs = legs_of(moves, rate, stiffness, contact, settings)  # type: ignore[arg-type]
-    began: Any = _Start(start.depth, _force(problem, start))
+    began: Any = _Start(start.depth, contact.force_under(start.tension, start.depth))
     depths = reached(began, moves, contact)  # type: ignore[arg-type]
     check_clock(legs, moves, depths, contact)  # type: ignore[arg-type]
     spring = spring_travel(began, depths, moves, stiffness, material.modulus_ratio, contact)  # type: ignore[arg-type]
@@ -166,17 +165,11 @@ def _run(
     )
 
 
-class _Start:
-    """Depth and force of a relaxed start."""
+class _Start(NamedTuple):
+    """Depth [h0] and force [output unit] of a relaxed start."""
 
-    def __init__(self, depth: float, force: float) -> None:
-        self.depth, self.force = depth, force
-
-
-def _force(problem: RoughProblem, start: Found) -> float:
-    contact = problem.contact
-    pulled = contact.unit * contact.area * float(start.tension.sum())
-    return contact.tail_force(start.depth) - pulled
+    depth: float
+    force: float
 
 
 def _result(
@@ -247,18 +240,13 @@ def _errors(
     pixels = float(np.exp(np.interp(np.log(problem.zone.pixels), np.log(_PIXELS), np.log(_ERRORS))))
     touching = max(result.area[result.at_pull_off] / result.pixel**2, 1.0)
     pixels = float(np.hypot(pixels, _FEW / touching))
-    found = {"force": pixels, "work": _WORK * pixels}
-    force, other = result.pull_off_force, coarse.pull_off_force
-    scale = max(force, other)
-    if scale > 0:
-        steps = _MARGIN["force"] / (_COARSER - 1) * abs(force - other) / scale
-        found["force"] = float(np.hypot(found["force"], max(steps, 0.2 * accuracy)))
-    try:
-        work, rough = result.work_of_separation, coarse.work_of_separation
-    except InputError:
-        del found["work"]
-        return found
-    if max(work, rough) > 0:
-        steps = _MARGIN["work"] / (_COARSER - 1) * abs(work - rough) / max(work, rough)
-        found["work"] = float(np.hypot(found["work"], max(steps, 0.4 * accuracy)))
+    found = {"force": pixels}
+    pairs = {"force": (result.pull_off_force, coarse.pull_off_force)}
+    if result.has_separated and coarse.has_separated:
+        found["work"] = _WORK * pixels
+        pairs["work"] = (result.work_of_separation, coarse.work_of_separation)
+    for name, (value, other) in pairs.items():
+        if (scale := max(value, other)) > 0:
+            steps = from_difference(name, abs(value - other) / scale, accuracy)
+            found[name] = float(np.hypot(found[name], steps))
     return found

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
-from viscotack.result import Event
+from viscotack.result import Event, Outcome
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +98,16 @@ class RoughResult:
     statistics: Mapping[str, float] = field(default_factory=dict)
 
     @property
+    def outcome(self) -> Outcome:
+        """Outcome at the beginning of the status sentence."""
+        return Outcome.of(self.status)
+
+    @property
+    def has_separated(self) -> bool:
+        """Whether the surfaces are apart at the end, or never touched."""
+        return self.outcome not in (Outcome.STOPPED, Outcome.IN_CONTACT)
+
+    @property
     def pull_off_force(self) -> float:
         """Largest tension of the last part of the test [N], 0 if there is none."""
         return max(-float(self.force[self.last_leg :].min()), 0.0)
@@ -124,7 +134,7 @@ class RoughResult:
         ValueError
             If the run did not end in separation.
         """
-        if not self.status.startswith(("detached", "jumped", "never")):
+        if not self.has_separated:
             raise InputError(f"the surfaces have not separated: {self.status}")
         first, at = self.last_leg, self.at_pull_off
         pressed = np.flatnonzero(self.force[first:at] >= 0)
@@ -148,7 +158,7 @@ class RoughResult:
     def summary(self) -> dict[str, Any]:
         """Numbers of the answer in SI."""
         at = self.at_pull_off
-        separated = self.status.startswith(("detached", "jumped", "never"))
+        separated = self.has_separated
         errors = self.error_estimate or {}
         return {
             "pull_off_force_N": self.pull_off_force,

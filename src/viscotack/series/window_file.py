@@ -24,7 +24,6 @@ from viscotack.problem.case_file import case_of_tables
 from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
 from viscotack.protocol import Retraction
 from viscotack.traction import ages
-from viscotack.units import parse
 
 from .chances import WindowScatter
 from .contact_time import aged
@@ -192,7 +191,7 @@ def _numbers(table: Table, key: str, unit: str, example: str) -> tuple[float, ..
     """Return a quantity, a list of them, or the numbers of a range "1 um/s..1 mm/s"."""
     given = table.get(key, example)
     if isinstance(given, str) and _TO in given:
-        low, high = (_number(table, key, end.strip(), unit) for end in given.split(_TO, 1))
+        low, high = (table.parsed(key, end.strip(), unit) for end in given.split(_TO, 1))
         if not 0 < low < high:
             raise InputError(f"{table.name} {key}: a range begins above 0, got {given!r:.60}")
         count = min(1 + round(_PER_DECADE * np.log10(high / low)), _MOST)
@@ -200,12 +199,4 @@ def _numbers(table: Table, key: str, unit: str, example: str) -> tuple[float, ..
     several = given if isinstance(given, list) else [given]
     if not several:
         raise InputError(f"{table.name} {key} is empty; write for example {key} = {example}")
-    return tuple(_number(table, key, each, unit) for each in several)
-
-
-def _number(table: Table, key: str, given: Any, unit: str) -> float:
-    """Return a quantity in SI; the error names table and key."""
-    try:
-        return float(parse(given, unit))
-    except ValueError as error:
-        raise InputError(f"{table.name} {key}: {error}") from None
+    return tuple(table.parsed(key, each, unit) for each in several)

@@ -61,19 +61,39 @@ def roughness(surface: HeightMap) -> Roughness:
         surface = surface.levelled()
     h, dx = surface.heights - surface.heights.mean(), surface.pixel
     wide = np.pad(h, 1, mode="wrap") if surface.periodic else h
-    centre = wide[1:-1, 1:-1]
     along = np.diff(wide, axis=0) / dx
     across = np.diff(wide, axis=1) / dx
-    bent = wide[2:, 1:-1] + wide[:-2, 1:-1] + wide[1:-1, 2:] + wide[1:-1, :-2] - 4 * centre
     q, spectrum = _spectrum(h, dx, surface.periodic)
     return Roughness(
         rms_height=float(h.std()),
         rms_slope=float(np.sqrt(np.mean(along**2) + np.mean(across**2))),
-        rms_curvature=float(np.sqrt(np.mean(bent**2))) / (2 * dx**2),
+        rms_curvature=rms_curvature(h, dx, surface.periodic),
         peak=float(h.max()),
         wave_number=q,
         spectrum=spectrum,
     )
+
+
+def rms_curvature(heights: npt.NDArray, pixel: float, periodic: bool) -> float:
+    """Return the root mean square of the mean curvature, half the Laplacian by differences.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (rows, columns)
+        Heights, in any unit.
+    pixel : float
+        Side of a pixel, in any unit.
+    periodic : bool
+        Whether the map repeats; otherwise only pixels with four neighbours count.
+
+    Returns
+    -------
+    float
+        Unit of the heights over that of the pixel squared.
+    """
+    h = np.pad(heights, 1, mode="wrap") if periodic else heights
+    bent = h[2:, 1:-1] + h[:-2, 1:-1] + h[1:-1, 2:] + h[1:-1, :-2] - 4 * h[1:-1, 1:-1]
+    return float(np.sqrt(np.mean(bent**2))) / (2 * pixel**2)
 
 
 def _spectrum(h: npt.NDArray, dx: float, periodic: bool) -> tuple[npt.NDArray, npt.NDArray]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +16,7 @@ from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
 from viscotack.materials import Modes
 
-# Largest sum of unbalanced tractions over that of all, at the default accuracy.
+# Largest sum of unbalanced tractions over that of all.
 _UNBALANCED = 3e-5
 
 
@@ -52,18 +51,13 @@ class GridBody:
     growing: None = None
     runs: bool = False
 
-    @cached_property
-    def times(self) -> npt.NDArray:
-        """Retardation times of the modes."""
-        return np.asarray(self.modes.times)
-
     def first(self, found: Found) -> GridState:
         """Return the relaxed state, in which every mode is in equilibrium."""
-        plane = self.contact.plane
-        e, many = plane.within(found.moved), (len(self.weights), 1)
+        e, many = self.contact.plane.within(found.moved), (len(self.weights), 1)
         force = self.contact.area * found.held
         memory = Memory(np.tile(e, many), np.tile(force, many))
-        return self._state(0.0, found, found.moved, memory, _at_rest(e))
+        seen = self._seen(0.0, found, e, force, memory)
+        return GridState(seen, self.contact, found.gap, e, force, memory, _at_rest(e), found.moved)
 
     def after(
         self, state: GridState, s: Step, hold: Hold, most_iterations: int, largest_gain: float
@@ -92,14 +86,21 @@ class GridBody:
             tolerance=_UNBALANCED,
             most_iterations=most_iterations,
         )
-        e = found.moved / s.compliance
-        at_surface = plane.within(e)
-        change = at_surface - state.relaxed
-        rates = Rates(change / s.length, 0.0, np.zeros(1))
-        force = area * found.held
-        memory = state.memory.advanced(s, state.relaxed, at_surface, state.nodal, force)
-        after = self._state(state.seen.time + s.length, found, e, memory, rates)
-        after = replace(after, moving=(e - state.moved) / s.length)
+        moved = found.moved / s.compliance
+        e, force = plane.within(moved), area * found.held
+        change = e - state.relaxed
+        memory = state.memory.advanced(s, state.relaxed, e, state.nodal, force)
+        after = GridState(
+            self._seen(state.seen.time + s.length, found, e, force, memory),
+            contact,
+            found.gap,
+            e,
+            force,
+            memory,
+            Rates(change / s.length, 0.0, np.zeros(1)),
+            moved,
+            (moved - state.moved) / s.length,
+        )
         away = change - s.length * state.rates.relaxed
         most = float(np.sqrt(np.mean(away**2)))
         error = (s.curvature * most if state.rates.known else 0.0) if found.stable else np.inf
@@ -118,29 +119,21 @@ class GridBody:
         """Return 0: the law depends on the gap alone."""
         return 0.0
 
-    def _state(
-        self,
-        time: float,
-        found: Found,
-        moved: npt.NDArray,
-        memory: Memory,
-        rates: Rates,
-    ) -> GridState:
-        contact, depth = self.contact, found.depth
-        force = contact.area * found.held
-        relaxed = contact.plane.within(moved)
+    def _seen(
+        self, time: float, found: Found, e: npt.NDArray, force: npt.NDArray, memory: Memory
+    ) -> Snapshot:
+        """Return the recorded quantities of an instant."""
+        contact, depth, unit = self.contact, found.depth, self.contact.unit
         touching = int(np.count_nonzero(found.gap < contact.law.edge_gap))
-        instant = 0.5 * self.modes.instantaneous * float(relaxed @ force)
-        unit = contact.unit
-        seen = Snapshot(
+        instant = 0.5 * self.modes.instantaneous * float(e @ force)
+        return Snapshot(
             time=time,
             depth=depth,
             edge=float(np.sqrt(touching * contact.area / np.pi)) if touching else np.nan,
-            force=-unit * contact.area * float(found.tension.sum()) + contact.tail_force(depth),
+            force=contact.force_under(found.tension, depth),
             elastic=unit * (instant + memory.stored(self.weights)),
             interface=unit * contact.area * found.energy + contact.tail_energy(depth),
         )
-        return GridState(seen, contact, found.gap, relaxed, force, memory, rates, moved)
 
 
 def _at_rest(e: npt.NDArray) -> Rates:

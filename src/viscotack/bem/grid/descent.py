@@ -17,8 +17,7 @@ part, s the median of S over c and :math:`\theta = D_+/(D_+ + s/10)`, the precon
 
 .. math:: M^{-1} r = \frac{\theta r}{D_+ + s} + \sqrt{1-\theta}\, c\, G \sqrt{1-\theta}\, r
 
-inverts the law in contact and the solid elsewhere. Without it wide contacts take ten times as many
-iterations or do not converge.
+inverts the law in contact and the solid elsewhere.
 """
 
 from __future__ import annotations
@@ -67,12 +66,10 @@ class Found:
         Interface energy, sum over the pixels [dg].
     depth : float
         Depth of the indenter [h0].
-    iterations, inner : int
-        Iterations of Newton's method and of conjugate gradients.
+    iterations : int
+        Iterations of Newton's method.
     stable : bool
         Whether a stable equilibrium was found.
-    tipped : bool
-        Whether negative curvature was met on the way: the contact has jumped.
     released : bool
         Whether a dead load has pulled the surfaces apart.
     """
@@ -84,9 +81,7 @@ class Found:
     energy: float
     depth: float
     iterations: int
-    inner: int
     stable: bool
-    tipped: bool = False
     released: bool = False
 
 
@@ -97,6 +92,7 @@ class _Tangent:
     plane: Plane
     elastic: npt.NDArray  # transform of S/c
     inverse: npt.NDArray  # transform of c G
+    compliance: float  # c
     curvature: npt.NDArray  # of the law, on the domain
     spring: float | None  # of the machine, None if rigid
 
@@ -114,7 +110,7 @@ class _Tangent:
 
     def preconditioner(self) -> Callable[[npt.NDArray, float], tuple[npt.NDArray, float]]:
         positive = np.maximum(self.curvature, 0.0)
-        usual = float(np.median(self.elastic))
+        usual = self.plane.usual_stiffness / self.compliance
         share = positive / (positive + _SHARE * usual)
         own, rest = share / (positive + usual), np.sqrt(1 - share)
         plane, inverse = self.plane, self.inverse
@@ -173,18 +169,16 @@ def equilibrium(
     held = plane.applied(elastic, v)
     if float(gap.min()) < GONE:  # the mean plane is pressed through the surface
         none = np.zeros_like(gap)
-        return Found(v, gap, none, plane.within(held), 0.0, depth, 0, 0, False)
+        return Found(v, gap, none, plane.within(held), 0.0, depth, 0, False)
     energies, tension = energy_and_traction(law, gap)
     energy = float(energies.sum())
-    inner, tipped, stable = 0, False, False
+    stable = False
 
     def found(iterations: int, stable: bool, released: bool = False) -> Found:
         pressure = plane.within(held)
         if plane.mean_is_zero:
             pressure = pressure - tension.mean()
-        return Found(
-            v, gap, tension, pressure, energy, depth, iterations, inner, stable, tipped, released
-        )
+        return Found(v, gap, tension, pressure, energy, depth, iterations, stable, released)
 
     for iteration in range(1, most_iterations + 1):
         look()
@@ -194,10 +188,8 @@ def equilibrium(
         if iteration > 1 and stable and missing <= tolerance * scale:
             return found(iteration, True)
         curvature = plane.widened(law.stiffness(gap))
-        tangent = _Tangent(plane, elastic, inverse, curvature, spring)
-        step, lowered, stable, many = _direction(tangent, residual, unheld)
-        inner += many
-        tipped = tipped or not stable
+        tangent = _Tangent(plane, elastic, inverse, compliance, curvature, spring)
+        step, lowered, stable = _direction(tangent, residual, unheld)
         at_surface = plane.within(step) - lowered
         slope = float(np.vdot(residual, step)) + unheld * lowered
         stretched = plane.applied(elastic, step)
@@ -222,7 +214,7 @@ def equilibrium(
         opens = at_surface[smallest] > 0
         if spring == 0 and opens and released(gap, span):
             return found(iteration, False, True)
-        stable = stable and part == 1.0 or (stable and missing < 10 * tolerance * scale)
+        stable = stable and (part == 1.0 or missing < 10 * tolerance * scale)
     return found(most_iterations, False)
 
 
@@ -250,7 +242,7 @@ def _longest(change: npt.NDArray, gap: npt.NDArray, span: float, stable: bool) -
 
 def _direction(
     tangent: _Tangent, residual: npt.NDArray, unheld: float
-) -> tuple[npt.NDArray, float, bool, int]:
+) -> tuple[npt.NDArray, float, bool]:
     """Return a direction of descent by conjugate gradients, and whether no curvature is negative.
 
     The direction is that of Newton's method unless negative curvature is met; then it is what was
@@ -264,23 +256,23 @@ def _direction(
     product = float(np.vdot(r, z)) + s * y
     first = product
     if not first > 0:  # an even surface in equilibrium
-        return x, lowered, True, 0
+        return x, lowered, True
     for many in range(1, _MOST_INNER + 1):
         bent, unbalanced = tangent.times(p, d)
         if tangent.plane.mean_is_zero:
             bent = bent - bent.mean()
         curvature = float(np.vdot(p, bent)) + d * unbalanced
         if not curvature > 0:
-            return (p, d, False, many) if many == 1 else (x, lowered, False, many)
+            return (p, d, False) if many == 1 else (x, lowered, False)
         length = product / curvature
         x, lowered = x + length * p, lowered + length * d
         r, s = r - length * bent, s - length * unbalanced
         z, y = apply(r, s)
         before, product = product, float(np.vdot(r, z)) + s * y
         if product <= _INNER**2 * first:
-            return x, lowered, True, many
+            return x, lowered, True
         p, d = z + (product / before) * p, y + (product / before) * d
-    return x, lowered, True, _MOST_INNER
+    return x, lowered, True
 
 
 def _admitted(

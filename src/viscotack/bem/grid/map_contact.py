@@ -2,13 +2,13 @@ r"""A rigid map of heights on a soft body: units, and the tail beyond the map.
 
 Lengths along the surface are in :math:`\ell = E_0^* h_0^2/\Delta\gamma_0`, gaps and depths in h0,
 tractions in dg/h0, so that a traction p moves the relaxed solid by :math:`\hat G \hat p` without a
-factor. A sphere of Tabor number mu has the rigid gap :math:`x^2/(2\mu^3)`.
+factor. A sphere of Tabor number mu has the rigid gap :math:`1 + x^2/(2\mu^3)`.
 
 A map that continues as a paraboloid of radius R beyond its square attracts the solid there as well.
-By Derjaguin, with the half width L the gap
-:math:`g_0` at the apex and the energy :math:`\varphi` of the law,
+By Derjaguin the tension there is, with the half width L of the square, the gap :math:`g_0` at the
+apex at depth 0 and the energy :math:`\varphi` of the law,
 
-.. math:: F = -8 R \int_0^{\pi/4}
+.. math:: T = -8 R \int_0^{\pi/4}
           \varphi\Big(g_0 + \frac{L^2}{2 R \cos^2\theta} - \delta\Big) d\theta .
 """
 
@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from viscotack.bem.grid.plane import Plane
 from viscotack.protocol import AtDepth, Start
+from viscotack.surfaces.statistics import rms_curvature
 from viscotack.traction import Traction, effective_range
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(24)
@@ -65,11 +66,8 @@ class MapContact:
     @cached_property
     def curvature(self) -> float:
         """Root mean square of the curvature of the map [h0/l^2]."""
-        h = self.rigid_gap.reshape(self.plane.shape)
-        if self.plane.periodic:
-            h = np.pad(h, 1, mode="wrap")
-        bent = h[2:, 1:-1] + h[:-2, 1:-1] + h[1:-1, 2:] + h[1:-1, :-2] - 4 * h[1:-1, 1:-1]
-        return float(np.sqrt(np.mean(bent**2))) / (2 * self.area)
+        gap = self.rigid_gap.reshape(self.plane.shape)
+        return rms_curvature(gap, self.plane.pixel, self.plane.periodic)
 
     @cached_property
     def force(self) -> float:
@@ -102,6 +100,10 @@ class MapContact:
     def relaxed_pull_off(self, edge: float) -> float:
         """Return infinity: what is left of a contact on a map bounds no force."""
         return np.inf
+
+    def force_under(self, tension: npt.NDArray, depth: float) -> float:
+        """Return the force [output unit] under tensions [dg/h0] of the pixels, with the tail."""
+        return self.tail_force(depth) - self.unit * self.area * float(tension.sum())
 
     def tail_force(self, depth: float) -> float:
         """Return the force [output unit] on the paraboloid beyond the map, tension negative."""

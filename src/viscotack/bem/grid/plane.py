@@ -95,6 +95,11 @@ class Plane:
         with np.errstate(divide="ignore"):
             return np.where(G > 0, 1 / G, 0.0)
 
+    @cached_property
+    def usual_stiffness(self) -> float:
+        """Median of the stiffness over the wave numbers, of a preconditioner."""
+        return float(np.median(self.stiffness))
+
     @property
     def mean_is_zero(self) -> bool:
         """Whether the mean displacement is zero, so that the depth is that of the mean plane."""

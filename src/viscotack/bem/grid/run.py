@@ -78,7 +78,7 @@ def relaxed(contact: MapContact, start: Start | Apart) -> Found:
     found, depth, step = None, min(-apart, deepest), 0.25 * contact.travel
     for _ in range(_MOST_LOADINGS):
         found = at(depth, found)
-        force = contact.tail_force(depth) - contact.area * contact.unit * found.tension.sum()
+        force = contact.force_under(found.tension, depth)
         touches = np.any(found.gap < law.edge_gap)
         if depth >= deepest or (touches and force >= max(start.force, 0.0)):
             break
@@ -120,11 +120,11 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Frames of a run: the first of all, the one of the largest tension, and at most `most`."""
+    """Frames of a run: that of the largest tension, and evenly drawn ones, at most `most`."""
 
     most: int
     kept: list[Frame] = field(default_factory=list)
-    every: list[int] = field(default_factory=lambda: [1, 0])
+    every: list[int] = field(default_factory=lambda: [1, 0])  # stride, and number of frames seen
     strongest: list[Frame] = field(default_factory=list)
 
     def take(self, frame: Frame) -> None:
@@ -189,7 +189,6 @@ def march_on_grid(
     stiffness: float | None = None,
     frames: int = 0,
     progress: Callable[[float], None] | None = None,
-    watch: Callable[[Snapshot], None] | None = None,
 ) -> GridRun:
     """Integrate a relaxed body through all legs; see :func:`viscotack.bem.march.march`.
 
@@ -201,5 +200,5 @@ def march_on_grid(
     state, leg = body.first(start), legs[0]
     books = Books(0.0, np.zeros(len(body.weights)))
     at = Place(state, books, Fixed(), leg, 0, state.seen, leg.least_step, Lowest())  # type: ignore[arg-type]
-    through(run, at, "detached", progress, watch)
+    through(run, at, "detached", progress)
     return run
