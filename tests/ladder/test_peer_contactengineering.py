@@ -1,4 +1,4 @@
-"""The elastic theories against ContactEngineering's Adhesion (MIT), an independent code.
+"""Elastic theories and the grid against ContactEngineering's Adhesion (MIT), an independent code.
 
 Left out where it is not installed: `pip install -e ".[peers]"`. Its closed forms are right to
 round-off. Its `JKR.contact_radius(penetration=...)` is not: the radius at the depth minimum is
@@ -12,7 +12,11 @@ below on one contact in two systems of units.
 import numpy as np
 import pytest
 
+from viscotack.bem.grid.descent import equilibrium
+from viscotack.bem.grid.plane import Plane
+from viscotack.bem.machine import Hold
 from viscotack.theory import dmt, jkr, maugis
+from viscotack.traction import LennardJones
 
 reason = "Adhesion of ContactEngineering is not installed"
 peer_jkr = pytest.importorskip("Adhesion.ReferenceSolutions.JKR", reason=reason)
@@ -130,3 +134,33 @@ def test_dmt_contact_radius_is_that_of_the_peer():
         )
         found = dmt.contact_radius_at_force(force, **TIP)
         assert found == pytest.approx(expected, rel=ROUND_OFF, abs=0)
+
+
+@pytest.mark.parametrize("tabor", [0.5, 1.0, 2.0])
+def test_the_solution_of_the_grid_is_an_equilibrium_of_the_peer(tabor, monkeypatch):
+    """Same law (8-2), same pressed squares: energy, force, balance at the displacements found."""
+    system = pytest.importorskip("Adhesion.System")
+    interactions = pytest.importorskip("Adhesion.Interactions")
+    mechanics = pytest.importorskip("ContactMechanics")
+    topography = pytest.importorskip("SurfaceTopography")
+    # the peer has no correction for tractions that vary over a pixel
+    monkeypatch.setattr("viscotack.bem.grid.plane._WITHIN_PIXEL", np.inf)
+    many, half, radius, depth = 32, 6.0 * tabor**1.5, tabor**3, 1.0
+    x = (np.arange(many) + 0.5) * 2 * half / many - half
+    heights = -np.add.outer(x**2, x**2) / (2 * radius)
+    plane = Plane((many, many), 2 * half / many)
+    law = LennardJones(1.0, 1.0)
+    hold = Hold(np.inf, depth=depth)
+    moved = np.zeros(plane.domain)
+    found = equilibrium(plane, law, 1 - heights.ravel(), 1.0, moved, hold, tolerance=1e-9)
+    assert found.stable
+    sides = (2 * half, 2 * half)
+    substrate = mechanics.FreeFFTElasticHalfSpace((many, many), 1.0, sides)
+    surface = topography.Topography(heights, physical_sizes=sides)
+    peer = system.SmoothContactSystem(substrate, interactions.Lj82(1.0, 1.0), surface)
+    energy, gradient = peer.objective(depth - 1, gradient=True)(found.moved.ravel())
+    area = plane.pixel**2
+    elastic = 0.5 * area * float(np.vdot(found.moved, plane.held(found.moved)))
+    assert energy == pytest.approx(elastic + area * found.energy, rel=ROUND_OFF)
+    assert peer.compute_normal_force() == pytest.approx(-area * found.tension.sum(), rel=1e-9)
+    assert np.abs(gradient).sum() < 1e-8 * area * np.abs(found.tension).sum()
