@@ -18,8 +18,8 @@ _OPENING = (
     "package: `python -m replication gallery` writes this page from numbers that are kept in the "
     "repository, `python -m replication figure 4.6` one picture, with `--afresh` from nothing. "
     "Theory is a line, a simulation an open marker, a learned model a dot. What each claim is "
-    "worth is in [the ledger](replication.md). Figures 1.1, 2.2a, 3.1, 3.2, 4.1, 5.1, 5.3, 5.4, "
-    "5.11 and A.2 of the thesis are photographs and sketches."
+    "worth is in [the ledger](replication.md). Figures 1.1, 3.1, 3.2, 4.1, 5.1, 5.3, 5.4, 5.11 "
+    "and A.2 of the thesis are photographs and sketches."
 )
 
 # What is seen.
@@ -27,6 +27,9 @@ SEEN = {
     "2.1": "At a depth of 2 the adhesive contact is 1.4 times as wide as that of Hertz and "
     "carries 30 % less. Its surface leaves the sphere upright, and its pressure turns into a "
     "tension without bound at the edge: the crack that the rest of the thesis moves.",
+    "2.2a": "From loads of ten (rigid) to three hundred (JKR) Hertz is enough. Below them the "
+    "Tabor number decides: rigid below 0.02, DMT up to 0.07, JKR from 1.6, a cohesive zone "
+    "between. DMT reaches larger Tabor numbers under larger loads.",
     "2.2b": "At a Tabor number of 5 Maugis cannot be told from JKR, loop included; at 0.01 the "
     "force stays at that of rigid bodies outside the contact. Between them the loop opens, and "
     "the jump goes.",

@@ -12,10 +12,10 @@ from viscotack import InputError
 
 from ..kept import cost
 
-# Those of the thesis that hold numbers, in its order. Figures 1.1, 2.2a, 3.1, 3.2, 4.1, 5.1, 5.3,
+# Those of the thesis that hold numbers, in its order. Figures 1.1, 3.1, 3.2, 4.1, 5.1, 5.3,
 # 5.4, 5.11 and A.2 are photographs and sketches.
 THESIS = (
-    *("2.1", "2.2b"),
+    *("2.1", "2.2a", "2.2b"),
     *("table-3.1", "3.3", "3.4", "3.5", "3.6", "3.7", "3.8", "3.9", "3.10"),
     *("4.2", "4.3", "4.4", "4.5", "4.6", "4.7", "4.8", "4.9", "4.10"),
     *("5.2", "table-5.1", "table-5.2", "5.5", "5.6", "5.7", "5.8"),

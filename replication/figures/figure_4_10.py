@@ -35,7 +35,7 @@ from .style import COLOURS, MARKERS, SIMULATED, decades, panels
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SIZE = (10.0, 4.3)
+SIZE = (13.5, 4.3)
 NOTE = "The measured forces are not published: drawn from the printed Gent-Schultz fit."
 SPEEDS = np.geomspace(1e-6, 1e-3, 9)
 V0, XI, V1 = 213.5e-6, 0.4154, 1e-2
@@ -113,8 +113,8 @@ def numbers(bench: Bench) -> Numbers:
 
 
 def draw(numbers: Numbers, figure: Figure) -> None:
-    """Draw forces by speed of retraction, and energies by speed of the crack."""
-    left, right = panels(figure, 1, 2)
+    """Draw forces by retraction speed, energies by crack speed, and measured over linear."""
+    left, right, quotient = panels(figure, 1, 3)
     v = 1e6 * numbers["speed"]
     left.plot(v, numbers["measured"], "k-.", label="measured (printed fit)")
     left.plot(v, numbers["linear"], "k-", label="thesis, $(P_{po})_{lin}$")
@@ -141,3 +141,15 @@ def draw(numbers: Numbers, figure: Figure) -> None:
     right.set_ylabel(r"energy or force ratio / $\Delta\gamma_0$, $P_{JKR}$")
     left.legend()
     right.legend()
+    axis = 1e6 * numbers["linear_crack_speed"]
+    for i, name in enumerate(numbers["range"]):
+        style = SIMULATED | {"color": COLOURS[i], "marker": MARKERS[i]}
+        label = rf"simulated, $h_0$ = {name.replace('um', 'µm')}"
+        quotient.plot(axis, numbers["measured"] / numbers["force"][i], **style, label=label)
+    printed = 1 + np.sqrt(numbers["linear_crack_speed"] / V1)
+    quotient.plot(axis, printed, "k-", label="printed, $1+(v/v_1)^{1/2}$")
+    decades(quotient, y=False)
+    quotient.axhline(1, color="0.5", lw=0.8)
+    quotient.set_xlabel("crack speed by Eq. 4.24 [µm/s]")
+    quotient.set_ylabel("measured over linear")
+    quotient.legend()

@@ -34,7 +34,18 @@ from .cases import (
     table,
     tip_speed,
 )
-from .style import ENERGY, SIMULATED, TIP_SPEED, colour, decades, marker, panels, words
+from .style import (
+    COLOURS,
+    ENERGY,
+    MARKERS,
+    SIMULATED,
+    TIP_SPEED,
+    colour,
+    decades,
+    marker,
+    panels,
+    words,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -127,6 +138,16 @@ def draw(numbers: Numbers, figure: Figure) -> None:
     for ax in (left, right):
         ax.set_xlabel(TIP_SPEED)
     left.set_ylabel(ENERGY)
+    left.set_ylim(0.9, 30)
     right.set_ylabel("simulated, beside theory [%]")
-    left.legend()
+    left.legend(loc="upper left", fontsize="small")
     right.legend()
+    # the power laws beta v^m that touch Persson-Brener where it climbs most steeply
+    inset = left.inset_axes((0.7, 0.14, 0.28, 0.33))
+    exponents = [float(name) for name in numbers["tangent"]]
+    for i, word in enumerate((r"$\beta$", "$m$")):
+        law = [of[i] for of in numbers["tangent"].values()]
+        inset.plot(exponents, law, MARKERS[i] + "-", color=COLOURS[-1 - i], ms=4, label=word)
+    inset.set_xlabel("$n$", labelpad=0)
+    inset.tick_params(labelsize="small")
+    inset.legend(fontsize="small", handlelength=1.2)

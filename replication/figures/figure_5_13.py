@@ -15,10 +15,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import viscotack as vt
+from viscotack.theory import jkr
 
 from ..bench import Bench, Numbers
 from ..learning.trajectories import SHARES, points_of, predictor
-from .cases import TABOR, K, curve, sphere
+from .cases import CHAPTER_4, TABOR, K, curve, sphere
+from .figure_2_1 import UNIT
 from .learned import SEED, asked, rows
 from .style import COLOURS, DEPTH, PULL, panels
 
@@ -33,14 +35,19 @@ RIGHT = [(1e2, n, 10.5) for n in (0.6, 0.8, 1.6)]
 
 
 def numbers(bench: Bench) -> Numbers:
-    """Return time, depth and force of each retraction, and its six points by the network."""
+    """Return time, depth and force of each retraction, its six points by the network, and JKR."""
     cases = LEFT + RIGHT
     rate, exponent, depth = np.array(cases).T
     inputs = asked(
         tabor=TABOR, modulus_ratio=K, exponent=exponent, preload=depth * _HEIGHT, rate=rate
     )
     network = predictor(rows(), SEED)
+    a = np.linspace(0.05, 4, 120)
     return {
+        "jkr": {
+            "depth": _HEIGHT * np.asarray(jkr.depth(a, **UNIT)),
+            "force": np.asarray(jkr.force(a, **UNIT)) / CHAPTER_4,
+        },
         "case": [list(case) for case in cases],
         "curves": list(bench.each(unloaded, cases)),
         "points": points_of(network, inputs),
@@ -71,6 +78,8 @@ def unloaded(case: tuple[float, float, float]) -> dict[str, Any]:
 def draw(numbers: Numbers, figure: Figure) -> None:
     """Draw force by depth, force by time and depth by time, of both series."""
     axes = panels(figure, 3, 2)
+    for ax in axes[:2]:
+        ax.plot(numbers["jkr"]["depth"], numbers["jkr"]["force"], "k-", lw=1, label="JKR")
     for i, (case, of) in enumerate(zip(numbers["case"], numbers["curves"], strict=True)):
         rate, exponent, height = case
         side, hue = int(i >= len(LEFT)), COLOURS[i % len(LEFT)]

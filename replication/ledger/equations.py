@@ -86,6 +86,29 @@ def _tip_length(of: Of) -> Measured:
     return Measured(printed / right, f"Γ = {printed:.4f} instead of {right:.4f}")
 
 
+def _strength_ratio(of: Of) -> Measured:
+    """Return the ratio of critical and peak stress that the beta of appendix II means."""
+    cohesion, speed, energy = 0.05, 3.0, 2.0
+    beta = 64 * cohesion / (9 * np.sqrt(3))
+    # x = 2 pi v tau0/l0 over the energy (Eq. 2.18) is beta V/energy (appendix II, Eq. 3)
+    x = beta * speed / energy
+    tip = 2 * np.pi * speed / (x * energy)
+    # l0/h0 = E0* dg0/(pi (alpha sigma0)^2 h0) with dg0 = alpha_LJ sigma0 h0
+    found = float(np.sqrt(ALPHA_LJ / (np.pi * cohesion * tip)))
+    return Measured(found, f"{found:.4f} = √2/π by β = 64Σ0/(9√3); π/9 = {ALPHA:.3f} in chapter 4")
+
+
+def _process_zone(of: Of) -> Measured:
+    """Return a0 of Eq. 3.3 over a0 of the nomenclature, E* = E0 for both."""
+    modulus, work, strength = 1.3, 0.7, 2.1
+    punch_length = float(
+        punch.fracture_length(contact_modulus=modulus, work_of_adhesion=work, strength=strength)
+    )
+    listed = modulus * work / (2 * np.pi * strength**2)
+    ratio = punch_length / listed
+    return Measured(ratio, f"{ratio:.4f} = π² times the one of the nomenclature")
+
+
 def _reference_speed(of: Of) -> Measured:
     """Return the speed at which k (a v)^n = 1 over the printed v_ref."""
     k, a, n = 2.0, 3.0, 0.6
@@ -364,6 +387,28 @@ CLAIMS = (
         (1.2, 1.24),
         Verdict.CORRECTED,
         "with G = K²/2E* it is E0*Δγ0/(πσc²), Eq. 4.23; the printed one is of two equal bodies",
+    ),
+    Claim(
+        "strength-ratio",
+        "Nomenclature, App. II",
+        "α = σc/σ0 ≈ π/9",
+        float(np.pi / 9),
+        _strength_ratio,
+        (0.4501, 0.4502),
+        Verdict.CORRECTED,
+        "in chapter 4, where it is fitted; the curves of Fig. A.1 have √2/π, which is a crack 1.66 "
+        "times as fast at one energy",
+    ),
+    Claim(
+        "process-zone",
+        "Nomenclature, Eq. 3.3, 2.18",
+        "a0 = E0Δγ0/(2πσ0²) is the process-zone size",
+        1.0,
+        _process_zone,
+        (9.869, 9.870),
+        Verdict.CORRECTED,
+        "chapter 3 has πE*Δγ0/(2σ0²); the footnote to Eq. 2.18 has σc for σ0; in chapter 4 a0 is "
+        "the radius of the start",
     ),
     Claim(
         "gent-schultz-speed",

@@ -59,6 +59,18 @@ def _short(of: Of) -> Measured:
     )
 
 
+def _ratio_axis(of: Of) -> Measured:
+    off = {}
+    for name in ("30.8 nm", "200 nm"):
+        beside = 1 / (1 + _off(of, name, "linear")[0]) - 1
+        off[name] = f"{100 * np.min(beside):+.0f} to {100 * np.max(beside):+.0f} % with {name}"
+    printed = 1 + np.sqrt(of("4.10")["linear_crack_speed"] / V1)
+    return Measured(
+        float(1 / (1 + _off(of, "30.8 nm", "linear")[0][0]) - 1),
+        f"beside the printed {printed[0]:.2f} to {printed[-1]:.2f}: {', '.join(off.values())}",
+    )
+
+
 def _middle(of: Of) -> Measured:
     off, error = _off(of, "200 nm", "linear")
     return Measured(
@@ -280,6 +292,16 @@ CLAIMS = (
         (0.45, 0.6),
         Verdict.FAILS,
         "by simulation and by the steady crack (`lens-twice`), if the range is that of the forces",
+    ),
+    Claim(
+        "ratio-axis",
+        "Fig. 4.10b, right axis",
+        "Measured over linear energy is 1 + (v/v1)^(1/2)",
+        0.0,
+        _ratio_axis,
+        (-0.4, -0.3),
+        Verdict.FAILS,
+        "with simulations of 30.8 nm; it is that of the curve (P_po)_lin, which 200 nm gives",
     ),
     Claim(
         "printed-algorithm",
