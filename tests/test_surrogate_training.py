@@ -141,9 +141,9 @@ def test_a_network_learns_what_another_left_over():
     task = Task(x, target, np.ones_like(target))
     one = fit(task, SMALL, seed=0)
     rest = replace(task, before=one(x)[0], gain=0.01)
-    two = added(one, fit(rest, Fit(hidden=(10,), steps=300, scale=1e-3), seed=1))
+    two = added(one, fit(rest, Fit(hidden=(10,), steps=1000, scale=1e-3), seed=1))
     first, second = (np.sqrt(np.mean((n(x)[0] - target) ** 2)) for n in (one, two))
-    assert second < 0.6 * first
+    assert second < 0.5 * first
 
 
 def test_a_quantile_has_the_wanted_part_of_the_targets_below():

@@ -37,8 +37,11 @@ class SphereContact(RevolutionContact):
 
     def jkr_radius(self, depth: float) -> float:
         """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
-        last = jkr.instability(**_JKR_UNITS).depth
-        return float(jkr.contact_radius_at_depth(max(depth / self.tabor, last), **_JKR_UNITS))
+        last = jkr.instability(**_JKR_UNITS)
+        # at the minimum of the depth its inverse has the square root of round-off
+        if depth / self.tabor <= last.depth:
+            return float(last.contact_radius)
+        return float(jkr.contact_radius_at_depth(depth / self.tabor, **_JKR_UNITS))
 
     def jkr_radius_at_force(self, force: float) -> float:
         """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
