@@ -87,7 +87,7 @@ def draw(numbers: Numbers, figure: Figure) -> None:
         "JKR": (20, 0.3),
     }
     for name, place in at.items():
-        ax.text(*place, name, ha="center", va="center")
+        ax.text(place[0], place[1], name, ha="center", va="center")
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlabel(r"Tabor number $\mu$")
