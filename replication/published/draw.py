@@ -41,7 +41,7 @@ def draw(rows: Sequence[dict[str, Any]], folder: Path) -> None:
             axis.axhline(0, color="0.6", linewidth=0.8)
             axis.set(xscale="linear" if words.startswith("exponent") else "log", xlabel=words)
             axis.set_yscale("symlog", linthresh=0.5)
-            axis.set(ylim=(-30, 30), yticks=_TICKS, yticklabels=[f"{t:g}" for t in _TICKS])
+            axis.set(ylim=(-50, 50), yticks=_TICKS, yticklabels=[f"{t:g}" for t in _TICKS])
         axes[0].set_ylabel("published / ours − 1 [%]")
         figure.savefig(folder / "regions.png", dpi=110, bbox_inches="tight")
         plt.close(figure)
