@@ -3,16 +3,18 @@ r"""A controller that lets a contact go at a wanted force.
 The pull-off force depends on the speed of the contact, which is not that of the drive: behind a
 spring K the drive at D has the contact at :math:`\delta = D - F/K`. The controller chooses the
 speed v of the contact whose pull-off force is the wanted one, and moves the drive so that the
-contact keeps it. At every tick it measures D and F, and aims at the depth of the next one,
+contact keeps it. At every tick it measures D and F, and aims at a depth for the next one,
 
-.. math:: \delta_{n+1} = \delta_0 - (n + 1) v\,\Delta t, \quad
+.. math:: \delta_{n+1} = \delta_n - c\, v\,\Delta t, \quad
           D_{n+1} = \delta_{n+1} + \frac{1}{K}\left(F_n
-          + \frac{\partial F}{\partial \delta} (\delta_{n+1} - \delta_n)\right).
+          + \frac{\partial F}{\partial \delta} (\delta_{n+1} - \delta_n)\right),
 
-The measured force makes up for what is wrong in the table. The slope from the table only speeds
-that up: an error e of the depth becomes :math:`e (F' - s)/(F' + K)` in a tick, F' being the slope
-of the contact and s that of the table, so that it dies out for s between 0 and 2 F' + K. Past the
-pull-off, where F' may be below -K and no drive holds the contact, the drive goes on at v.
+with the slope of the table. The factor c brings the contact back to where it would be at the speed
+v, :math:`\delta_0 - (n + 1) v\,\Delta t`, but stays between 0.97 and 1.03: the force depends on the
+speed, and hardly on the time, so that an error of the depth should not become one of the speed.
+Where the slope s of the table is not that of the contact, F', the contact moves by
+:math:`(K + s)/(K + F')` of what is aimed at. Past the pull-off, where F' may be below -K and no
+drive holds the contact, the drive goes on at v.
 """
 
 from __future__ import annotations
@@ -27,6 +29,8 @@ from .table import ForceTable
 
 # Loss of tension, over the largest one so far, after which the pull-off is past.
 PAST = 0.02
+# Largest change of the speed of the contact to be where it should be, relative.
+CATCH_UP = 0.03
 
 
 @dataclass
@@ -113,7 +117,9 @@ class Release:
         if self.past:
             return -min(self.speed, self.fastest)
         depth = drive - force / self.stiffness
-        aim = self.table.start_depth - self.ticks * self.speed * self.period
+        step = self.speed * self.period
+        late = (depth - (self.table.start_depth - self.ticks * step)) / step
+        aim = depth - step * min(max(late, 1 - CATCH_UP), 1 + CATCH_UP)
         slope = self.table.slope_at(aim, self.speed)
         slope = max(slope, 0.0) if isfinite(slope) else 0.0
         to = aim + (force + slope * (aim - depth)) / self.stiffness

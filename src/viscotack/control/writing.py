@@ -22,7 +22,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.version import __version__
 
-from .release import PAST
+from .release import CATCH_UP, PAST
 from .table import ForceTable
 
 _VARIABLES = (
@@ -151,6 +151,7 @@ def _filled(file: str, table: ForceTable, name: str, *, rows: str, ends: tuple[s
         shares=len(table.share),
         peak=int(np.searchsorted(table.share, 1.0)),
         past=PAST,
+        catch_up=CATCH_UP,
         start_depth=f"{table.start_depth:.17g}",
         speed=line(table.speed),
         travel=lines(table.travel),

@@ -99,15 +99,17 @@ static inline int ${name}_start(${name}_release *it, double wanted, double stiff
 
 /* Speed of the drive [m/s], negative pulls, from its position [m] and the force [N] now. */
 static inline double ${name}_drive_speed(${name}_release *it, double drive, double force) {
-  double aim, at, slope, to, speed;
+  double aim, at, slope, to, speed, step = it->speed * it->period, late;
+  double depth = drive - force / it->stiffness;
   it->ticks += 1;
   if (-force > it->tension) it->tension = -force;
   if (it->tension > 0 && -force < (1 - $past) * it->tension) it->past = 1;
   if (it->past) return -fmin(it->speed, it->fastest);
-  aim = ${name}_start_depth - (double)it->ticks * it->speed * it->period;
+  late = (depth - (${name}_start_depth - (double)it->ticks * step)) / step;
+  aim = depth - step * fmin(fmax(late, 1 - $catch_up), 1 + $catch_up);
   ${name}_force(aim, it->speed, &at, &slope);
   if (!(slope > 0)) slope = 0;
-  to = aim + (force + slope * (aim - (drive - force / it->stiffness))) / it->stiffness;
+  to = aim + (force + slope * (aim - depth)) / it->stiffness;
   speed = (to - drive) / it->period;
   return fmin(fmax(speed, -it->fastest), it->fastest);
 }
