@@ -104,7 +104,7 @@ def through(
 
 
 def advanced(run: Run, at: Place, leg: Leg) -> Place:
-    """Return the place at the end of a leg that goes on smoothly from a place of another run."""
+    """Return the place at the end of a leg that continues smoothly from a place of another run."""
     at = replace(at, leg=leg, number=0, began=at.seen)
     while not run.history.outcome:
         at = _stepped(run, at)

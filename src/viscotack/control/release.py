@@ -14,7 +14,7 @@ v, :math:`\delta_0 - (n + 1) v\,\Delta t`, but stays between 0.97 and 1.03: the 
 speed, and hardly on the time, so that an error of the depth should not become one of the speed.
 Where the slope s of the table is not that of the contact, F', the contact moves by
 :math:`(K + s)/(K + F')` of what is aimed at. Past the pull-off, where F' may be below -K and no
-drive holds the contact, the drive goes on at v.
+drive holds the contact, the drive continues at v.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Release:
     ValueError
         If a number is not positive.
     OutOfRange
-        If no speed of the table has the wanted force; the message says which have.
+        If no speed of the table has the wanted force; the message states the range.
 
     Examples
     --------

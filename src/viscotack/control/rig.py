@@ -18,7 +18,7 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY
 
 from .release import Release
 
-# A test ends when it takes so many times as long as the table has for it.
+# A test ends after this multiple of the time of its retraction in the table.
 _LONGEST = 3.0
 # Tension, over the largest one, below which the contact has let go.
 _GONE = 0.05

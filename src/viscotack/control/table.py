@@ -125,7 +125,7 @@ class ForceTable:
         Raises
         ------
         OutOfRange
-            If no speed of the table has this force; the message says which have.
+            If no speed of the table has this force; the message states the range.
         """
         P = self.pull_off_force
         for i in range(len(P) - 1):
