@@ -44,6 +44,7 @@ ROOMS = (
     "pads",
     "rough",
     "design",
+    "control",
     "identify",
     "pictures",
     "operations",

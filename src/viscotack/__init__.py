@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from . import bem as bem
     from . import campaign as campaign
     from . import check as check
+    from . import control as control
     from . import datasets as datasets
     from . import lab as lab
     from . import materials as materials
@@ -254,7 +255,17 @@ _NAMES = {
     "pictures.forecast": ("draw_prediction",),
     "operations": ("ask",),
 }
-_ROOMS = ("materials", "theory", "bem", "lab", "campaign", "datasets", "operations", "check")
+_ROOMS = (
+    "materials",
+    "theory",
+    "bem",
+    "lab",
+    "campaign",
+    "datasets",
+    "operations",
+    "check",
+    "control",
+)
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]

@@ -103,6 +103,16 @@ def through(
     return history
 
 
+def advanced(run: Run, at: Place, leg: Leg) -> Place:
+    """Return the place at the end of a leg that continues smoothly from a place of another run."""
+    at = replace(at, leg=leg, number=0, began=at.seen)
+    while not run.history.outcome:
+        at = _stepped(run, at)
+        if not run.history.outcome:
+            at = _judged(run, at, "detached")
+    return at
+
+
 def first_place(run: Run, start: Relaxed, grading: Grading) -> Place:
     """Return the initial solver state, before the machine is attached."""
     state, leg = run.body.first(start), run.legs[0]

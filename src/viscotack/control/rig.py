@@ -1,0 +1,129 @@
+"""A simulated rig: a contact behind a spring, and a controller that moves the drive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from viscotack.arrays import Array
+from viscotack.bem.live import LiveContact
+from viscotack.bem.settings import Settings
+from viscotack.clock import limited
+from viscotack.errors import InputError
+from viscotack.problem import Problem
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
+
+from .release import Release
+
+# A test ends after this multiple of the time of its retraction in the table.
+_LONGEST = 3.0
+# Tension, over the largest one, below which the contact has let go.
+_GONE = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Released:
+    """A controlled release on a simulated rig, in SI; series with a value for each tick.
+
+    Attributes
+    ----------
+    time, drive, depth, force : ndarray, shape (n,)
+        Time [s], positions of drive and indenter [m], force [N], positive in compression.
+    drive_speed : ndarray, shape (n,)
+        Speed of the drive until the next tick [m/s]; nan at the last one.
+    pull_off_force : float
+        Largest tension of all steps of the simulation [N].
+    wanted : float
+        Wanted pull-off force [N].
+    """
+
+    time: Array
+    drive: Array
+    depth: Array
+    force: Array
+    drive_speed: Array
+    pull_off_force: float
+    wanted: float
+
+    @property
+    def miss(self) -> float:
+        """Pull-off force over the wanted one, less one."""
+        return self.pull_off_force / self.wanted - 1
+
+
+def let_go(
+    problem: Problem,
+    release: Release,
+    *,
+    accuracy: float = DEFAULT_ACCURACY,
+    time_limit: float | None = None,
+) -> Released:
+    """Simulate a rig on which a controller lets a contact go.
+
+    The rig measures the position of its drive and the force at every tick, without noise, and the
+    drive keeps the speed that the controller returns until the next one.
+
+    Parameters
+    ----------
+    problem : Problem
+        The contact of the rig at its relaxed start, on a rigid machine without moves; it may differ
+        from that of the table of the controller.
+    release : Release
+        The controller, at its beginning; it has the stiffness of the rig.
+    accuracy : float
+        Of the simulation, as for :func:`viscotack.solve`.
+    time_limit : float, optional
+        Longest wall time [s].
+
+    Returns
+    -------
+    Released
+        What the rig did until it let go.
+
+    Raises
+    ------
+    ValueError
+        If the protocol has moves or a spring, the controller was used before, or the contact does
+        not let go within three times the time of the table.
+    """
+    test = problem.protocol
+    if test.moves or test.stiffness is not None:
+        raise InputError(
+            "the rig starts at the relaxed contact, behind the spring of the controller: leave out "
+            "moves and stiffness of the problem"
+        )
+    if release.ticks:
+        raise InputError("the controller was used before; make a new one")
+    unit = problem.scales()
+    speed, period = unit.length / unit.time, release.period / unit.time
+    longest = _LONGEST * float(release.table.travel[:, 2].max()) / release.speed
+    fastest = release.fastest if release.fastest < inf else 100 * release.speed
+    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
+        contact = LiveContact(
+            problem.groups(),
+            release.stiffness * unit.length / unit.force,
+            fastest=fastest / speed,
+            period=period,
+            longest=longest / unit.time,
+            settings=Settings.for_accuracy(accuracy),
+        )
+        drive = contact.now.depth * unit.length + contact.now.force * unit.force / release.stiffness
+        rows = []
+        for tick in range(int(longest / release.period) + 1):
+            now = contact.now
+            force = now.force * unit.force
+            moves = release.drive_speed(drive, force)
+            rows.append((tick * release.period, drive, now.depth * unit.length, force, moves))
+            contact.move(moves / speed, period)
+            drive += moves * release.period
+            if contact.apart or (release.past and -force < _GONE * release.tension):
+                break
+        else:
+            raise InputError(f"the contact did not let go within {longest:.3g} s")
+    time, drives, depth, forces, moved = np.array(rows).T
+    return Released(
+        time, drives, depth, forces, moved, contact.tension * unit.force, release.wanted
+    )

@@ -1,0 +1,385 @@
+"""Tests of force tables, the controller of a release, its simulated rig, and C, FMU and Octave."""
+
+import ctypes
+import json
+import shutil
+import subprocess
+import sys
+import zipfile
+from dataclasses import replace
+from math import inf, isnan, nan
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import viscotack as vt
+from front_ends import Http, Question, through_all
+from viscotack.app.cli import application
+from viscotack.bem.live import LiveContact
+from viscotack.bem.settings import Settings
+from viscotack.control import (
+    ForceTable,
+    Release,
+    c_header,
+    fmu,
+    force_table,
+    let_go,
+    octave_function,
+)
+from viscotack.control.table import checked
+from viscotack.errors import InputError, OutOfRange
+
+PAD = vt.Problem(
+    material=vt.StandardSolid(
+        rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
+    ),
+    traction=vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1e-6),
+    geometry=vt.Sphere(radius=2e-3),
+    protocol=vt.Retraction(start=vt.AtForce(force=1e-3), speed=1e-4),
+)
+COARSE = {"tolerance": 0.05, "accuracy": 0.01}
+LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
+SMALL = {"slowest": "100 um/s", "fastest": "200 um/s", "tolerance": 0.2, "accuracy": 0.02}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return force_table(PAD, 2e-5, 2e-4, **COARSE)
+
+
+def at(speed, **more):
+    """Return the pad with the protocol of a speed."""
+    return replace(PAD, protocol=replace(PAD.protocol, speed=speed, **more))
+
+
+@pytest.mark.parametrize("speed", [2e-5, 3.3e-5, 1.1e-4, 2e-4])
+def test_the_table_has_the_forces_of_simulations_between_its_speeds(table, speed):
+    result, unit = vt.solve(at(speed), accuracy=0.01), PAD.scales()
+    peak = vt.pull_off_force(result) * unit.force
+    assert table.pull_off_force_at(speed) == pytest.approx(peak, rel=table.error)
+    before = result.depth >= vt.pull_off(result).depth
+    depths, forces = result.depth[before] * unit.length, result.force[before] * unit.force
+    ours = [table.force_at(depth, speed) for depth in depths[1:]]
+    # the travels are off by up to the error too, where the force is steep
+    travel = table.travel[:, 0].max() * table.error
+    steepest = max(abs(table.slope_at(depth, speed)) for depth in depths[1:])
+    allowed = table.error * peak + travel * steepest
+    assert np.abs(np.array(ours) - forces[1:]).max() < allowed
+
+
+def test_beyond_the_end_nothing_pulls_and_outside_nothing_is_known(table):
+    start, end = table.start_depth, table.travel.max()
+    assert table.force_at(start - 1.01 * end, 1e-4) == 0.0
+    for depth, speed in ((start * 1.001, 1e-4), (0.0, 1.9e-5), (0.0, 2.1e-4), (nan, 1e-4)):
+        assert isnan(table.force_at(depth, speed))
+    assert isnan(table.pull_off_force_at(1e-6))
+
+
+def test_the_slope_is_the_derivative_of_the_force(table):
+    for depth in table.start_depth - np.array([0.11, 0.52, 0.83]) * table.travel[0, 0]:
+        step = 1e-6 * table.start_depth
+        rise = table.force_at(depth + step, 5e-5) - table.force_at(depth - step, 5e-5)
+        assert table.slope_at(depth, 5e-5) == pytest.approx(rise / (2 * step), rel=1e-6)
+
+
+def test_the_speed_for_a_force_has_this_force(table):
+    low, high = table.pull_off_force.min(), table.pull_off_force.max()
+    for wanted in np.linspace(low, high, 7):
+        assert table.pull_off_force_at(table.speed_for(wanted)) == pytest.approx(wanted, rel=1e-9)
+    with pytest.raises(OutOfRange, match=r"out of reach: between 3\.\d+ mN and 7\.\d+ mN"):
+        table.speed_for(2 * high)
+
+
+@pytest.mark.parametrize("stiffness", [300.0, inf])
+def test_a_contact_moved_in_pieces_is_the_one_of_a_history(stiffness):
+    groups, unit = PAD.groups(), PAD.scales()
+    spring = stiffness * unit.length / unit.force
+    whole = vt.solve(at(1e-4, stiffness=None if stiffness == inf else stiffness), accuracy=0.002)
+    rate = groups.rate
+    piece = 0.05 / rate
+    contact = LiveContact(
+        groups,
+        spring,
+        fastest=rate,
+        period=piece,
+        longest=60 / rate,
+        settings=Settings.for_accuracy(0.002),
+    )
+    seen = [contact.now]
+    while not contact.apart and len(seen) < 2000:
+        seen.append(contact.move(-rate, piece))
+    assert contact.apart
+    assert contact.tension == pytest.approx(vt.pull_off_force(whole), rel=0.002)
+    before = whole.depth >= vt.pull_off(whole).depth
+    depth, force = np.array([(x.depth, x.force) for x in seen]).T
+    ours = np.interp(-whole.depth[before], -depth, force)
+    assert np.abs(ours - whole.force[before]).max() < 0.005 * vt.pull_off_force(whole)
+
+
+def test_the_controller_lets_go_at_the_wanted_force_where_a_constant_drive_misses(table):
+    wanted, spring = 5e-3, 150.0
+    release = Release(table, wanted, spring, 1e-3)
+    found = let_go(PAD, release, accuracy=0.01)
+    assert abs(found.miss) < 0.02 + table.error
+    open_loop = vt.solve(at(release.speed, stiffness=spring), accuracy=0.01, until="pull-off")
+    assert vt.pull_off_force(open_loop) * PAD.scales().force < 0.9 * wanted
+    # until the pull-off the contact keeps its speed, though the drive goes many times as fast
+    peak = int(found.force.argmin())
+    speeds = -np.diff(found.depth[2:peak]) / release.period
+    assert np.median(speeds) == pytest.approx(release.speed, rel=0.02)
+    assert -found.drive_speed[:peak].min() > 5 * release.speed
+
+
+def moved(table, release, stiff, spring, depth):
+    """Return how far a linear contact at a depth moves in a tick, over what the speed makes."""
+    drive = depth + stiff * depth / spring
+    drive += release.drive_speed(drive, stiff * depth) * release.period
+    return (depth - drive / (1 + stiff / spring)) / (release.speed * release.period)
+
+
+@pytest.mark.parametrize("off, factor", [(0.0, 1.0), (0.02, 1.02), (5.0, 1.03), (-5.0, 0.97)])
+def test_a_contact_that_is_late_catches_up_a_little(table, off, factor):
+    """A slope s that is not F' changes the speed by (K + s)/(K + F')."""
+    stiff, spring = 400.0, 250.0
+    release = Release(table, 4e-3, spring, 1e-3)
+    depth = table.start_depth + off * release.speed * release.period
+    aim = depth - factor * release.speed * release.period
+    s = table.slope_at(min(aim, table.start_depth), release.speed)
+    s = s if aim <= table.start_depth else 0.0  # of what the table does not have
+    ours = moved(table, release, stiff, spring, depth)
+    assert ours == pytest.approx(factor * (spring + s) / (spring + stiff), rel=1e-6)
+
+
+def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
+    release = Release(table, 4e-3, 100.0, 1e-3, fastest=1.0)
+    release.drive_speed(0.0, -4e-3)
+    assert not release.past
+    assert release.drive_speed(-1e-6, -3.9e-3) == -release.speed and release.past
+
+
+def test_the_drive_is_not_asked_for_more_than_it_can(table):
+    drive = table.start_depth + 1e-3 / 10.0
+    free = Release(table, 4e-3, 10.0, 1e-3).drive_speed(drive, 1e-3)
+    assert free < -1e-3
+    assert Release(table, 4e-3, 10.0, 1e-3, fastest=1e-3).drive_speed(drive, 1e-3) == -1e-3
+
+
+@pytest.mark.parametrize(
+    "make, words",
+    [
+        (lambda t: force_table(PAD.groups(), 1e-5, 1e-4), "needs a Problem"),
+        (lambda t: force_table(at(1e-4, stiffness=9.0), 1e-5, 1e-4), "give it to the controller"),
+        (lambda t: force_table(PAD, 1e-4, 1e-5), "the slowest first"),
+        (lambda t: force_table(PAD, 1e-5, 1e-4, tolerance=0.0), "tolerance"),
+        (lambda t: Release(t, 4e-3, 0.0, 1e-3), "stiffness must be positive"),
+        (lambda t: Release(t, 4e-3, 9.0, inf), "period must be finite"),
+        (lambda t: c_header(t, "two words"), "name of a function"),
+        (lambda t: octave_function(t, "1st"), "name of a function"),
+        (lambda t: fmu(t, compiler="no-such-compiler"), "needs a C compiler"),
+        (lambda t: let_go(at(1e-4, stiffness=9.0), Release(t, 4e-3, 9.0, 1e-3)), "leave out"),
+        (lambda t: checked(replace(t, share=t.share[::-1])), "ascending"),
+        (lambda t: checked(replace(t, travel=t.travel[:, ::-1])), "ascending"),
+    ],
+)
+def test_what_cannot_be_is_refused(table, make, words):
+    with pytest.raises(InputError, match=words):
+        make(table)
+
+
+def test_a_punch_and_a_pull_from_its_largest_tension_are_refused():
+    punch = vt.Problem(
+        material=PAD.material,
+        traction=PAD.traction,
+        geometry=vt.FlatPunch(half_width=1e-4),
+        body=vt.Layer(thickness=50e-6),
+        protocol=vt.Retraction(start=vt.AtDepth(1e-6), speed=1e-4),
+    )
+    with pytest.raises(InputError, match="mean stress"):
+        force_table(punch, 1e-5, 1e-4)
+
+
+def test_a_used_controller_is_refused(table):
+    release = Release(table, 4e-3, 100.0, 1e-3)
+    release.drive_speed(0.0, 0.0)
+    with pytest.raises(InputError, match="used before"):
+        let_go(PAD, release)
+
+
+def test_every_door_answers_alike(tmp_path, monkeypatch):
+    shutil.copy(LENS, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    http = Http()
+    found = through_all(Question("control", {"problem": "lens.toml", **SMALL}), http)
+    http.close()
+    first = found["Python"].record
+    assert first["release"] is None and len(first["speeds"]) >= 3
+    assert all(each.record == first for each in found.values())
+
+
+def test_the_command_writes_all_and_lets_go(tmp_path):
+    flags = [x for name, value in SMALL.items() for x in (f"--{name}", str(value))]
+    names = ("contact.h", "contact.m", "speeds.csv", "ticks.csv", "control.png")
+    kinds = ("c", "octave", "csv", "ticks", "plot")
+    for kind, name in zip(kinds, names, strict=True):
+        flags += [f"--{kind}", str(tmp_path / name)]
+    flags += ["--wanted", "4.8 mN", "--stiffness", "300 N/m", "--json"]
+    done = CliRunner().invoke(application(), ["control", str(LENS), *flags])
+    assert done.exit_code == 0, done.output
+    release = json.loads(done.stdout)["release"]
+    assert release["pull_off_force_N"] == pytest.approx(4.8e-3, rel=0.03)
+    sizes = {name: (tmp_path / name).stat().st_size for name in names}
+    assert min(sizes.values()) > 200 and sizes["control.png"] > 10_000
+
+
+def test_a_stiffness_without_a_release_is_refused():
+    with pytest.raises(InputError, match="give wanted too"):
+        vt.ask("control", problem=LENS, **SMALL, stiffness="300 N/m")
+
+
+# Other readers of the table: a C compiler, a tool for FMUs, Octave
+
+
+def points(table):
+    """Draw depths and speeds, some outside the table, and what the table says there."""
+    rng = np.random.default_rng(5)
+    speed = np.exp(rng.uniform(*np.log(table.speed[[0, -1]]) + [-0.2, 0.2], 400))
+    depth = table.start_depth - rng.uniform(-0.05, 1.1, 400) * table.travel.max()
+    speed[:9], depth[:9] = table.speed[0], table.start_depth - table.travel[0, 0]
+    said = [
+        (table.force_at(d, v), table.slope_at(d, v), table.pull_off_force_at(v))
+        for d, v in zip(depth, speed, strict=True)
+    ]
+    return np.c_[depth, speed], np.array(said)
+
+
+def same(found, table_says):
+    """Compare to 1e-9 of the largest; what is not known must be the same."""
+    assert found.shape == table_says.shape
+    np.testing.assert_array_equal(np.isnan(found), np.isnan(table_says))
+    assert np.nanmax(np.abs(found - table_says) / np.nanmax(np.abs(table_says), axis=0)) < 1e-9
+
+
+@pytest.mark.outside
+def test_a_program_in_c_reads_the_same_digits_and_controls_alike(table, tmp_path):
+    asked, said = points(table)
+    np.savetxt(tmp_path / "in.txt", asked, fmt="%.17g")
+    (tmp_path / "contact.h").write_text(c_header(table))
+    (tmp_path / "main.c").write_text(
+        """#include "contact.h"
+        #include <stdio.h>
+        int main(void) {
+          double d, v, f, s;
+          int n = 0;
+          contact_release it;
+          if (!contact_start(&it, 4e-3, 250, 1e-3, 1e-2)) return 1;
+          while (scanf("%lf %lf", &d, &v) == 2) {
+            contact_force(d, v, &f, &s);
+            printf("%.17g %.17g %.17g %.17g\\n", f, s, contact_pull_off_force(v),
+                   contact_drive_speed(&it, d, n++ < 200 ? v : -40 * v));
+          }
+          return contact_start(&it, 1, 250, 1e-3, 1e-2);
+        }"""
+    )
+    strict = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+    subprocess.run(["cc", *strict, "main.c", "-o", "main", "-lm"], cwd=tmp_path, check=True)
+    with open(tmp_path / "in.txt") as given:
+        done = subprocess.run(["./main"], cwd=tmp_path, stdin=given, capture_output=True)
+    assert done.returncode == 0
+    found = np.array([line.split() for line in done.stdout.decode().splitlines()], float)
+    same(found[:, :3], said)
+    release = Release(table, 4e-3, 250.0, 1e-3, 1e-2)
+    pulled = np.where(np.arange(len(asked)) < 200, 1.0, -40.0) * asked[:, 1]
+    ours = np.array([release.drive_speed(*x) for x in zip(asked[:, 0], pulled, strict=True)])
+    np.testing.assert_allclose(found[:, 3], ours, rtol=1e-9)
+
+
+@pytest.mark.outside
+def test_octave_reads_the_same_digits(table, tmp_path):
+    octave = shutil.which("octave-cli") or pytest.skip("Octave is not installed")
+    asked, said = points(table)
+    np.savetxt(tmp_path / "in.txt", asked, fmt="%.17g")
+    (tmp_path / "contact.m").write_text(octave_function(table))
+    write = "dlmwrite('out.txt', [f s p], 'delimiter', ' ', 'precision', '%.17g')"
+    script = f"x = load('in.txt'); [f, s, p] = contact(x(:, 1), x(:, 2)); {write}"
+    subprocess.run([octave, "--eval", script], cwd=tmp_path, check=True, capture_output=True)
+    same(np.loadtxt(tmp_path / "out.txt"), said)
+
+
+@pytest.mark.outside
+def test_an_fmu_answers_the_same_digits(table, tmp_path):
+    asked, said = points(table)
+    with zipfile.ZipFile(_written(tmp_path, fmu(table))) as archive:
+        archive.extractall(tmp_path)
+    library = ctypes.CDLL(str(next(tmp_path.glob("binaries/*/contact.*"))))
+    make = library.fmi3InstantiateCoSimulation
+    make.restype = ctypes.c_void_p
+    description = (tmp_path / "modelDescription.xml").read_text()
+    token = description.split('instantiationToken="')[1].split('"')[0].encode()
+    no = ctypes.c_bool(False)
+    rest = (None, no, no, no, no, None, ctypes.c_size_t(0), None, None, None)
+    assert make(b"one", b"another", *rest) is None
+    one = ctypes.c_void_p(make(b"one", token, *rest))
+    inputs, outputs = (ctypes.c_uint32 * 2)(1, 2), (ctypes.c_uint32 * 3)(3, 4, 5)
+    found = []
+    for pair in asked:
+        given, answer = (ctypes.c_double * 2)(*pair), (ctypes.c_double * 3)()
+        counts = ctypes.c_size_t(2), ctypes.c_size_t(3)
+        assert library.fmi3SetFloat64(one, inputs, counts[0], given, counts[0]) == 0
+        assert library.fmi3GetFloat64(one, outputs, counts[1], answer, counts[1]) == 0
+        found.append(list(answer))
+    assert library.fmi3SetFloat64(one, outputs, counts[0], given, counts[0]) == 3
+    library.fmi3FreeInstance(one)
+    same(np.array(found), said)
+
+
+@pytest.mark.outside
+def test_a_tool_for_fmus_accepts_and_runs_it(table, tmp_path):
+    fmpy = pytest.importorskip("fmpy")
+    from fmpy.validation import validate_fmu
+
+    file = str(_written(tmp_path, fmu(table)))
+    assert validate_fmu(file) == []
+    depth = float(table.start_depth - table.travel[0, 0])
+    given = np.array(
+        [(0.0, table.start_depth, 5e-5), (1.0, depth, 5e-5)],
+        dtype=[("time", float), ("depth", float), ("speed", float)],
+    )
+    ran = fmpy.simulate_fmu(file, stop_time=1.0, step_size=0.25, input=given, output=["force"])
+    ours = [
+        table.force_at(table.start_depth + t * (depth - table.start_depth), 5e-5)
+        for t in ran["time"]
+    ]
+    # a step takes the inputs of its beginning
+    np.testing.assert_allclose(ran["force"][1:], ours[:-1], rtol=1e-9)
+
+
+def _written(folder, content):
+    (folder / "contact.fmu").write_bytes(content)
+    return folder / "contact.fmu"
+
+
+def test_the_fmu_states_its_units_and_holds_its_sources(table, tmp_path, monkeypatch):
+    built = {}
+
+    def compiled(sources, library, compiler):
+        built.update(sources)
+        return b"library"
+
+    monkeypatch.setattr("viscotack.control.writing._built", compiled)
+    if not sys.platform.startswith(("linux", "darwin", "win")):
+        pytest.skip("FMI has no name for this system")
+    with zipfile.ZipFile(_written(tmp_path, fmu(table, "grip"))) as archive:
+        names, description = archive.namelist(), archive.read("modelDescription.xml").decode()
+    assert {"sources/fmu.c", "sources/grip.h", "sources/buildDescription.xml"} < set(names)
+    assert sum(name.startswith("binaries/") for name in names) == 1
+    for text in ('fmiVersion="3.0"', 'name="force"', 'unit="N/m"', 'modelIdentifier="grip"'):
+        assert text in description
+    token = description.split('instantiationToken="')[1].split('"')[0]
+    assert token in built["fmu.c"] and "grip_force" in built["fmu.c"]
+
+
+def test_a_table_is_the_same_again():
+    first, second = (force_table(PAD, 1e-4, 2e-4, tolerance=0.2, accuracy=0.02) for _ in range(2))
+    assert isinstance(first, ForceTable) and c_header(first) == c_header(second)
