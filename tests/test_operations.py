@@ -100,6 +100,9 @@ NOT_DRAWN = {
     "array": [{"file": "wafer_pad.toml", "accuracy": 0.01}],
     "rough": [{"file": "bumps.toml", "accuracy": 0.02}],
     "design": [{"file": "lift_and_let_go.toml", "confirm": 0}],
+    "uncertainty": [
+        {"problem": "lens.toml", "scatter": ["geometry.radius 2 %"], "samples": 16},
+    ],
     "control": [{"problem": "lens.toml", "slowest": "100 um/s", "fastest": "150 um/s"}],
     "window": [{"file": "kinetic_stamp.toml", "simulate": True}],
 }

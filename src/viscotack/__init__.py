@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from .forecast import predict_table as predict_table
     from .forecast import prediction_summary as prediction_summary
     from .forecast import threshold_contact_radius as threshold_contact_radius
+    from .forecast.uncertainty import Uncertainty as Uncertainty
+    from .forecast.uncertainty import uncertainty as uncertainty
     from .geometry import Bonded as Bonded
     from .geometry import Cone as Cone
     from .geometry import Disc as Disc
@@ -252,6 +254,7 @@ _NAMES = {
         "ArrayYield",
     ),
     "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
+    "forecast.uncertainty": ("uncertainty", "Uncertainty"),
     "pictures.forecast": ("draw_prediction",),
     "operations": ("ask",),
 }

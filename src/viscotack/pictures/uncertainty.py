@@ -1,0 +1,34 @@
+"""Figure of the shares of inputs in the variance of a force."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from viscotack.forecast.uncertainty import Uncertainty
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+
+
+def draw_uncertainty(found: Uncertainty) -> "Figure":
+    """Draw first-order and total indices of the inputs as bars, the largest on top.
+
+    Parameters
+    ----------
+    found : Uncertainty
+        Result of :func:`viscotack.uncertainty`.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    with matplotlib.style.context(_STYLE):
+        names = sorted(found.total, key=found.total.__getitem__)
+        figure = Figure(figsize=(7.0, 1.4 + 0.42 * len(names)), layout="constrained")
+        axes = figure.subplots()
+        axes.barh(names, [found.total[x] for x in names], color="0.8", label="with other inputs")
+        axes.barh(names, [found.first[x] for x in names], height=0.45, label="alone")
+        axes.set_xlim(0, 1)
+        axes.set_xlabel("share of the variance of the logarithm of the force")
+        axes.legend(loc="lower right", fontsize="small")
+    return figure

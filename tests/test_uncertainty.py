@@ -1,0 +1,146 @@
+"""Tests of bands from tolerances and of Sobol indices: limits, brute force, doors, refusals."""
+
+import json
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import viscotack as vt
+from front_ends import Http, Question, through_all
+from viscotack.app.cli import application
+from viscotack.errors import InputError
+from viscotack.forecast.uncertainty import TIER
+from viscotack.operations.uncertainty import deviation_of
+
+LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
+CASE = vt.read_case(LENS)
+RADIUS, WORK, SPEED = "geometry.radius", "traction.work_of_adhesion", "protocol.speed"
+
+
+@pytest.fixture(scope="module")
+def lens():
+    return vt.uncertainty(CASE, {RADIUS: 0.05, WORK: 0.1, SPEED: 0.3}, samples=64)
+
+
+def test_an_elastic_sphere_has_the_indices_of_a_product():
+    """JKR: P = 1.5 pi R dg0, so that ln P is a sum, of variance s_R^2 + s_w^2."""
+    elastic = vt.Problem(
+        material=vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+        traction=vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=10e-9),
+        geometry=vt.Sphere(radius=5e-3),
+        protocol=vt.Retraction(start=vt.AtForce(force=1e-3), speed=1e-5),
+    )
+    sR, sw = 0.03, 0.1
+    found = vt.uncertainty(elastic, {RADIUS: sR, WORK: sw}, samples=12)
+    # the tier says how far it may be from a simulation, which is part of the variance
+    rest = 1 - found.total[TIER]
+    assert rest > 0.9
+    assert found.first[RADIUS] == pytest.approx(rest * sR**2 / (sR**2 + sw**2), abs=0.003)
+    assert found.first[WORK] == pytest.approx(rest * sw**2 / (sR**2 + sw**2), abs=0.003)
+    # of a normal cut at three deviations
+    assert found.deviation == pytest.approx(np.hypot(sR, sw) / np.sqrt(rest), rel=0.02)
+    assert found.median == pytest.approx(1.5 * np.pi * 5e-3 * 0.1, rel=0.01)
+
+
+def test_the_band_is_that_of_direct_predictions(lens):
+    rng, forces = np.random.default_rng(8), []
+    for z in np.clip(rng.standard_normal((300, 3)), -3, 3):
+        R, w, v = np.exp(z * [0.05, 0.1, 0.3])
+        case = replace(
+            CASE,
+            geometry=vt.Sphere(radius=CASE.geometry.radius * R),
+            traction=replace(CASE.traction, work_of_adhesion=CASE.traction.work_of_adhesion * w),
+            protocol=replace(CASE.protocol, speed=CASE.protocol.speed * v),
+        )
+        found = vt.predict(case, budget=0.01)
+        forces.append(found.pull_off_force * case.scales().force)
+    assert np.std(np.log(forces)) == pytest.approx(lens.deviation, rel=0.1)
+    forces = np.array(forces)
+    inside = np.mean((lens.interval[0] < forces) & (forces < lens.interval[1]))
+    assert 0.85 < inside < 0.95
+    assert lens.interpolation_error < 1e-3
+
+
+def test_indices_are_shares_and_the_same_for_another_seed(lens):
+    other = vt.uncertainty(CASE, {RADIUS: 0.05, WORK: 0.1, SPEED: 0.3}, samples=64, seed=7)
+    for found in (lens, other):
+        assert list(found.first) == [RADIUS, WORK, SPEED, TIER]
+        assert sum(found.first.values()) == pytest.approx(1, abs=0.02)
+        assert all(found.total[x] > found.first[x] - 0.01 > -0.02 for x in found.first)
+        assert found.index_error < 0.02 and sum(found.methods.values()) == 64
+    for name in lens.first:
+        assert abs(lens.first[name] - other.first[name]) < 0.02
+        assert abs(lens.total[name] - other.total[name]) < 0.02
+
+
+def test_a_wide_tier_is_an_input_of_its_own(monkeypatch, lens):
+    """Intervals nine times as wide have 81 times the variance, beside that of interpolation."""
+    from viscotack.forecast import uncertainty as module
+
+    def wider(problem, budget):
+        found = vt.predict(problem, budget=budget)
+        low, high = found.interval
+        P = found.pull_off_force
+        return replace(found, interval=(P * (low / P) ** 9, P * (high / P) ** 9))
+
+    monkeypatch.setattr(module, "predict", wider)
+    found = vt.uncertainty(CASE, {RADIUS: 0.05, WORK: 0.1, SPEED: 0.3}, samples=64)
+    other = lens.interpolation_error**2
+    variance = lens.deviation**2 * lens.total[TIER] - other
+    wide = found.deviation**2 * found.total[TIER] - other
+    assert variance > 0 and wide == pytest.approx(81 * variance, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    "deviations, more, words",
+    [
+        ({}, {}, "deviation of an input"),
+        ({RADIUS: 0.0}, {}, "above 0 and at most 0.5"),
+        ({RADIUS: 2.0}, {}, "above 0 and at most 0.5"),
+        ({RADIUS: 0.1}, {"samples": 3}, "at least 6 samples"),
+        ({RADIUS: 0.1}, {"confidence": 1.0}, "between 0 and 1"),
+        ({"geometry.radios": 0.1}, {}, "radios"),
+        ({"protocol.stiffness": 0.1}, {}, "not stated"),
+        ({"material.poisson_ratio": 0.2}, {}, "poisson_ratio"),
+    ],
+)
+def test_what_cannot_be_is_refused(deviations, more, words):
+    with pytest.raises(InputError, match=words):
+        vt.uncertainty(CASE, deviations, **more)
+
+
+def test_a_deviation_is_read_with_its_name():
+    assert deviation_of("geometry.radius 2 %") == ("geometry.radius", 0.02)
+    assert deviation_of(" protocol.speed 0.05") == ("protocol.speed", 0.05)
+    for text in ("geometry.radius", "geometry.radius two", ""):
+        with pytest.raises(InputError, match="its deviation"):
+            deviation_of(text)
+
+
+def test_every_door_answers_alike(tmp_path, monkeypatch):
+    shutil.copy(LENS, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    asked = {"problem": "lens.toml", "scatter": [f"{RADIUS} 2 %", f"{SPEED} 10 %"], "samples": 12}
+    http = Http()
+    found = through_all(Question("uncertainty", asked), http)
+    http.close()
+    first = found["Python"].record
+    assert [row["input"] for row in first["inputs"]] == [RADIUS, SPEED, TIER]
+    assert all(each.record == first for each in found.values())
+
+
+def test_the_command_draws_and_tells_the_largest_first(tmp_path):
+    flags = ["--scatter", f"{RADIUS} 1 %", "--scatter", f"{WORK} 20 %", "--samples", "16"]
+    files = ["--plot", str(tmp_path / "shares.png"), "--csv", str(tmp_path / "shares.csv")]
+    done = CliRunner().invoke(application(), ["uncertainty", str(LENS), *flags, *files])
+    assert done.exit_code == 0, done.output
+    lines = [line.split()[0] for line in done.stdout.splitlines() if line.startswith("  ")]
+    assert lines == [WORK, RADIUS, TIER]
+    assert (tmp_path / "shares.png").stat().st_size > 5000
+    assert len((tmp_path / "shares.csv").read_text().splitlines()) == 4
+    done = CliRunner().invoke(application(), ["uncertainty", str(LENS), *flags, "--json"])
+    assert json.loads(done.stdout)["unit"] == "N"
