@@ -70,6 +70,15 @@ class Uncertainty:
         Root mean square of the relative error at left-out points.
     methods : dict of str to int
         Number of drawn points by tier.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> solid = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    >>> groups = Groups(tabor=0.5, material=solid, start=AtDepth(1.0), rate=1.0)
+    >>> found = uncertainty(groups, {"tabor": 0.1}, samples=8)
+    >>> sorted(found.total), found.pull_off_force < found.interval[1]
+    (['tabor', 'tier'], True)
     """
 
     pull_off_force: float
