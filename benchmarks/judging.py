@@ -5,9 +5,9 @@
 writes it into a record, `judging/NAME.json`; it refuses if the committed checksums are not those of
 the files, or if these were judged before. `label --labels FOLDER` simulates these cases
 (`training/fresh_cases.py`) in their order, whose beginning has its share of each design; a run that
-was stopped continues. `judge --labels FOLDER` judges those that have a label, and writes their number,
-the table, the worst cases and every result into the record and a CSV beside it, once. `page` writes
-the record into docs/surrogate.md.
+was stopped continues. `judge --labels FOLDER` judges those that have a label, and writes their
+number, the table, the worst cases and every result into the record and a CSV beside it, once.
+`page` writes the record into docs/surrogate.md.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def draw(counts: tuple[int, ...]) -> Path:
 def known(
     record: dict[str, Any], labels: Path, *, missing: bool
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
-    """Iterate over the cases of a record with their labels; missing ones are simulated, or left out."""
+    """Iterate over cases of a record with labels; missing ones are simulated, or left out."""
     cases = drawn(record["seed"], tuple(record["counts"]))
     return labelled(cases, labels, record["accuracy"], missing=missing)
 

@@ -29,8 +29,9 @@ from .scores import curve_errors, travel_errors
 
 # The part of the errors that a network of their reach is to hold: that of the usual intervals, so
 # that one level serves wherever errors are alike, as where labels were biased, and wherever a few
-# are far (conformalised quantile regression, doi:10.48550/arXiv.1905.03222). And smaller errors than
-# those of the rows themselves [log10, log10, part of the pull-off force, log10], not worth telling.
+# are far (conformalised quantile regression, doi:10.48550/arXiv.1905.03222). And smaller errors
+# than those of the rows themselves [log10, log10, part of the pull-off force, log10], not worth
+# telling.
 REACH, LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 WEIGHT = 8.0

@@ -45,7 +45,7 @@ Random = np.random.Generator
 _DIGITS = 8
 # Numbers of cases of each design that measure intervals.
 COUNTS = (600, 400, 600, 300, 300)
-# Works at light tension are a few thousandths of the others: labels must be finer than their errors.
+# Accuracy of labels where those of the data sets are biased by as much as intervals are wide.
 FINER = {"light tension": 1e-4}
 
 
