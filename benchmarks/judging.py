@@ -23,8 +23,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from training.fresh_cases import DESIGNS, Case, drawn, labelled
-from viscotack.surrogate import store
+from viscotack.surrogate import physics, store
 
 from .fresh_coverage import OF, Judged, judged, table
 from .surrogate_page import PAGE, replaced
@@ -32,6 +34,8 @@ from .surrogate_page import PAGE, replaced
 FOLDER = Path(__file__).with_name("judging")
 SUMS = FOLDER / "models.sha256"
 COUNTS, ACCURACY, WORST = (1500, 700, 500, 300, 200), 2e-4, 5
+# Cases of a leaf of a tree that looks for places where intervals fail.
+LEAF = 150
 
 
 def sums() -> str:
@@ -86,10 +90,29 @@ def judge(labels: Path) -> dict[str, Any]:
         "cases": len(pairs),
         "without a label": len(pairs) - len(found),
         "table": table(found),
+        "leaves": leaves([one for one in found if one.case.kind == "sphere"]),
         "worst": [words(one) for one in worst(found)],
     }
     path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     return record
+
+
+def leaves(found: list[Judged]) -> str:
+    """Return what intervals hold in the leaves of trees grown on the other half, in words."""
+    from sklearn.tree import DecisionTreeRegressor
+
+    place = physics.scaled(np.array([[x.case.inputs[n] for n in physics.INPUTS] for x in found]))
+    ratio = np.array([one.ratio for one in found])
+    words = []
+    for name, over in zip(OF, ratio.T, strict=True):
+        known = np.flatnonzero(np.isfinite(over))
+        grown, other = known[::2], known[1::2]
+        tree = DecisionTreeRegressor(min_samples_leaf=LEAF, random_state=0)
+        tree.fit(place[grown], over[grown] > 1)
+        of = tree.apply(place[other])
+        held = [float(np.mean(over[other][of == leaf] <= 1)) for leaf in np.unique(of)]
+        words.append(f"{name} {', '.join(f'{x:.1%}' for x in sorted(held))}")
+    return "; ".join(words)
 
 
 def worst(found: list[Judged]) -> list[Judged]:
@@ -116,6 +139,9 @@ def page() -> str:
         f"Drawn {record['drawn']}, seed {record['seed']}, simulated at {record['accuracy']:g}: "
         f"the first {record['cases']} of {sum(record['counts'])} in an order at random; "
         f"{record['without a label']} without an answer of the simulation:\n\n{record['table']}\n\n"
+        f"Trees with leaves of {LEAF} spheres on power laws or more, grown on one half to find "
+        "where intervals fail; in the other half, intervals hold in each leaf: "
+        f"{record['leaves']}.\n\n"
         "The cases furthest out of their intervals:\n\n"
         + "\n".join(f"- {each}" for each in record["worst"])
     )
