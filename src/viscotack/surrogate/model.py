@@ -18,7 +18,7 @@ from viscotack.errors import InputError
 from .answers import Answers, Intervals
 from .contact import LEAST_WAY, Contact, between, mean_limit
 from .line import Curves
-from .moving import Move, unknown_part
+from .move import Move
 from .network import Networks
 from .slopes import Sloped, by_logarithms
 from .trust import Trust
@@ -166,7 +166,7 @@ class Surrogate:
             if joint:
                 raise InputError("no joint intervals were measured for a moved surrogate")
             found = self.trust.intervals(told, answers, confidence)
-            return _with_move(found, answers, unknown_part(self.move, tests.scaled, confidence))
+            return _with_move(found, answers, self.move.unknown(tests.scaled, confidence))
         found = self.trust.intervals(told, answers, confidence, joint=joint)
         if tests.least is None:
             return found

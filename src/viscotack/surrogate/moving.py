@@ -13,9 +13,7 @@ from __future__ import annotations
 import itertools
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -23,8 +21,8 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-if TYPE_CHECKING:
-    from .model import Surrogate
+from .model import Surrogate
+from .move import Move, correlation
 
 # Standard deviations of the shift and of the smooth part [log10], and lengths of the latter in
 # halves of the range of an input; the likelihood is multiplied by exp(-deviation/_LITTLE).
@@ -37,43 +35,6 @@ MOST_POINTS = 500
 _SUSPECT = 5.0
 # Column of the measured numbers of each contact, as in a table of predictions.
 MEASURED = {"sphere": "pull_off_force", "punch": "pull_off_stress"}
-
-
-@dataclass(frozen=True, eq=False)
-class Move:
-    """Correction of log10 of force and work by measured forces.
-
-    Attributes
-    ----------
-    points : ndarray, shape (m, inputs)
-        Scaled inputs of the points.
-    weights : ndarray, shape (m, 1)
-        Contribution of each point.
-    inverse : ndarray, shape (m, m)
-        Inverse of the covariance of the points.
-    shift, smooth, length : float
-        Standard deviations [log10] and length of the process.
-    """
-
-    points: Array
-    weights: Array
-    inverse: Array
-    shift: float
-    smooth: float
-    length: float
-
-    def factor(self, scaled: Array) -> Array:
-        """Return the factor on force and work at scaled inputs, shape (n,)."""
-        return 10 ** (self._near(scaled) @ self.weights)[:, 0]
-
-    def deviation(self, scaled: Array) -> Array:
-        """Return the standard deviation of log10 of the factor, shape (n,)."""
-        near = self._near(scaled)
-        known = (near @ self.inverse * near).mean(axis=1) * len(self.points)
-        return np.sqrt(np.maximum(self.shift**2 + self.smooth**2 - known, 0.0))
-
-    def _near(self, scaled: Array) -> Array:
-        return self.shift**2 + self.smooth**2 * _correlation(scaled, self.points, self.length)
 
 
 def moved(surrogate: Surrogate, columns: Mapping[str, npt.ArrayLike], *, error: float) -> Surrogate:
@@ -126,7 +87,7 @@ def moved(surrogate: Surrogate, columns: Mapping[str, npt.ArrayLike], *, error: 
     points, noise = tests.scaled, (error / np.log(10)) ** 2
     best: tuple[float, Move] | None = None
     for shift, smooth, length in itertools.product(_SHIFTS, _SMOOTH, _LENGTHS):
-        covariance = shift**2 + smooth**2 * _correlation(points, points, length)
+        covariance = shift**2 + smooth**2 * correlation(points, points, length)
         factor = np.linalg.cholesky(covariance + noise * np.eye(len(left)))
         inverse = np.linalg.inv(factor).T @ np.linalg.inv(factor)
         likely = -0.5 * left @ inverse @ left - np.log(np.diag(factor)).sum()
@@ -137,11 +98,6 @@ def moved(surrogate: Surrogate, columns: Mapping[str, npt.ArrayLike], *, error: 
     assert best is not None, "there are several hyperparameters"
     _warn(left, measured)
     return replace(surrogate, move=best[1])
-
-
-def unknown_part(move: Move, scaled: Array, confidence: float) -> Array:
-    """Return the half width [log10] of the interval of the factor alone, shape (n,)."""
-    return NormalDist().inv_cdf((1 + confidence) / 2) * move.deviation(scaled)
 
 
 def _points(surrogate: Surrogate, columns: Mapping[str, npt.ArrayLike]) -> tuple[Array, Array]:
@@ -188,12 +144,3 @@ def _warn(left: Array, measured: Array) -> None:
             UserWarning,
             stacklevel=3,
         )
-
-
-def _correlation(one: Any, other: Array, length: float) -> Any:
-    """Return the correlations of points by a Matern process of order 3/2, shape (n, m)."""
-    away = one[:, None] - other[None]
-    # the derivative at a point of the process is zero
-    squared = (away * away).mean(axis=2) * (3 * other.shape[1] / length**2) + 1e-24
-    distance = np.sqrt(squared)
-    return (1 + distance) * np.exp(-distance)
