@@ -54,8 +54,9 @@ class Move:
 
 def correlation(one: Any, other: Array, length: float) -> Any:
     """Return the correlations of points by a Matern process of order 3/2, shape (n, m)."""
-    away = one[:, None] - other[None]
-    # the derivative at a point of the process is zero
-    squared = (away * away).mean(axis=2) * (3 * other.shape[1] / length**2) + 1e-24
-    distance = np.sqrt(squared)
+    count = other.shape[1]
+    squares = (one * one).mean(axis=1)[:, None] + (other * other).mean(axis=1)
+    squared = np.maximum(squares - one @ (2 / count * other.T), 0.0) * (3 * count / length**2)
+    # at a point of the process the derivative is zero
+    distance = np.sqrt(squared + 1e-24)
     return (1 + distance) * np.exp(-distance)
