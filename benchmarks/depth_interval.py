@@ -15,7 +15,7 @@ from viscotack.campaign.columns import KINDS
 from viscotack.datasets import load
 from viscotack.errors import InputError
 
-SETS = {"unseen": "sphere", "fresh": "sphere", "punch_faces": "punch"}
+SETS = {"fresh": "sphere", "punch_faces": "punch"}
 
 
 def measure(name: str, kind: str, count: int, seed: int) -> str:

@@ -3,9 +3,11 @@
 `python -m benchmarks.judging sums` writes the checksums of the files of the surrogates into
 `judging/models.sha256`, to be committed. `draw` draws a seed from the entropy of the system and
 writes it into a record, `judging/NAME.json`; it refuses if the committed checksums are not those of
-the files, or if these were judged before. `judge --labels FOLDER` simulates and judges these cases
-(`training/fresh_cases.py`), and writes the table, the worst cases and every result into the record
-and a CSV beside it, once. `page` writes the record into docs/surrogate.md.
+the files, or if these were judged before. `label --labels FOLDER` simulates these cases
+(`training/fresh_cases.py`) in their order, whose beginning has its share of each design; a run that
+was stopped continues. `judge --labels FOLDER` judges those that have a label, and writes their
+number, the table, the worst cases and every result into the record and a CSV beside it, once.
+`page` writes the record into docs/surrogate.md.
 """
 
 from __future__ import annotations
@@ -16,19 +18,24 @@ import hashlib
 import json
 import secrets
 import subprocess
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from training.fresh_cases import ACCURACY, DESIGNS, drawn, labelled
-from viscotack.surrogate import store
+import numpy as np
+
+from training.fresh_cases import DESIGNS, Case, drawn, labelled
+from viscotack.surrogate import physics, store
 
 from .fresh_coverage import OF, Judged, judged, table
 from .surrogate_page import PAGE, replaced
 
 FOLDER = Path(__file__).with_name("judging")
 SUMS = FOLDER / "models.sha256"
-COUNTS, WORST = (300, 200, 100, 200), 5
+COUNTS, ACCURACY, WORST = (1500, 700, 500, 300, 200), 2e-4, 5
+# Cases of a leaf of a tree that looks for places where intervals fail.
+LEAF = 150
 
 
 def sums() -> str:
@@ -61,23 +68,51 @@ def draw(counts: tuple[int, ...]) -> Path:
     return path
 
 
+def known(
+    record: dict[str, Any], labels: Path, *, missing: bool
+) -> Iterator[tuple[Case, dict[str, Any]]]:
+    """Iterate over cases of a record with labels; missing ones are simulated, or left out."""
+    cases = drawn(record["seed"], tuple(record["counts"]))
+    return labelled(cases, labels, record["accuracy"], missing=missing)
+
+
 def judge(labels: Path) -> dict[str, Any]:
-    """Judge the cases of the record, and complete it."""
+    """Judge the cases of the record that have a label, and complete it."""
     path = record_path()
     record = json.loads(path.read_text(encoding="utf-8"))
     if "table" in record:
         raise SystemExit(f"{path.name} was judged on {record['judged']}")
-    pairs = list(labelled(drawn(record["seed"], tuple(record["counts"])), labels))
+    pairs = list(known(record, labels, missing=False))
     found = [judged(case, label) for case, label in pairs if "failed" not in label]
     _write_cases(path.with_suffix(".csv"), found)
     record |= {
         "judged": datetime.now(UTC).isoformat(timespec="seconds"),
+        "cases": len(pairs),
         "without a label": len(pairs) - len(found),
         "table": table(found),
+        "leaves": leaves([one for one in found if one.case.kind == "sphere"]),
         "worst": [words(one) for one in worst(found)],
     }
     path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     return record
+
+
+def leaves(found: list[Judged]) -> str:
+    """Return what intervals hold in the leaves of trees grown on the other half, in words."""
+    from sklearn.tree import DecisionTreeRegressor
+
+    place = physics.scaled(np.array([[x.case.inputs[n] for n in physics.INPUTS] for x in found]))
+    ratio = np.array([one.ratio for one in found])
+    words = []
+    for name, over in zip(OF, ratio.T, strict=True):
+        known = np.flatnonzero(np.isfinite(over))
+        grown, other = known[::2], known[1::2]
+        tree = DecisionTreeRegressor(min_samples_leaf=LEAF, random_state=0)
+        tree.fit(place[grown], over[grown] > 1)
+        of = tree.apply(place[other])
+        held = [float(np.mean(over[other][of == leaf] <= 1)) for leaf in np.unique(of)]
+        words.append(f"{name} {', '.join(f'{x:.1%}' for x in sorted(held))}")
+    return "; ".join(words)
 
 
 def worst(found: list[Judged]) -> list[Judged]:
@@ -101,8 +136,12 @@ def page() -> str:
     """Return the record in words."""
     record = json.loads(record_path().read_text(encoding="utf-8"))
     return (
-        f"Drawn {record['drawn']}, seed {record['seed']}, simulated at {record['accuracy']:g}; "
+        f"Drawn {record['drawn']}, seed {record['seed']}, simulated at {record['accuracy']:g}: "
+        f"the first {record['cases']} of {sum(record['counts'])} in an order at random; "
         f"{record['without a label']} without an answer of the simulation:\n\n{record['table']}\n\n"
+        f"Trees with leaves of {LEAF} spheres on power laws or more, grown on one half to find "
+        "where intervals fail; in the other half, intervals hold in each leaf: "
+        f"{record['leaves']}.\n\n"
         "The cases furthest out of their intervals:\n\n"
         + "\n".join(f"- {each}" for each in record["worst"])
     )
@@ -121,7 +160,7 @@ def _write_cases(path: Path, found: list[Judged]) -> None:
 def main() -> None:
     """Write checksums, draw or judge."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("step", choices=("sums", "draw", "judge", "page"))
+    parser.add_argument("step", choices=("sums", "draw", "label", "judge", "page"))
     parser.add_argument("--labels", type=Path, help="folder of the labels")
     parser.add_argument("--counts", type=int, nargs=len(DESIGNS), default=COUNTS)
     given = parser.parse_args()
@@ -135,7 +174,11 @@ def main() -> None:
         found = replaced(text, "<!-- judged -->", "<!-- end of judged -->", page())
         PAGE.write_text(found, encoding="utf-8")
     elif given.labels is None:
-        parser.error("judge needs --labels")
+        parser.error(f"{given.step} needs --labels")
+    elif given.step == "label":
+        record = json.loads(record_path().read_text(encoding="utf-8"))
+        for number, _ in enumerate(known(record, given.labels, missing=True), 1):
+            print(number, flush=True)
     else:
         print(judge(given.labels)["table"])
 

@@ -1,10 +1,12 @@
-"""How far predictions jump where the surrogate of simulations meets that of the crack theory.
+"""How far predictions jump where the range of the surrogate of simulations ends.
 
 `python benchmarks/seam.py [--count 400] [--seed 9] [--judged 30]`: spheres on power laws just below
-and above a Tabor number of 10, other inputs even in the logarithm in both ranges. Prints the share
-that both answer, the jump of the force, and how often the two intervals do not overlap. `--judged`
-simulates so many cases at Tabor numbers of 10 to 20, a second each, and prints the errors of the
-force with and without the factor that makes it continuous.
+and above a Tabor number of 10, where the surrogate of the crack theory begins, other inputs even in
+the logarithm in both ranges; and on both sides of the ends of the range beyond which it is
+extrapolated. Prints the share that both sides answer, the jumps of force and work, and how often
+the two intervals do not overlap. `--judged` simulates so many cases at Tabor numbers of 10 to 20, a
+second each, and prints the errors of the force with and without the factor that makes it
+continuous.
 """
 
 from __future__ import annotations
@@ -21,6 +23,8 @@ from viscotack.forecast.tiers import AT_ONCE
 from viscotack.surrogate import physics
 
 _BESIDE = 1e-6
+# Ends of the range with predictions on both sides: of the crack theory, and extrapolations.
+ENDS = ("tabor", 1), ("tabor", 0), ("modulus_ratio", 0), ("rate", 1)
 
 
 def drawn(count: int, seed: int) -> Iterator[dict[str, float]]:
@@ -32,23 +36,45 @@ def drawn(count: int, seed: int) -> Iterator[dict[str, float]]:
         yield dict(zip(physics.INPUTS, (low * (high / low) ** part).tolist(), strict=True))
 
 
-def jumps(count: int, seed: int) -> str:
-    """Return how far forces jump at a Tabor number of 10, in words."""
-    found, apart = [], 0
-    for inputs in drawn(count, seed):
-        sides = (_said(inputs | {"tabor": 10 * side}) for side in (1 - _BESIDE, 1 + _BESIDE))
-        both = [said for said in sides if said is not None]
-        if len(both) < 2:
+def at_end(name: str, end: int, count: int, seed: int) -> Iterator[tuple[dict[str, float], ...]]:
+    """Yield the inputs of pairs of cases just inside and just outside an end of the range."""
+    limit, outward = physics.LIMITS[name][end], 1 if end else -1
+    if (name, end) == ENDS[0]:
+        cases = drawn(count, seed)
+    else:
+        rows = np.random.default_rng(seed).random((count, len(physics.INPUTS)))
+        rows = physics.LOW * (physics.HIGH / physics.LOW) ** rows
+        cases = (dict(zip(physics.INPUTS, row, strict=True)) for row in rows.tolist())
+    for inputs in cases:
+        yield tuple(inputs | {name: limit * (1 + side * outward * _BESIDE)} for side in (-1, 1))
+
+
+def jumps(name: str, end: int, count: int, seed: int) -> str:
+    """Return how far force and work jump at an end of the range, in words."""
+    pairs = [tuple(map(_said, pair)) for pair in at_end(name, end, count, seed)]
+    both = [(a, b) for a, b in pairs if a is not None and b is not None]
+    inside, limit = sum(a is not None for a, _ in pairs), physics.LIMITS[name][end]
+    words = [f"{name} {limit:g}: {inside} of {count} answered inside, {len(both)} on both sides"]
+    for number, interval in (
+        ("pull_off_force", "interval"),
+        ("work_to_pull_off", "work_interval"),
+    ):
+        known = [
+            [(getattr(x, number), *getattr(x, interval)) for x in pair]
+            for pair in both
+            if all(getattr(x, interval) is not None for x in pair)
+        ]
+        if not known:
+            words.append(f"{number}: never on both sides")
             continue
-        below, above = both
-        found.append(abs(above.pull_off_force / below.pull_off_force - 1))
-        ends = max(x.interval[0] for x in both), min(x.interval[1] for x in both)
-        apart += ends[0] > ends[1]
-    return (
-        f"{len(found)} of {count} answered on both sides: jump of the force {np.median(found):.2%} "
-        f"in the median, {np.quantile(found, 0.9):.2%} in nine of ten, {np.max(found):.2%} at "
-        f"most; intervals that do not overlap: {apart}"
-    )
+        (inner, low, high), (outer, least, most) = np.array(known).transpose(1, 2, 0)
+        jump, apart = np.abs(outer / inner - 1), np.maximum(low, least) > np.minimum(high, most)
+        words.append(
+            f"{number}, {len(known)}: jump of {np.median(jump):.2%} in the median, "
+            f"{np.quantile(jump, 0.9):.2%} in nine of ten, {jump.max():.2%} at most; intervals "
+            f"that do not overlap: {apart.sum()}"
+        )
+    return "; ".join(words)
 
 
 def errors(count: int, seed: int) -> str:
@@ -89,7 +115,8 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=9)
     parser.add_argument("--judged", type=int, default=0)
     given = parser.parse_args()
-    print(jumps(given.count, given.seed))
+    for name, end in ENDS:
+        print(jumps(name, end, given.count, given.seed))
     if given.judged:
         print(errors(given.judged, given.seed))
 

@@ -16,15 +16,15 @@ from viscotack.surrogate.trust import CONFIDENCES, INPUTS, OF, Trust
 
 
 def test_a_larger_draw_of_a_seed_contains_the_smaller_one():
-    few, many = drawn(3, (4, 3, 2, 5)), drawn(3, (8, 3, 4, 9))
+    few, many = drawn(3, (4, 3, 2, 5, 1)), drawn(3, (8, 3, 4, 9, 2))
     assert {case.key for case in few} < {case.key for case in many}
-    assert len(few) == 14 and {case.key for case in few}.isdisjoint(
-        case.key for case in drawn(4, (4, 3, 2, 5))
+    assert len(few) == 15 and {case.key for case in few}.isdisjoint(
+        case.key for case in drawn(4, (4, 3, 2, 5, 1))
     )
 
 
 def test_each_design_draws_problems_in_its_range():
-    cases = drawn(5, (20, 10, 10, 20))
+    cases = drawn(5, (20, 10, 10, 20, 5))
     for case in cases:
         assert case.problem.rate > 0
         if case.design == "power laws":
@@ -39,7 +39,7 @@ def test_each_design_draws_problems_in_its_range():
 def test_a_label_is_simulated_once(tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(fresh_cases, "label", lambda case, _: asked.append(case) or {"force": 1.0})
-    cases = drawn(6, (2, 0, 0, 0))
+    cases = drawn(6, (2, 0, 0, 0, 0))
     assert list(labelled(cases, tmp_path, missing=False)) == []
     once, again = (list(labelled(cases, tmp_path)) for _ in range(2))
     assert once == again and asked == cases

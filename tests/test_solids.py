@@ -58,8 +58,8 @@ def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
             )
             errors.append([abs(np.log10(true / value)) for true, value, _ in pairs])
             off.append([abs(np.log(true / v)) / np.log(ends[1] / v) for true, v, ends in pairs])
-    # it abstains in one, the standard solid from 40 h0, and gives no work in one
-    assert len(off) >= 10
+    # it abstains in one and gives no work in two, starts from 40 h0 and a Prony series
+    assert len(off) >= 9
     # twelve cases are no measure of a share of nine in ten: docs/surrogate.md has one
     assert np.all(np.mean(np.array(off) <= 1, axis=0) >= 0.75)
     assert np.max(off) < 3.5
@@ -199,8 +199,9 @@ def test_a_damaged_file_is_refused(tmp_path):
 def test_the_file_states_its_errors():
     facts = store.facts(store.FILES["solids"])
     even = facts["scores"]["judged by, drawn evenly"]
-    # of the sets that measure, the largest level counts: deep pulls with two maxima of the force
-    assert 0.88 <= even["force"]["cover"] <= 0.98 and 0.88 <= even["work"]["cover"] <= 0.95
+    # of the sets that measure, the largest level counts: deep pulls with two maxima of the force;
+    # of 300 rows the share has a standard deviation of 0.017
+    assert 0.88 <= even["force"]["cover"] <= 0.98 and 0.88 <= even["work"]["cover"] <= 0.97
     assert even["force"]["mse_log10"] < 1e-5 and even["work"]["mse_log10"] < 1e-4
     chosen = facts["scores"]["judged by, chosen"]
     assert chosen["force"]["mse_log10"] < 2e-5 and chosen["work"]["mse_log10"] < 2e-4

@@ -6,7 +6,8 @@ folder. They know other inputs, have another form, and learn from further rows: 
 two maxima of about the same height (`deep`, `sharp`), and where an adversary found errors (`hard`,
 `steep`, `punch_faces`). Rows that measure intervals or judge are left out. Intervals hold the rows
 of the sets that measure, and fresh cases of a seed (:mod:`training.fresh_cases`), of which curves
-are known at all steps of the simulations.
+are known at all steps of the simulations. With ``--intervals`` the second networks of the file are
+kept, and only its intervals are measured again.
 """
 
 from __future__ import annotations
@@ -41,8 +42,9 @@ HOW = {
 }
 # Every so many rows of `broad` are learned from as solids too.
 _THINNED = 10
-# Seed and numbers of the fresh cases that measure intervals; fewer of a design do not.
-SEED, COUNTS, _ENOUGH = 41, (240, 192, 96, 192), 60
+# Seed of the fresh cases that measure intervals. Fewer of a design than this measure nothing; they
+# tell how far errors reach, as rows do that were sought where errors are large.
+SEED, _ENOUGH = 41, 60
 Rowed = tuple[Any, Rows]
 
 
@@ -77,22 +79,25 @@ def fitted(made: Surrogate, of: Rowed, how: Fit, shop: Shop) -> Networks:
     return task.of(shop.fit(task.task, how).result())
 
 
-def measured(made: Surrogate, fresh: Sequence[Apart]) -> Surrogate:
-    """Return a surrogate with intervals from its errors on the sets, and on fresh cases."""
+def measured(made: Surrogate, designs: Sequence[Apart]) -> Surrogate:
+    """Return a surrogate with intervals from its errors on the sets, and on fresh designs."""
+    fresh = [one for one in designs if len(one.told) >= _ENOUGH]
+    few = [one for one in designs if len(one.told) < _ENOUGH]
     match made.contact.name:
         case "sphere":
             known, test = make.parted()
-            kept = [judged(made, rows) for rows in make.measuring_rows(test)]
+            kept = [*(judged(made, rows) for rows in make.measuring_rows(test)), *fresh]
             # networks have not learned from `deep`, and force has two maxima there
             far = [read(name).chosen(certain(name)) for name in FAR_OFF]
-            hard = [judged(made, joined(far)), judged(made, read("deep"))]
+            hard = [judged(made, joined(far)), judged(made, read("deep")), *few]
             some = judged(made, known.chosen(slice(None, None, 2)))
             seeds = (0, 1), (0, 1)
-            return trusted(made, some, kept, fit_all, hard=hard, fresh=fresh, seeds=seeds)
+            return trusted(made, some, kept, fit_all, hard=hard, seeds=seeds)
         case "punch":
             known, measuring = (joined(rows) for rows in _parted_punches())
             kept = joined([measuring, punches.faces().chosen(slice(0, None, 2))])
-            return trusted(made, judged(made, known), [judged(made, kept)], fit_all, fresh=fresh)
+            kept = [judged(made, kept), *fresh]
+            return trusted(made, judged(made, known), kept, fit_all, hard=few)
     part, sharp = solids.parted(solids.tables(None, rows=None)), datasets.load("sharp")
     return solids.measured(made, part, [solids.read(sharp)], fresh)
 
@@ -122,15 +127,14 @@ def _parted_punches() -> tuple[list[Rows], list[Rows]]:
 def fresh_apart(made: Surrogate, folder: Path, *, missing: bool) -> list[Apart]:
     """Return how far a surrogate is off on the fresh cases of its kind, a set for each design."""
     kind = {"sphere": "sphere", "solids": "solid", "punch": "punch"}[made.contact.name]
-    cases = [c for c in fresh_cases.drawn(SEED, COUNTS) if c.kind == kind]
+    cases = [c for c in fresh_cases.drawn(SEED, fresh_cases.COUNTS) if c.kind == kind]
     pairs = fresh_cases.labelled(cases, folder, missing=missing)
     known = [pair for pair in pairs if "failed" not in pair[1]]
     found = []
     for design in dict.fromkeys(case.design for case, _ in known):
         some, labels = zip(*(pair for pair in known if pair[0].design == design), strict=True)
         given = fresh_cases.given_of(made, list(some))
-        if len(some) >= _ENOUGH:
-            found.append(fresh_cases.apart(made, given, list(labels)))
+        found.append(fresh_cases.apart(made, given, list(labels)))
     return found
 
 
@@ -140,18 +144,21 @@ def main() -> None:
     parser.add_argument("contact", choices=tuple(HOW))
     parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
     parser.add_argument("--labels", type=Path, required=True, help="folder of the fresh labels")
+    parser.add_argument("--intervals", action="store_true", help="keep the second networks")
     parser.add_argument("--known", action="store_true", help="only cases with a stored label")
     chosen = parser.parse_args()
     path = store.FILES[chosen.contact]
     made = store.load(path)
-    with Shop(chosen.out / "networks") as shop:
-        found = fitted(made, learned(chosen.contact), HOW[chosen.contact], shop)
-    made = made.having(second=found)
+    if not chosen.intervals:
+        with Shop(chosen.out / "networks") as shop:
+            found = fitted(made, learned(chosen.contact), HOW[chosen.contact], shop)
+        made = made.having(second=found)
     made = measured(made, fresh_apart(made, chosen.labels, missing=not chosen.known))
     sealed = ("form", "sha256", "contact", "power law")
     facts = {name: each for name, each in store.facts(path).items() if name not in sealed}
     facts["scores"] = scores_of(made, facts["scores"])
-    facts["second"] = {"fresh": {"seed": SEED, "counts": COUNTS}, "made": __version__}
+    fresh = {"seed": SEED, "counts": fresh_cases.COUNTS}
+    facts["second"] = {"fresh": fresh, "made": __version__}
     store.save(made, chosen.out / path.name, facts)
     print(chosen.out / path.name)
 

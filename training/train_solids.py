@@ -257,8 +257,8 @@ def measured(
     known = [*across(made, part["learn"]), *(judged(made, x) for x in further)]
     known.append(judged(made, power_laws(_THINNED)))
     both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
-    kept = [judged(made, part["measure"])]
-    return trusted(made, both, kept, fit_all, fresh=fresh, how=HOW, weight=1.0)
+    kept = [judged(made, part["measure"]), *fresh]
+    return trusted(made, both, kept, fit_all, how=HOW)
 
 
 def tables(path: Path | None, *, rows: int | None) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from statistics import NormalDist
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,7 +14,10 @@ from viscotack.problem import Case
 
 from .prediction import Prediction, depth_between
 from .question import Question
-from .tiers import EXACT, SOON, best
+from .tiers import EXACT, SOON, best, by_model
+
+if TYPE_CHECKING:
+    from viscotack.surrogate.model import Surrogate
 
 
 def predict(
@@ -25,6 +28,7 @@ def predict(
     shift_deviation: float = 0.0,
     budget: float = SOON,
     exact: bool = False,
+    model: Surrogate | None = None,
 ) -> Prediction:
     """Predict the pull-off force, the work to pull-off and the unloading curve.
 
@@ -49,6 +53,10 @@ def predict(
         fixed number, so the same budget gives the same result on every machine.
     exact : bool
         Whether to simulate regardless of the time: the result of :func:`viscotack.solve`.
+    model : Surrogate, optional
+        A surrogate to use alone in place of the tiers, such as one moved to the measured forces of
+        a lab by :func:`viscotack.surrogate.moving.moved`; the coverage of its intervals was not
+        measured then.
 
     Returns
     -------
@@ -86,11 +94,16 @@ def predict(
     >>> f"{answer.pull_off_force:.1f} by {answer.method}"
     '7.3 by surrogate'
     """
-    asked = Question(problem, confidence, joint)
+    asked = Question(problem, confidence, joint, model)
     check_confidence(confidence)
     if not budget > 0:
         raise InputError(f"budget must be a positive time in seconds, got {budget!r}")
-    found = EXACT.ask(asked) if exact else best(asked, budget)
+    if model is not None and exact:
+        raise InputError("give either a model or exact=True; a simulation does not use the model")
+    if model is not None:
+        found = by_model(asked)
+    else:
+        found = EXACT.ask(asked) if exact else best(asked, budget)
     if not shift_deviation > 0:
         return found
     decades = NormalDist().inv_cdf((1 + confidence) / 2) * shift_deviation
@@ -101,6 +114,7 @@ def predict(
             joint=joint,
             budget=budget,
             exact=exact,
+            model=model,
         )
         for factor in (10.0**-decades, 10.0**decades)
     ]

@@ -117,12 +117,13 @@ def inputs_of_sphere(asked: Question) -> Inputs:
 def power_law_limits(asked: Question) -> str:
     """List the inputs of a power law out of the range of the surrogate, or return ""."""
     out = asked.once(inputs_of_sphere).out
-    return "" if not out or _further(asked) is not None else "; ".join(out)
+    further = asked.model is None and out and _further(asked) is not None
+    return "" if further else "; ".join(out)
 
 
 def by_power_laws(asked: Question) -> Prediction:
     """Evaluate the surrogate of power laws, including its extrapolation."""
-    learned, inputs = _learned(), asked.once(inputs_of_sphere)
+    learned, inputs = asked.model or _learned(), asked.once(inputs_of_sphere)
     if not inputs.out:
         return within(asked, learned, learned.tests(inputs.rows), SURROGATE, INSIDE)
     further = _further(asked)

@@ -14,7 +14,7 @@ from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
 from .learned import SURROGATE, not_certain
-from .prediction import MEASURED
+from .prediction import MEASURED, NOT_MEASURED
 from .punches import LEARNED_PUNCH
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ def predict_table(
     columns: Mapping[str, npt.ArrayLike],
     *,
     confidence: float = 0.9,
+    model: Surrogate | None = None,
     report: Callable[[int, int], None] | None = None,
 ) -> dict[str, npt.NDArray[Any]]:
     """Predict the pull-off force and the work to pull-off of many spheres or punches.
@@ -74,6 +75,9 @@ def predict_table(
         [sigma0].
     confidence : float
         Fraction of cases inside the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.
+    model : Surrogate, optional
+        A surrogate to use alone, as in :func:`viscotack.predict`; rows outside its range have no
+        number.
     report : callable, optional
         Progress callback, called with the number of finished rows and the total after each row
         that theories predict.
@@ -116,7 +120,12 @@ def predict_table(
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
-    at, answers, held, certain, second = _learned(kind, given, confidence)
+    if model is not None and model.contact.name != kind.name:
+        raise InputError(f"model is of {model.contact.name!r}, the columns are of {kind.name!r}")
+    moved = model is not None and model.move is not None
+    method, band = METHOD[kind.name], NOT_MEASURED if moved else MEASURED
+    method += ", moved" * moved
+    at, answers, held, certain, second = _learned(kind, given, confidence, model)
     abstained = at[~certain[:, 0]]
     if at.size:
         forces = answers.pull_off_force, held.pull_off_force
@@ -128,17 +137,16 @@ def predict_table(
         parts = answers.pull_off_force, held.pull_off_force[:, 1], second
         doubtful = (x[~certain[:, 0]].tolist() for x in parts)
         for i, *numbers in zip(abstained.tolist(), *doubtful, strict=True):
-            table["why"][i] = not_certain(METHOD[kind.name], *numbers)
+            table["why"][i] = not_certain(method, *numbers)
         at = at[certain[:, 0]]
-        table["method"][at], table["band"][at] = METHOD[kind.name], MEASURED
+        table["method"][at], table["band"][at] = method, band
         table["inside"][at] = True
     done = int(table["inside"].sum()) + len(abstained)
     others = np.setdiff1d(np.flatnonzero(~table["inside"]), abstained)
     for case, at in _equal_rows(given, others).items():
         try:
-            found = predict(
-                kind.problem(dict(zip(given, case, strict=True))), confidence=confidence
-            )
+            problem = kind.problem(dict(zip(given, case, strict=True)))
+            found = predict(problem, confidence=confidence, model=model)
         except (ValueError, OverflowError) as error:
             table["why"][at] = str(error)
         else:
@@ -176,7 +184,7 @@ def _equal_rows(
 
 
 def _learned(
-    kind: Kind, given: dict[str, Array], confidence: float
+    kind: Kind, given: dict[str, Array], confidence: float, model: Surrogate | None
 ) -> tuple[npt.NDArray[np.intp], Answers, Intervals, npt.NDArray[np.bool_], Array]:
     """Return the indices of rows in the range of a surrogate, its predictions and intervals.
 
@@ -185,7 +193,7 @@ def _learned(
     """
     from viscotack.surrogate import store
 
-    learned = store.shipped(kind.name)
+    learned = model or store.shipped(kind.name)
     unknown = np.full(len(given["rate"]), np.nan)
     rows = np.stack([given.get(name, unknown) for name in learned.contact.inputs], axis=1)
     start = next((name for name in _BY if name in given), None)

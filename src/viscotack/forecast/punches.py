@@ -51,7 +51,7 @@ def punch_limits(asked: Question) -> str:
 
 def by_punches(asked: Question) -> Prediction:
     """Evaluate the surrogate of punches on a sliding layer."""
-    learned = _learned()
+    learned = asked.model or _learned()
     tests = learned.tests(asked.once(_row)[None])
     return within(asked, learned, tests, LEARNED_PUNCH, INSIDE)
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from viscotack.problem import Case, Groups, Problem
 from viscotack.protocol import Start
+
+if TYPE_CHECKING:
+    from viscotack.surrogate.model import Surrogate
 
 _T = TypeVar("_T")
 
@@ -24,11 +27,14 @@ class Question:
         Fraction of cases inside the intervals.
     joint : bool
         Whether force, work and curve of a surrogate are to be inside together.
+    model : Surrogate or None
+        The surrogate to use in place of that of the package.
     """
 
     problem: Case
     confidence: float = 0.9
     joint: bool = False
+    model: Surrogate | None = None
     _known: dict[Callable[[Question], Any], Any] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:

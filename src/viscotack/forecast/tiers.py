@@ -9,7 +9,7 @@ the interval, and the name of the tier.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
@@ -30,7 +30,7 @@ from .learned import (
     power_law_limits,
     solid_limits,
 )
-from .prediction import Prediction
+from .prediction import NOT_MEASURED, Prediction
 from .punches import LEARNED_PUNCH, PUNCHES, by_punches, punch_limits
 from .question import Question
 from .simulation import SIMULATION, by_simulation
@@ -125,6 +125,7 @@ LEARNED = (
     Tier(LEARNED_PUNCH, 2e-3, (PUNCHES,), punch_limits, by_punches),
     Tier(LEARNED_CRACK, 1e-3, (POWER_LAWS,), learned_crack_limits, by_learned_crack),
 )
+_OF_MODEL = {"sphere": LEARNED[0], "punch": LEARNED[2]}
 THEORIES = (
     Tier(CRACK_CONTACT, 0.5, (CRACK,), crack_limits, by_crack_contact),
     Tier(
@@ -153,6 +154,31 @@ def _abstention_limits(asked: Question) -> str:
 _ABSTAINED = Tier(
     SIMULATION, SOON, (POWER_LAWS, OTHER_SOLIDS, PUNCHES), _abstention_limits, by_simulation
 )
+
+
+def by_model(asked: Question) -> Prediction:
+    """Predict by the surrogate that was given, and by nothing else.
+
+    Raises
+    ------
+    OutOfRange
+        If the problem is outside its range or class, or it is not certain.
+    """
+    assert asked.model is not None, "the caller has one"
+    name = asked.model.contact.name
+    if name not in _OF_MODEL:
+        raise InputError(f"model must be a surrogate of spheres or punches, got one of {name!r}")
+    found = _OF_MODEL[name].ask(asked)
+    if asked.model.move is None:
+        return found
+    count = len(asked.model.move.points)
+    return replace(
+        found,
+        method=f"{found.method}, moved",
+        why=f"{found.why}; moved by {count} measured force{'s' * (count > 1)}",
+        confidence=None,
+        band=NOT_MEASURED,
+    )
 
 
 def best(asked: Question, budget: float) -> Prediction:

@@ -1,7 +1,9 @@
 """Vectorised predictions of a surrogate and their intervals."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from viscotack.arrays import Array
 
@@ -22,6 +24,8 @@ class Answers:
         log10 of the fast over the slow limit of the force, and the fraction of it that is reached.
     more : mapping of str to ndarray
         Further outputs of the contact (:meth:`.contact.Contact.further`).
+    factor : ndarray, or None
+        By which measured forces moved force and work (:mod:`.moving`); None without these.
     """
 
     pull_off_force: Array
@@ -31,6 +35,17 @@ class Answers:
     way: Array
     share: Array
     more: Mapping[str, Array] = field(default_factory=dict)
+    factor: Array | None = None
+
+    def times(self, factor: Array) -> Answers:
+        """Return the predictions moved by a factor."""
+        force, work = self.pull_off_force * factor, self.work_to_pull_off * factor
+        return replace(self, pull_off_force=force, work_to_pull_off=work, factor=factor)
+
+    @property
+    def learned(self) -> Answers:
+        """The predictions as the networks learned them."""
+        return self if self.factor is None else replace(self.times(1 / self.factor), factor=None)
 
 
 @dataclass(frozen=True, eq=False)

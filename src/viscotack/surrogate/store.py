@@ -67,6 +67,8 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str,
     facts : mapping
         Metadata on training and validation, in JSON types.
     """
+    if surrogate.move is not None:
+        raise InputError("a moved surrogate has no file; keep its points and move it again")
     contact, trust = surrogate.contact, surrogate.trust
     arrays: dict[str, Any] = dict(surrogate.constants)
     for name, networks in surrogate.networks.items():
