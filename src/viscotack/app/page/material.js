@@ -23,10 +23,10 @@ export class Material {
     side.append(element("h2", "", "A DMA file"));
     this.drop = dropped("DMA, relaxation or creep files", (files) => this.take(files));
     side.append(this.drop, element("p", "hint", "TA TRIOS, RheoCompass, Eplexor, RepTate, workbooks or plain tables. What a file does not say is asked for."));
-    this.form = new Form(side, store.operations.find(({ word }) => word === "material fit"), "fit", { skip: ["files"] });
     this.said = element("div", "");
     this.said.setAttribute("role", "status");
     side.append(this.said);
+    this.form = new Form(side, store.operations.find(({ word }) => word === "material fit"), "fit", { skip: ["files"] });
     this.form.needed.addEventListener("change", () => this.files && this.take(this.files));
     store.addEventListener("material files", ({ detail }) => this.take(detail));
     store.addEventListener("quick", () => this.ask());
