@@ -173,7 +173,7 @@ def test_the_answer_is_that_of_predict_and_the_tiers_are_folded_beneath(page, se
     opened(page, server[0])
     page.select_option("#example", index=example + 1)
     at_rest(page)
-    until(page, "!document.querySelector('#best').classList.contains('stale')")
+    until(page, "document.querySelector('.stale') === null")  # the table of the tiers as well
     problem = case_of_tables(tables)
     punch, (number, *rest) = "punch" in tables, page.inner_text("#best").split("\n\n")[1:]
     try:
@@ -253,6 +253,8 @@ def test_sliders_have_limits_and_take_round_steps(page, server):
 
 def test_the_nearest_point_is_said_under_the_pointer(page, server):
     opened(page, server[0])
+    # the verdict draws the curves again
+    until(page, "viscotack.verdict && viscotack.verdict.version === viscotack.version")
     page.click("[aria-label='Pause or play the way along the curve']")
     answer = page.evaluate("viscotack.run.answer.columns")
     lowest = min(range(len(answer["force_N"])), key=lambda i: answer["force_N"][i])

@@ -156,6 +156,7 @@ export class Contact {
   // What belongs to the answer: the work, and the simulation that judges both.
   told(quick, done) {
     const { best } = this.store, { axes } = quick, pull = pulled(quick), rows = [];
+    this.numbers.classList.toggle("stale", !best);
     if (!best) return;
     for (const each of best.slice(1)) rows.push([axes[each.name].words, each.value, axes[each.name].unit, bandOf(each, axes[each.name].unit)]);
     if (done && best[0]?.method !== "simulation") {
@@ -185,6 +186,7 @@ export class Contact {
 
   // Every tier with its estimate: first what applies, then what does not, and why.
   compare(quick, judged, done) {
+    this.tiers.classList.toggle("stale", !judged);
     if (!judged) return;
     const { best } = this.store;
     const simulation = done ? { tier: "simulation", value: pulledBy(done.summary), error: done.summary.error_estimate?.force, applies: true, why: done.summary.status } : null;
