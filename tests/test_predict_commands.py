@@ -197,6 +197,55 @@ def test_a_table_keeps_its_rows_their_order_and_its_other_columns(tmp_path, caps
     assert out.startswith("5 rows, 2 inside") and "no answer            2" in out
 
 
+def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
+    openpyxl = pytest.importorskip("openpyxl")
+    columns = ["name", "tabor", "modulus_ratio", "exponent", "preload", "rate"]
+    rows = [
+        ['soft, "first"', 3.24, 0.1, 0.8, 73, 316.23],
+        [None] * 6,
+        ["beyond", 3.24, 7, 0.8, 73, 10],
+        ["=1+1", 1, 0.1, 0.6, "deep", 1000],
+    ]
+    cases, answers = tmp_path / "cases.xlsx", tmp_path / "answers.xlsx"
+    book = openpyxl.Workbook()
+    for row in [columns, *rows]:
+        book.active.append(row)
+    book.active.cell(1, 9).value = ""  # an empty column that was formatted
+    book.active.cell(5, 1).data_type = "s"
+    book.save(cases)
+    found = answer(capsys, cases, "--xlsx", answers)
+    assert (found["rows"], found["unanswered"]) == (3, 2)
+    told = list(openpyxl.load_workbook(answers)["predictions"].iter_rows(values_only=True))
+    kept = [row for row in rows if any(row)]
+    assert list(told[0][:6]) == columns and [list(row[:6]) for row in told[1:]] == kept
+    # the same table as CSV has the same answers; openpyxl writes sixteen digits
+    plain, text = tmp_path / "cases.csv", tmp_path / "answers.csv"
+    with plain.open("w", newline="") as stream:
+        csv.writer(stream).writerows([columns, *kept])
+    answer(capsys, plain, "--csv", text)
+    expected = table(text)
+    for row, other in zip(told[1:], expected, strict=True):
+        for name, value in zip(told[0][6:], row[6:], strict=True):
+            if isinstance(value, bool):
+                assert str(value).lower() == other[name]
+            elif isinstance(value, float):
+                assert value == pytest.approx(float(other[name]), rel=1e-15, abs=0)
+            else:
+                assert (value or "") == other[name]
+    assert told[1][told[0].index("pull_off_force")] == pytest.approx(7.3, abs=0.1)
+
+
+def test_a_workbook_that_cannot_be_read_and_two_outputs_are_refused(tmp_path, capsys):
+    damaged = tmp_path / "cases.xlsx"
+    damaged.write_text("tabor,rate\n1,2\n")
+    target = tmp_path / "answers.xlsx"
+    assert "expected an Excel workbook" in wrong(capsys, damaged, "--xlsx", target)
+    both = wrong(capsys, damaged, "--xlsx", target, "--csv", tmp_path / "answers.csv")
+    assert "--csv answers.csv or --xlsx answers.xlsx" in both
+    assert "is for a table CASES.csv" in wrong(capsys, *SPHERE, *RATE, "--xlsx", target)
+    assert not target.exists()
+
+
 def test_thousands_of_rows_are_a_matter_of_seconds(tmp_path, capsys):
     count = 5000
     limits = store.shipped().limits

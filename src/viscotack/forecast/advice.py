@@ -110,9 +110,14 @@ class Advice:
     crack_speed_m_per_s = Renamed("crack_speed_at_pull_off_m_per_s")
 
     @property
+    def statements(self) -> tuple[str, ...]:
+        """The regime, the prediction and its limits in words, without the table of the tiers."""
+        return tuple(_statements(self))
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """The advice in words."""
-        return tuple(_sentences(self))
+        return (*self.statements, *_of_tiers(self), f"Use: {self.use}.")
 
 
 def advise(problem: Problem | Groups) -> Advice:
@@ -251,14 +256,21 @@ def _regime(forms: ClosedForms, found: Prediction | None) -> str:
     return forms.regime_of(found.pull_off_force)
 
 
-def estimate_by(tier: Tier, asked: Question) -> Estimate:
-    """Return the estimate of a tier as a row of the table."""
+def estimates_without_advice(asked: Question) -> tuple[Estimate, ...]:
+    """Return the estimates of all tiers but the simulation, for contacts without an advice."""
+    return tuple(estimate_by(tier, asked, limits=()) for tier in TIERS if tier.name != SIMULATION)
+
+
+def estimate_by(
+    tier: Tier, asked: Question, *, limits: tuple[str, ...] = _CLOSED_FORMS
+) -> Estimate:
+    """Return the estimate of a tier; those in `limits` have a value where they do not apply."""
     if tier.name == SIMULATION:
         return _simulated(asked.groups)
     try:
         found = tier.ask(asked)
     except OutOfRange as reason:
-        limit = estimate_of(asked, tier.name).pull_off_force if tier.name in _CLOSED_FORMS else None
+        limit = estimate_of(asked, tier.name).pull_off_force if tier.name in limits else None
         return Estimate(tier.name, limit, None, False, str(reason))
     low, high = found.interval
     error = (high - low) / (2 * found.pull_off_force)
@@ -355,7 +367,7 @@ def _of_contact(advice: Advice, contact: OtherContact) -> list[str]:
     return found
 
 
-def _sentences(advice: Advice) -> list[str]:
+def _statements(advice: Advice) -> list[str]:
     words = {
         "jkr": "The forces have a short range: the contact peels like a crack (JKR).",
         "transition": "The range of the forces matters: neither JKR nor DMT alone holds.",
@@ -390,6 +402,12 @@ def _sentences(advice: Advice) -> list[str]:
             f"(linear elasticity holds up to about {LARGEST_CONTACT}); use the numbers as "
             "estimates."
         )
+    return found
+
+
+def _of_tiers(advice: Advice) -> list[str]:
+    """Describe the estimate of each tier."""
+    found = []
     for e in advice.estimates:
         value = "" if e.pull_off_force is None else f" {e.pull_off_force:.4g} x 1.5 pi R dg0"
         if advice.force_scale is not None and e.pull_off_force is not None:
@@ -397,5 +415,4 @@ def _sentences(advice: Advice) -> list[str]:
         error = "" if e.error is None else f" (to {100 * e.error:.2g} %)"
         verb = "applies" if e.applies else "does not apply"
         found.append(f"{e.tier} {verb}:{value}{error}; {e.why}.".replace(":;", ":"))
-    found.append(f"Use: {advice.use}.")
     return found

@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, csv_file, picture
+from .declare.answer import Answer, Caller, Output, csv_file, picture
 from .declare.cards import File, Number, Switch
 from .declare.options import Operation
 from .declare.statement import Stated, Statement
@@ -51,6 +51,8 @@ class Predict(Operation):
     In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
 
     Thousands: viscotack predict cases.csv --csv answers.csv
+
+    In Excel: viscotack predict cases.xlsx --xlsx answers.xlsx
     """
 
     word: ClassVar = "predict"
@@ -59,6 +61,12 @@ class Predict(Operation):
         picture("Draw that curve to a .png, .pdf or .svg file."),
         csv_file(
             "Write the rows of CASES.csv with their predictions; - is standard output.",
+        ),
+        Output(
+            "xlsx",
+            "Write the rows of CASES.csv with their predictions to a workbook FILE.xlsx.",
+            "binary",
+            ending=".xlsx",
         ),
     )
     takes_own: ClassVar = True
@@ -80,7 +88,11 @@ class Predict(Operation):
     ] = None
     cases: Annotated[
         Path | None,
-        File("A table with a case in each row, CSV, in place of a problem.", elsewhere=True),
+        File(
+            "A table with a case in each row, CSV or the first sheet of an .xlsx workbook, in "
+            "place of a problem.",
+            elsewhere=True,
+        ),
     ] = None
     confidence: Annotated[
         float,
@@ -121,9 +133,10 @@ class Predict(Operation):
         from viscotack.result import Outcome
 
         assert self.problem is not None
-        if "csv" in caller.wants:
+        if table := sorted(caller.wants & {"csv", "xlsx"}):
             raise InputError(
-                "--csv is for a table CASES.csv; --curve writes the curve; leave out --csv"
+                f"--{table[0]} is for a table CASES.csv; --curve writes the curve; leave out "
+                f"--{table[0]}"
             )
         with limited(self.time_limit):
             found = predict(
@@ -165,8 +178,11 @@ class Predict(Operation):
         }
         if given := [flag for flag, is_given in others.items() if is_given]:
             raise InputError(f"{cases} is a table of cases; leave out {', '.join(given)}")
-        if "csv" not in caller.wants:
-            raise InputError(f"say where the answers to {cases} are to go: --csv answers.csv")
+        if len(caller.wants & {"csv", "xlsx"}) != 1:
+            raise InputError(
+                f"say where the answers to {cases} are to go: --csv answers.csv or "
+                "--xlsx answers.xlsx"
+            )
         return predict_file(cases, self.confidence, caller.tell)
 
 

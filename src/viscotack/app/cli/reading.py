@@ -298,7 +298,7 @@ def _of_file(
     assert isinstance(card, Stated)
     if case is not None:
         raise InputError(f"give one file, got {what} and {case}")
-    if card.table and Path(what).suffix.lower() == ".csv":
+    if card.table and Path(what).suffix.lower() in (".csv", ".xlsx"):
         if flags := [flag(name) for name in answers]:
             raise InputError(f"{what} is a table of cases; remove {', '.join(flags)}")
         return {card.table: what, option.name: None}

@@ -94,7 +94,7 @@ def _axes(problem: Problem) -> dict[str, Any]:
     axes = {name: {"words": x.words, "unit": x.unit.si} for name, x in named.items()}
     # a punch's tension is drawn as every force is, compression upwards
     axes["force"]["words"] = "mean stress" if kind is PLANE else "force"
-    numbers = {name: kind.observables[name] for name in (_pulled(kind), _WORK)}
+    numbers = {name: kind.observables[name] for name in (pulled(kind), _WORK)}
     axes |= {name: {"words": x.words, "unit": x.unit.si} for name, x in numbers.items()}
     return axes | {
         "speed": {"words": "retraction speed", "unit": "m/s"},
@@ -105,7 +105,7 @@ def _axes(problem: Problem) -> dict[str, Any]:
     }
 
 
-def _pulled(kind: Kind) -> str:
+def pulled(kind: Kind) -> str:
     """Return the name of the pull-off quantity of a kind of problem: force or stress."""
     return f"pull_off_{kind.name_of('force')}"
 
@@ -198,7 +198,7 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
     """Return force and work of a prediction in SI, each with its interval."""
     kind, scales = answer.problem.outputs, answer.problem.scales()
     given = (
-        (_pulled(kind), answer.pull_off_force, answer.interval),
+        (pulled(kind), answer.pull_off_force, answer.interval),
         (_WORK, answer.work_to_pull_off, answer.work_interval),
     )
     units = {name: getattr(scales, kind.observables[name].unit.scale) for name, *_ in given}
@@ -209,6 +209,7 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
             "interval": [x * units[name] for x in interval],
             "method": answer.method,
             "confidence": answer.confidence,
+            "why": answer.why,
         }
         for name, value, interval in given
         if value is not None and interval is not None

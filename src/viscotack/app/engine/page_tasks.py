@@ -1,14 +1,15 @@
 """Tasks of the page that take milliseconds to seconds: states, predictions, advice, materials."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.forecast import predict
-from viscotack.forecast.advice import advice_on
+from viscotack.forecast.advice import advice_on, estimates_without_advice
+from viscotack.forecast.closed_forms import Estimate
 from viscotack.forecast.question import Question
 from viscotack.forecast.tiers import SOON, best
 from viscotack.geometry import FlatPunch
@@ -19,9 +20,10 @@ from viscotack.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.operations.parts.json_data import drawn, plain
 from viscotack.operations.parts.library import library
 from viscotack.problem import Problem
+from viscotack.version import __version__
 
 from .forms import forms
-from .overview import numbers_of, quick
+from .overview import numbers_of, pulled, quick
 
 Tell = Callable[[dict[str, Any]], None]
 Asked = Mapping[str, Any]
@@ -39,7 +41,7 @@ def warm() -> None:
 
 def ask_forms(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return the input forms, the published materials and example cases."""
-    return forms(also) | {"materials": library(), "examples": EXAMPLES}
+    return forms(also) | {"materials": library(), "examples": EXAMPLES, "version": __version__}
 
 
 def ask_state(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
@@ -82,32 +84,47 @@ def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
 
 
 def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the best prediction for a state, the advice, and whether a crack curve is useful.
+    """Return the prediction of :func:`viscotack.predict` for a state, and what every tier says.
 
-    Advice is for spheres that are pulled off at once; other shapes and tests get the answer of
-    :func:`viscotack.predict` alone.
+    ``numbers`` are those of the prediction, or ``refused`` is the reason why there is none.
+    ``words`` describe the regime, for the retraction of a relaxed contact of revolution;
+    ``tiers`` are rows in SI.
     """
     problem = State(asked["tables"], also).problem
     # one question, so that the theories are evaluated once
-    question, numbers, refused = Question(problem), [], ""
+    question, numbers, refused, words = Question(problem), [], "", ()
     try:
         numbers = numbers_of(best(question, SOON))
     except InputError as error:
         refused = f"{str(error)[:1].upper()}{str(error)[1:]}."
     try:
         advice = advice_on(question)
+        words, estimates = advice.statements, advice.estimates
     except InputError:
-        crack = not isinstance(problem.geometry, FlatPunch)
-        use = numbers[0]["method"] if numbers else "simulation"
-        words = [refused] if refused else []
-        return {"numbers": numbers, "words": words, "use": use, "tiers": [], "crack": crack}
+        estimates = estimates_without_advice(question)
+    revolution = not isinstance(problem.geometry, FlatPunch)
     return {
         "numbers": numbers,
-        "words": list(advice.sentences),
-        "use": advice.use,
-        "tiers": [plain(asdict(estimate)) for estimate in advice.estimates],
-        "crack": any(each.tier == METHOD and each.applies for each in advice.estimates),
+        "refused": refused,
+        "words": list(words),
+        "tiers": [_in_si(each, problem) for each in estimates],
+        "crack": any(each.tier == METHOD and each.applies for each in estimates)
+        or (revolution and not words),
     }
+
+
+def _in_si(estimate: Estimate, problem: Problem) -> dict[str, Any]:
+    value = estimate.pull_off_force
+    scale = problem.outputs.observables[pulled(problem.outputs)].unit.scale
+    return plain(
+        {
+            "tier": estimate.tier,
+            "value": None if value is None else value * getattr(problem.scales(), scale),
+            "error": estimate.error,
+            "applies": estimate.applies,
+            "why": estimate.why,
+        }
+    )
 
 
 def ask_theory(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:

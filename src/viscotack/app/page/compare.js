@@ -2,7 +2,7 @@
 
 import { Plot, element } from "./plot.js";
 import { button, card } from "./contact.js";
-import { pulled, said } from "./numbers.js";
+import { pulled, pulledBy, said, shown, workOf } from "./numbers.js";
 
 const COLOURS = ["c0", "c1", "c2", "c3"];
 
@@ -74,16 +74,16 @@ export class Compare {
     const rows = names.map((name) => [name.replace(".", ": ").replaceAll("_", " "), kept.map(({ tables }) => {
       const [table, key] = name.split(".");
       const value = tables[table]?.[key];
-      return value === undefined ? "–" : Array.isArray(value) ? value.join("; ") : String(value);
+      return value === undefined ? "–" : Array.isArray(value) ? value.join("; ") : shown(value);
     })]).filter(([, values]) => kept.length === 1 || new Set(values).size > 1);
     const pull = (one) => {
       const { unit } = pulled(one.quick);
-      const known = one.summary ? one.summary.pull_off_force_N ?? one.summary.pull_off_stress_Pa : one.quick.numbers.find(({ name }) => ["pull_off_force", "pull_off_stress"].includes(name))?.value;
+      const known = one.summary ? pulledBy(one.summary) : one.quick.numbers.find(({ name }) => ["pull_off_force", "pull_off_stress"].includes(name))?.value;
       return said(known, unit);
     };
     rows.push(["pull-off", kept.map(pull)]);
     rows.push(["work to pull-off", kept.map((one) => {
-      const known = one.summary ? one.summary.work_to_pull_off_J ?? one.summary.work_to_pull_off_J_per_m2 : one.quick.numbers.find(({ name }) => name === "work_to_pull_off")?.value;
+      const known = one.summary ? workOf(one.summary) : one.quick.numbers.find(({ name }) => name === "work_to_pull_off")?.value;
       return said(known, one.quick.axes.work_to_pull_off.unit);
     })]);
     return rows;

@@ -1,7 +1,9 @@
 // The first view: load against depth, what is under the indenter, and what may be trusted.
 
-import { Plot, element } from "./plot.js";
-import { digits, pulled, said } from "./numbers.js";
+import { Plot, element, save } from "./plot.js";
+import { digits, percent, pulled, pulledBy, said, shown, workOf } from "./numbers.js";
+import { bandOf } from "./answer.js";
+import { reportOf } from "./report.js";
 import { setUp, surface } from "./drawing.js";
 import { curveOf } from "./store.js";
 
@@ -17,12 +19,14 @@ export class Contact {
 
     const numbers = card(view, "wide");
     this.numbers = element("dl", "numbers");
-    numbers.append(this.numbers);
+    this.tiers = element("details", "");
+    this.tiers.append(element("summary", "", "How do the theories compare"), element("div", ""));
+    numbers.append(this.numbers, this.tiers);
 
     const left = column(view, "main"), right = column(view, "side");
     const main = card(left, "");
     this.plot = new Plot(main, "Load against depth", { height: 340 });
-    main.append(this.controls());
+    main.append(element("p", "hint", "Depth of the tip below the undeformed surface: positive pressed in, negative pulled above it. Force is positive when it pushes."), this.controls());
 
     const under = card(left, "");
     under.append(element("h2", "", "Under the indenter"));
@@ -37,7 +41,7 @@ export class Contact {
     this.setUp = element("div", "");
     side.append(element("h2", "", "Set-up"), this.setUp);
     this.words = element("ul", "words");
-    judged.append(element("h2", "", "Verdict"), this.words);
+    judged.append(element("h2", "", "What this means"), this.words);
 
     this.speeds = new Plot(card(view, ""), "Pull-off against speed", { height: 270 });
     this.energy = new Plot(card(view, ""), "Where the work goes", { height: 270 });
@@ -63,7 +67,9 @@ export class Contact {
     this.cancel = button("Cancel", () => this.store.stop("cancelled"));
     this.cancel.id = "cancel";
     this.keep = button("Keep to compare", () => this.store.keep());
-    row.append(this.play, this.slider, this.start, this.cancel, this.keep);
+    const report = button("Save a report", () => save("report.html", new Blob([reportOf(this.store, this)], { type: "text/html" })));
+    report.id = "save-report";
+    row.append(this.play, this.slider, this.start, this.cancel, this.keep, report);
     this.progress = element("progress", "");
     this.progress.max = 1;
     this.progress.setAttribute("aria-label", "Progress of the simulation");
@@ -79,18 +85,8 @@ export class Contact {
   drag(event) {
     if (!this.curve) return;
     this.pause();
-    const svg = this.plot.svg;
-    const move = (at) => {
-      const box = svg.getBoundingClientRect();
-      const x = (at.clientX - box.left) * this.plot.size.width / box.width;
-      const y = (at.clientY - box.top) * this.plot.size.height / box.height;
-      let best = 0, least = Infinity;
-      this.curve.depth.forEach((depth, i) => {
-        const far = Math.hypot(this.plot.toX(depth) - x, this.plot.toY(this.curve.force[i]) - y);
-        if (far < least) { least = far; best = i; }
-      });
-      this.go(best / Math.max(this.curve.depth.length - 1, 1));
-    };
+    const svg = this.plot.svg, curve = { x: this.curve.depth, y: this.curve.force };
+    const move = (at) => this.go(this.plot.nearest(at, [curve]).i / Math.max(curve.x.length - 1, 1));
     move(event);
     const end = () => { svg.removeEventListener("pointermove", move); removeEventListener("pointerup", end); };
     svg.addEventListener("pointermove", move);
@@ -124,10 +120,11 @@ export class Contact {
     const drawing = setUp(this.store.tables, quick);
     if (drawing !== this.drawing) this.setUp.innerHTML = this.drawing = drawing;
     this.state(run, growing, stale);
-    const judged = verdict && verdict.version === now ? verdict.numbers || [] : [];
-    this.told(quick, done && !stale ? done : null, quick.numbers.length ? quick.numbers : judged);
+    const judged = verdict && verdict.version === now ? verdict : null;
+    this.told(quick, done && !stale ? done : null);
+    this.compare(quick, judged, done && !stale ? done : null);
     this.speed(quick, theory, done && !stale ? done : null);
-    this.verdict(quick, verdict, now);
+    this.mean(quick, judged);
     const curve = done && !stale ? simulated : null;
     if (curve !== this.curve && (!curve || this.answer !== done)) {
       this.curve = curve;
@@ -156,25 +153,21 @@ export class Contact {
     this.said.classList.toggle("refused", run.state === "refused" || run.state === "stopped");
   }
 
-  // The numbers, each with its interval and a button that copies it.
-  told(quick, done, numbers) {
-    const { axes } = quick, rows = [];
-    if (done) {
-      const { summary } = done;
-      const force = summary.pull_off_force_N ?? summary.pull_off_stress_Pa;
-      const work = summary.work_to_pull_off_J ?? summary["work_to_pull_off_J_per_m2"];
-      const error = summary.error_estimate || {}, pull = pulled(quick);
-      rows.push([`${pull.words}, simulated`, force, pull.unit, error.force === undefined || error.force === null ? "" : `numerical error ${digits(100 * error.force, 2)} %`]);
-      const other = summary.other_peak_force_N ?? summary.other_peak_stress_Pa;
-      if (other !== null && other !== undefined) rows.push(["other peak, simulated", other, pull.unit, ""]);
-      if (work !== null && work !== undefined) rows.push([`${axes.work_to_pull_off.words}, simulated`, work, axes.work_to_pull_off.unit, error.work ? `numerical error ${digits(100 * error.work, 2)} %` : ""]);
+  // What belongs to the answer: the work, and the simulation that judges both.
+  told(quick, done) {
+    const { best } = this.store, { axes } = quick, pull = pulled(quick), rows = [];
+    this.numbers.classList.toggle("stale", !best);
+    if (!best) return;
+    for (const each of best.slice(1)) rows.push([axes[each.name].words, each.value, axes[each.name].unit, bandOf(each, axes[each.name].unit)]);
+    if (done && best[0]?.method !== "simulation") {
+      const { summary } = done, error = summary.error_estimate || {}, force = pulledBy(summary), work = workOf(summary);
+      const { interval } = best[0] || {};
+      const inside = interval && (force >= interval[0] * (1 - (error.force || 0)) && force <= interval[1] * (1 + (error.force || 0)) ? "within the band" : "outside the band");
+      rows.push([`${pull.words}, simulated`, force, pull.unit, [error.force ? `numerical error ${percent(error.force)}` : "", inside].filter(Boolean).join(", ")]);
+      if (work !== null && work !== undefined) rows.push([`${axes.work_to_pull_off.words}, simulated`, work, axes.work_to_pull_off.unit, error.work ? `numerical error ${percent(error.work)}` : ""]);
     }
-    for (const { name, value, interval, method, confidence } of numbers) {
-      rows.push([`${axes[name].words}, ${method}`, value, axes[name].unit, `${Math.round(100 * confidence)} % of cases: ${said(interval[0], axes[name].unit).split(" ")[0]} to ${said(interval[1], axes[name].unit)}`]);
-    }
-    for (const [name, value] of Object.entries(quick.groups)) {
-      if (["tabor", "modulus_ratio"].includes(name)) rows.push([name === "tabor" ? "Tabor number" : "modulus ratio k", value, "", ""]);
-    }
+    const other = done && (done.summary.other_peak_force_N ?? done.summary.other_peak_stress_Pa);
+    if (other !== null && other !== undefined) rows.push(["other peak, simulated", other, pull.unit, ""]);
     const key = JSON.stringify(rows);
     if (key === this.toldBefore) return;
     this.toldBefore = key;
@@ -188,8 +181,41 @@ export class Contact {
       box.append(element("dt", "", words), number);
       return box;
     }));
-    const first = rows[0];
-    if (first) this.plot.remark(`${first[0]} ${said(first[1], first[2])}`);
+    if (best[0]) this.plot.remark(`${pull.words} ${said(best[0].value, pull.unit)}`);
+  }
+
+  // Every tier with its estimate: first what applies, then what does not, and why.
+  compare(quick, judged, done) {
+    this.tiers.classList.toggle("stale", !judged);
+    if (!judged) return;
+    const { best } = this.store;
+    const simulation = done ? { tier: "simulation", value: pulledBy(done.summary), error: done.summary.error_estimate?.force, applies: true, why: done.summary.status } : null;
+    const rows = [...judged.tiers.filter(({ tier }) => !simulation || tier !== "simulation"), ...(simulation ? [simulation] : [])];
+    const key = JSON.stringify([rows, best?.[0]?.method]);
+    if (key === this.comparedBefore) return;
+    this.comparedBefore = key;
+    const others = element("details", "");
+    others.append(element("summary", "", "what does not apply, and why"), this.table(rows.filter(({ applies }) => !applies), quick));
+    const known = rows.filter(({ applies }) => applies).map((row) => (row.tier === best?.[0]?.method ? { ...row, tier: `${row.tier} (the answer)` } : row));
+    const groups = Object.entries(quick.groups).filter(([, value]) => typeof value === "number").map(([name, value]) => `${name.replaceAll("_", " ")} ${digits(value)}`);
+    this.tiers.lastChild.replaceChildren(this.table(known, quick), others, element("p", "hint", `Without dimensions: ${groups.join(", ")}.`));
+  }
+
+  table(rows, quick) {
+    const table = element("table", ""), head = table.createTHead().insertRow(), body = table.createTBody(), { words, unit } = pulled(quick);
+    for (const name of ["tier", words, "nine of ten within", "why"]) { const cell = element("th", "", name); cell.scope = "col"; head.append(cell); }
+    for (const { tier, value, error, why } of rows) {
+      const row = body.insertRow(), name = element("th", "", tier);
+      name.scope = "row";
+      row.append(name);
+      for (const text of [said(value, unit), error ? `± ${percent(error)}` : "", shown(why)]) row.insertCell().textContent = text;
+    }
+    const scroll = element("div", "scroll");
+    scroll.tabIndex = 0;
+    scroll.setAttribute("role", "region");
+    scroll.setAttribute("aria-label", rows.length && rows[0].applies ? "Tiers that apply" : "Tiers that do not apply");
+    scroll.append(table);
+    return scroll;
   }
 
   speed(quick, theory, done) {
@@ -199,7 +225,7 @@ export class Contact {
       series.push({ kind: "band", x: found.speed, low: found.low, high: found.high, colour: quick.speeds ? "c1" : "c2", words: "band of 90 % of cases" });
       series.push({ kind: "line", x: found.speed, y: found.force, colour: quick.speeds ? "c1" : "c2", words: found.words });
     }
-    const pull = done ? done.summary.pull_off_force_N ?? done.summary.pull_off_stress_Pa : null;
+    const pull = done ? pulledBy(done.summary) : null;
     if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
     if (this.store.rig) series.push({ kind: "points", x: this.store.rig.curves.map((one) => one.speed), y: this.store.rig.curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });
     this.speeds.cursor = null;
@@ -220,22 +246,14 @@ export class Contact {
     this.energy.draw({ x, y: { words: "energy", unit: energy.unit } }, series);
   }
 
-  verdict(quick, verdict, now) {
-    const known = verdict && verdict.version === now;
-    const lines = [...quick.notes.map((words) => `${words[0].toUpperCase()}${words.slice(1)}.`), ...(known ? verdict.words : ["…"])];
+  mean(quick, judged) {
+    const notes = judged?.refused ? [judged.refused] : quick.notes.map((words) => `${words[0].toUpperCase()}${words.slice(1)}.`);
+    const lines = [...notes, ...(judged ? judged.words : ["…"])];
     const key = lines.join("\n");
     if (key === this.saidBefore) return;
     this.saidBefore = key;
-    // the tiers that do not apply are for who wants to know
-    const first = lines.filter((line) => !/^[\w -]+ does not apply/.test(line)), rest = lines.filter((line) => !first.includes(line));
-    const items = first.map((line) => element("li", "", line));
-    if (rest.length) {
-      const more = element("li", ""), details = element("details", "");
-      details.append(element("summary", "", "what does not apply, and why"), ...rest.map((line) => element("p", "hint", line)));
-      more.append(details);
-      items.push(more);
-    }
-    this.words.replaceChildren(...items);
+    this.words.replaceChildren(...lines.map((line) => element("li", "", shown(line))));
+    this.words.parentElement.hidden = !lines.length;
   }
 
   // Go along the simulated curve, from its start to its end and again.

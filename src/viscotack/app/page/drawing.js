@@ -1,7 +1,7 @@
 // Drawings: the set-up that follows the numbers, and the surface under the indenter as simulated.
 
 import { escape } from "./plot.js";
-import { said } from "./numbers.js";
+import { read, said, shown as words } from "./numbers.js";
 
 const WIDE = 360, HIGH = 250;
 
@@ -68,16 +68,9 @@ function squash(value, low, high) {
   return Math.min(Math.max(Math.log(value / low) / Math.log(high / low), 0), 1);
 }
 
-const UNITS = { m: 1, cm: 1e-2, mm: 1e-3, um: 1e-6, "µm": 1e-6, nm: 1e-9 };
-
 // A length in words, about: it only sizes a drawing.
 function si(value) {
-  const found = /^\s*([\d.eE+-]+)\s*(\S+)/.exec(String(value || ""));
-  return found ? Number(found[1]) * (UNITS[found[2]] ?? 1) : 0;
-}
-
-function words(value) {
-  return value === undefined ? "–" : String(value).replace("um", "µm");
+  return read(value, "m")?.number || 0;
 }
 
 function text(x, y, what, anchor = "start") {

@@ -1,7 +1,7 @@
 // The fields of the case, made from what the server says can be asked: no noun is known by name.
 
 import { element } from "./plot.js";
-import { read, scaleOf, written } from "./numbers.js";
+import { read, said, shown, sliderOf, written } from "./numbers.js";
 
 let count = 0;
 
@@ -10,6 +10,8 @@ export class Fields {
     this.form = form;
     this.store = store;
     this.shown = "";
+    // on a phone the indenter and the test, and all that is drawn of them, come first
+    this.closed = new Set(matchMedia("(max-width: 46rem)").matches ? ["Material", "Interface", "Simulation"] : []);
     form.addEventListener("submit", (event) => event.preventDefault());
     store.addEventListener("case", () => this.show());
     store.addEventListener("quick", () => this.mark());
@@ -30,19 +32,20 @@ export class Fields {
     this.all = [];
     const focused = document.activeElement?.id;
     const shape = forms.shape.find(({ word }) => word in tables) || forms.shape[0];
-    const parts = [
+    const parts = [this.shapes(shape)];
+    if (shape.symmetry === "plane") parts.push(this.layer());
+    parts.push(
+      this.protocol(forms.protocol[shape.symmetry]),
       this.chosen("Material", "material", "model", forms.material),
       this.chosen("Interface", "interface", "law", forms.interface),
-      this.shapes(shape),
-    ];
-    if (shape.symmetry === "plane") parts.push(this.layer());
-    parts.push(this.protocol(forms.protocol[shape.symmetry]), this.running());
+      this.running(),
+    );
     this.form.replaceChildren(...parts);
     if (focused) document.getElementById(focused)?.focus();
   }
 
   chosen(title, table, key, choices) {
-    const set = group(title), now = this.store.tables[table]?.[key];
+    const set = this.group(title), now = this.store.tables[table]?.[key];
     const choice = choices.find(({ word }) => word === now) || choices[0];
     const published = table === "material" ? this.store.forms.materials : [];
     const select = selection(`${title}: kind`, [
@@ -57,12 +60,27 @@ export class Fields {
       this.replace(table, { [key]: next.word, ...this.values(next.fields, this.store.tables[table]) });
     });
     set.append(select, hint(choice.words));
+    if (table === "material") set.append(this.measured());
     for (const field of choice.fields) set.append(this.row(table, field));
     return set;
   }
 
+  // A laboratory's file in place of numbers: it is read in the view of the material.
+  measured() {
+    const label = element("label", "file", "from a DMA, relaxation or creep file …"), input = element("input", "unseen");
+    input.type = "file";
+    input.multiple = true;
+    input.id = "material-file";
+    input.addEventListener("change", () => {
+      document.getElementById("tab-material").click();
+      this.store.say("material files", [...input.files]);
+    });
+    label.append(input);
+    return label;
+  }
+
   shapes(shape) {
-    const set = group("Indenter"), { forms } = this.store;
+    const set = this.group("Indenter"), { forms } = this.store;
     const select = selection("Indenter: shape", forms.shape.map(({ word }) => [word, word]), shape.word);
     select.id = "choice-shape";
     select.addEventListener("change", () => {
@@ -82,7 +100,7 @@ export class Fields {
   }
 
   layer() {
-    const set = group("Layer"), { layer } = this.store.forms;
+    const set = this.group("Layer"), { layer } = this.store.forms;
     const select = selection("Layer: base", layer.bases.map(({ word }) => [word, word]), this.store.tables.layer?.base);
     select.id = "choice-layer";
     select.addEventListener("change", () => this.store.set("layer", "base", select.value));
@@ -92,7 +110,7 @@ export class Fields {
   }
 
   protocol(asked) {
-    const set = group("Test"), table = this.store.tables.protocol || {};
+    const set = this.group("Test"), table = this.store.tables.protocol || {};
     const now = asked.starts.find(({ key }) => key in table) || asked.starts[0];
     const select = selection("Test: how it begins", asked.starts.map(({ key, title }) => [key, title]), now.key);
     select.id = "choice-start";
@@ -100,7 +118,10 @@ export class Fields {
       const next = asked.starts.find(({ key }) => key === select.value);
       this.replace("protocol", this.start(next, table));
     });
-    set.append(select, this.row("protocol", now), this.row("protocol", asked.speed), this.row("protocol", asked.stiffness), this.moves(asked.moves));
+    const machine = element("details", "hint");
+    machine.open = "stiffness" in table || "moves" in table;
+    machine.append(element("summary", "", "spring of the machine, moves before the pull"), this.row("protocol", asked.stiffness), this.moves(asked.moves));
+    set.append(select, this.row("protocol", now), this.row("protocol", asked.speed), machine);
     return set;
   }
 
@@ -133,7 +154,7 @@ export class Fields {
   }
 
   running() {
-    const set = group("Simulation"), { store } = this;
+    const set = this.group("Simulation"), { store } = this;
     const accuracy = selection("Accuracy of the force", [[0.02, "2 %"], [0.01, "1 %"], [0.005, "0.5 %"], [0.002, "0.2 %"], [0.0005, "0.05 %"]], store.settings.accuracy);
     accuracy.id = "choice-accuracy";
     accuracy.addEventListener("change", () => store.configure("accuracy", Number(accuracy.value)));
@@ -180,37 +201,33 @@ export class Fields {
     input.id = id;
     input.spellcheck = false;
     input.placeholder = card.optional ? "none" : card.example;
-    const slider = element("input", "");
+    const slider = element("input", ""), track = element("div", "track"), ends = [element("span", ""), element("span", "")];
     slider.type = "range";
-    slider.min = 0; slider.max = 1000; slider.step = 1;
     slider.setAttribute("aria-label", `${card.words}, slider`);
-    let base = null, dragging = false;
+    track.append(ends[0], slider, ends[1]);
+    let scale = null, quantity = null, dragging = false, before = null;
     const put = () => {
-      const value = this.store.tables[table]?.[card.key];
-      const text = value === undefined ? "" : String(value);
+      const text = shown(this.store.tables[table]?.[card.key] ?? "");
+      if (text === before && text === input.value) return; // a slider that moves leaves the other fields alone
+      before = text;
       if (document.activeElement !== input) input.value = text;
-      const quantity = read(text);
-      slider.disabled = !quantity;
-      if (!quantity) return;
-      if (base === null || !dragging) base = base ?? quantity.number;
-      const place = scaleOf(card, base).of(quantity.number);
-      if (!(place >= 0 && place <= 1000)) base = quantity.number;
-      if (!dragging) slider.value = scaleOf(card, base).of(quantity.number);
       slider.setAttribute("aria-valuetext", text);
+      if (dragging) return;
+      quantity = read(text, card.unit);
+      scale = quantity && sliderOf(card, quantity);
+      track.hidden = !scale;
+      if (!scale) return;
+      slider.min = scale.min; slider.max = scale.max; slider.step = scale.step;
+      slider.value = scale.of(quantity.number);
+      ends.forEach((end, i) => { end.textContent = said(scale.ends[i], quantity.unit, 2); });
     };
-    input.addEventListener("change", () => {
-      base = null;
-      this.store.set(table, card.key, input.value.trim() === "" ? null : plain(input.value.trim()));
-    });
+    input.addEventListener("change", () => this.store.set(table, card.key, input.value.trim() === "" ? null : plain(input.value.trim())));
     slider.addEventListener("input", (event) => {
-      const quantity = read(this.store.tables[table]?.[card.key]);
-      if (!quantity) return;
       dragging = true;
-      const number = scaleOf(card, base).at(Number(slider.value));
-      this.store.set(table, card.key, written({ ...quantity, number }), { began: event.timeStamp });
+      this.store.set(table, card.key, written({ ...quantity, number: scale.at(Number(slider.value)) }), { began: event.timeStamp });
       dragging = false;
     });
-    row.append(label, input, slider);
+    row.append(label, input, track);
     if (card.or) row.append(this.other(table, card));
     this.all.push({ key: card.key, table, row, put });
     return row;
@@ -248,24 +265,33 @@ export class Fields {
     return row;
   }
 
-  // Show a refusal, and mark the field that it names: "..., [material] tau0 must ...".
+  // Say a refusal at the field that it names, "the case, [sphere] radius must be positive, got -5 mm"; where it names
+  // only a table, at the field whose words it quotes.
   mark() {
-    const said = document.getElementById("refused"), words = this.store.refused;
-    said.hidden = !words;
-    if (said.textContent !== words) said.textContent = words;
-    const named = /\[([\w-]+)\] ([\w-]+)/.exec(words) || [];
-    for (const { table, key, row } of this.all) {
-      const wrong = !!words && table === named[1] && (key === named[2] || (named[2] === "moves" && key === "moves"));
-      row.classList.toggle("wrong", wrong);
-      row.querySelector("input[type=text], textarea")?.setAttribute("aria-invalid", wrong);
+    const words = this.store.refused, [, table, rest] = /\[([\w-]+)\] (.*)/.exec(words) || [];
+    const here = this.all.filter((field) => field.table === table);
+    const wrong = here.find(({ key }) => rest.split(/[ :]/)[0] === key) || here.find(({ row }) => [...row.querySelectorAll("input, textarea")].some(({ value }) => value.split("\n").some((line) => line && rest.includes(`'${line}'`)))) || here[0];
+    for (const { row } of this.all) {
+      const is = row === wrong?.row, field = row.querySelector("input[type=text], textarea");
+      row.classList.toggle("wrong", is);
+      field.setAttribute("aria-invalid", is);
+      let problem = row.querySelector(".problem");
+      if (!is) { problem?.remove(); field.removeAttribute("aria-describedby"); continue; }
+      if (!problem) row.append(problem = element("p", "problem refused"));
+      problem.id = `${field.id}-problem`;
+      problem.textContent = rest;
+      field.setAttribute("aria-describedby", problem.id);
+      for (let up = row.closest("details"); up; up = up.parentElement.closest("details")) up.open = true;
     }
   }
-}
 
-function group(title) {
-  const set = element("fieldset", "");
-  set.append(element("legend", "", title));
-  return set;
+  group(title) {
+    const set = element("details", "group");
+    set.open = !this.closed.has(title);
+    set.addEventListener("toggle", () => this.closed[set.open ? "delete" : "add"](title));
+    set.append(element("summary", "", title));
+    return set;
+  }
 }
 
 function hint(words) {

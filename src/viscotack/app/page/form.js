@@ -7,7 +7,7 @@ const ROWS = { problem: 8, rows: 4 };
 export class Form {
   constructor(host, operation, id, { skip = [] } = {}) {
     this.fields = [];
-    const more = element("details", ""), needed = element("div", "");
+    const more = element("details", ""), needed = this.needed = element("div", "");
     more.append(element("summary", "", "more that may be said"));
     for (const one of operation.options) {
       if (skip.includes(one.name) || one.form === "folder") continue;
@@ -25,6 +25,16 @@ export class Form {
   // A field, for whoever drew the form and fills it: with files that are dropped, the case of the page.
   input(name) {
     return this.fields.find((field) => field.name === name)?.input;
+  }
+
+  // The words of a refusal; the options that it names become fields in sight, the first of them with the focus.
+  refused(words) {
+    const spoken = (name) => name.replaceAll("_", " ");
+    // a name of one word may be a word of the sentence as well, and is one where it stands in a list of what to give
+    const named = this.fields.filter(({ name }) => new RegExp(name.includes("_") ? `\\b${name}\\b` : `(give |needs |, | or | and )${name}(?= "|,| or |$)`).test(words));
+    for (const { input } of named) this.needed.append(input.parentElement);
+    named[0]?.input.focus();
+    return element("p", "refused", named.reduce((text, { name }) => text.replaceAll(name, spoken(name)), words));
   }
 
   // Only what was filled in is sent: what was left out has its default where it is declared.

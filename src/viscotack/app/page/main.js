@@ -2,17 +2,18 @@
 
 import { Store } from "./store.js";
 import { Fields } from "./fields.js";
+import { Answer } from "./answer.js";
 import { Contact } from "./contact.js";
 import { Material } from "./material.js";
 import { Rig } from "./rig.js";
 import { Compare } from "./compare.js";
 import { Record } from "./record.js";
-import { Operations, PadArray, PickAndPrint } from "./operations.js";
+import { Operations, some } from "./operations.js";
 import { ask } from "./server.js";
 import { element } from "./plot.js";
 
 // A view more is a line more: its class draws into an element, and listens to the store.
-const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["window", "Pick and print", PickAndPrint], ["array", "Arrays", PadArray], ["operations", "All operations", Operations]];
+const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["design", "Design", some("design", "design")], ["window", "Pick and print", some("window", "window")], ["array", "Arrays", some("array", "array", "theory rectangle")], ["rough", "Rough surfaces", some("rough", "rough")], ["report", "Reports", some("report", "report", "forecast")], ["operations", "All operations", Operations]];
 
 async function begin() {
   theme();
@@ -21,6 +22,7 @@ async function begin() {
   store.operations = operations;
   window.viscotack = store;
   const views = tabs(store);
+  new Answer(document.getElementById("best"), store);
   new Fields(document.getElementById("fields"), store);
   examples(store);
   let frame = 0;
@@ -71,7 +73,7 @@ function examples(store) {
 
 function tabs(store) {
   const list = document.getElementById("tabs"), content = document.getElementById("content");
-  const shown = location.hash.slice(1);
+  const shown = location.hash.slice(1).split("=")[0];
   const all = VIEWS.map(([id, words, View]) => {
     const tab = element("button", "", words), panel = element("div", "");
     tab.type = "button";
@@ -95,7 +97,8 @@ function tabs(store) {
       one.tab.setAttribute("aria-selected", is);
       one.tab.tabIndex = is ? 0 : -1;
     }
-    history.replaceState(null, "", location.pathname + location.search + (chosen.id === all[0].id ? "" : `#${chosen.id}`));
+    document.body.dataset.view = chosen.id;
+    history.replaceState(null, "", location.pathname + location.search + (chosen.id === all[0].id ? "" : `#${chosen.view.hash || chosen.id}`));
     chosen.view.shown?.();
   };
   list.addEventListener("keydown", (event) => {
@@ -124,7 +127,7 @@ function theme() {
 }
 
 begin().catch((error) => {
-  const words = document.getElementById("refused");
+  const words = document.getElementById("refused"); // before there is a case
   words.hidden = false;
   words.textContent = error.message;
 });

@@ -23,10 +23,12 @@ export class Material {
     side.append(element("h2", "", "A DMA file"));
     this.drop = dropped("DMA, relaxation or creep files", (files) => this.take(files));
     side.append(this.drop, element("p", "hint", "TA TRIOS, RheoCompass, Eplexor, RepTate, workbooks or plain tables. What a file does not say is asked for."));
-    this.form = new Form(side, store.operations.find(({ word }) => word === "material fit"), "fit", { skip: ["files"] });
     this.said = element("div", "");
     this.said.setAttribute("role", "status");
     side.append(this.said);
+    this.form = new Form(side, store.operations.find(({ word }) => word === "material fit"), "fit", { skip: ["files"] });
+    this.form.needed.addEventListener("change", () => this.files && this.take(this.files));
+    store.addEventListener("material files", ({ detail }) => this.take(detail));
     store.addEventListener("quick", () => this.ask());
     this.draw();
   }
@@ -63,9 +65,7 @@ export class Material {
       this.tell();
     } catch (error) {
       this.fit = null;
-      this.said.replaceChildren(element("p", "refused", error.message));
-      const again = button("Try again with these words", () => this.take(this.files));
-      this.said.append(again);
+      this.said.replaceChildren(this.form.refused(error.message), button("Read it again", () => this.take(this.files)));
     }
     this.draw();
   }

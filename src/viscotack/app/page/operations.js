@@ -9,22 +9,31 @@ export class Operations {
   constructor(host, store, id = "operation", words = null) {
     this.store = store;
     this.id = id;
-    const view = element("div", "view asked");
-    host.append(view);
-    const side = card(view, "side"), label = element("label", "", "What is asked");
+    this.view = words ? id : "operations";
+    const box = element("div", "view asked");
+    host.append(box);
+    const side = card(box, "side"), label = element("label", "", "What is asked");
     this.select = element("select", "");
     this.select.id = label.htmlFor = id;
-    this.known = store.operations.filter(({ word, refused }) => !refused.http && (!words || words.includes(word)));
+    const there = store.operations.filter(({ refused }) => !refused.http);
+    this.known = words ? words.map((name) => there.find(({ word }) => word === name)) : there;
     this.select.append(...this.known.map(({ word }) => element("option", "", word)));
-    this.select.addEventListener("change", () => this.show());
+    const [view, word] = decodeURIComponent(location.hash.slice(1)).split("=");
+    if (view === this.view && this.known.some((one) => one.word === word)) this.select.value = word;
+    this.select.addEventListener("change", () => { this.show(); history.replaceState(null, "", `#${this.hash}`); });
     this.words = element("p", "hint", "");
     this.form = element("div", "");
     side.append(label, this.select, this.words, this.form);
-    const main = card(view, "main");
+    const main = card(box, "main");
     this.said = element("div", "");
     this.said.setAttribute("role", "status");
     main.append(element("h2", "", "Answer"), this.said);
     this.show();
+  }
+
+  // The view and its operation, in the address.
+  get hash() {
+    return this.known.length > 1 ? `${this.view}=${encodeURIComponent(this.select.value)}` : this.view;
   }
 
   show() {
@@ -72,7 +81,7 @@ export class Operations {
       const answer = await follow(job, ({ share }) => { if (share) bar.value = share; });
       if (answer) this.tell(answer);
     } catch (error) {
-      this.said.replaceChildren(element("p", "refused", error.message));
+      this.said.replaceChildren(this.fields.refused(error.message));
     }
   }
 
@@ -80,14 +89,14 @@ export class Operations {
     const { words = "", notes = [], files = {} } = beside, row = element("div", "row"), text = JSON.stringify(record, null, 2);
     row.append(button("Save as JSON", () => save("answer.json", new Blob([text]))));
     const parts = [row, ...notes.map((note) => element("p", "hint", note))];
-    for (const { name, kind } of this.operation.outputs) {
+    for (const { name, kind, words: of } of this.operation.outputs) {
       if (!(name in files)) continue;
       if (kind === "picture") {
         const picture = element("img", "");
         picture.src = URL.createObjectURL(new Blob([files[name]], { type: "image/svg+xml" }));
         picture.alt = `${this.operation.word}: ${name}`;
         parts.push(picture);
-      } else row.append(button(`Save ${name}`, () => save(name, new Blob([kind === "binary" ? Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0)) : files[name]]))));
+      } else row.append(button(`Save ${name}`, () => save(`${this.operation.path.replaceAll("/", "-")}-${name}${/FILE(\.\w+)/.exec(of)?.[1] || (name === "csv" ? ".csv" : "")}`, new Blob([kind === "binary" ? Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0)) : files[name]]))));
     }
     const lines = element("pre", "", words || text);
     lines.tabIndex = 0;
@@ -97,12 +106,7 @@ export class Operations {
   }
 }
 
-// Two contacts of one object: which opens first.
-export class PickAndPrint extends Operations {
-  constructor(host, store) { super(host, store, "window", ["window"]); }
-}
-
-// Many pads on one backing, and stamps that are not round.
-export class PadArray extends Operations {
-  constructor(host, store) { super(host, store, "array", ["array", "theory rectangle"]); }
-}
+// A view of some operations alone.
+export const some = (id, ...words) => class extends Operations {
+  constructor(host, store) { super(host, store, id, words); }
+};

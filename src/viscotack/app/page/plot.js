@@ -1,9 +1,10 @@
 // Pictures as SVG: axes, lines, bands, points. Colours are those of the library's pictures.
 
-import { digits, prefixOf } from "./numbers.js";
+import { digits, prefixOf, said } from "./numbers.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const MARGIN = { left: 62, right: 14, top: 12, bottom: 44 };
+const REACH = 60; // pixels from a point within which it is said
 let count = 0;
 
 export class Plot {
@@ -36,6 +37,8 @@ export class Plot {
     this.legend = element("ul", "legend");
     this.card.append(head, this.svg, this.legend);
     host.append(this.card);
+    this.svg.addEventListener("pointermove", (event) => this.read(this.nearest(event)));
+    this.svg.addEventListener("pointerleave", () => this.read(null));
     this.seen = new ResizeObserver(() => this.paint());
     this.seen.observe(this.card);
   }
@@ -57,7 +60,7 @@ export class Plot {
     const height = this.height;
     this.size = { width, height };
     if (!this.series.length) {
-      this.over = null;
+      this.over = this.hover = null;
       this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
       this.svg.setAttribute("height", height);
       this.svg.innerHTML = `<text x="${width / 2}" y="${height / 2}" text-anchor="middle" font-size="13" fill="var(--quiet)">nothing to draw here yet</text>`;
@@ -77,9 +80,9 @@ export class Plot {
     parts.push(`<g clip-path="url(#${this.id})">`);
     for (const one of this.series) parts.push(this.shape(one));
     parts.push("</g>");
-    parts.push(`<g class="over"></g>`);
+    parts.push(`<g></g><g></g>`);
     this.svg.innerHTML = parts.join("");
-    this.over = this.svg.querySelector(".over");
+    [this.over, this.hover] = [...this.svg.children].slice(-2);
     this.words();
     if (this.cursor) this.point(...this.cursor);
   }
@@ -110,7 +113,7 @@ export class Plot {
         const room = (high - low || Math.abs(high) || 1) * 0.06;
         low -= room; high += room;
       }
-      const { factor, unit } = axis.log ? prefixOf(Math.sqrt(low * high), axis.unit) : prefixOf(Math.max(Math.abs(low), Math.abs(high)) / 1.06, axis.unit);
+      const { factor, unit } = axis.log ? prefixOf(high / low < 1e6 ? Math.sqrt(low * high) : 1, axis.unit) : prefixOf(Math.max(Math.abs(low), Math.abs(high)) / 1.06, axis.unit);
       found[name] = { low, high, log: !!axis.log, turned: !!axis.turned, factor, unit };
     }
     return found;
@@ -163,6 +166,34 @@ export class Plot {
     return path ? `<path d="${path}" fill="none" stroke="${colour}" stroke-width="${one.width || 2.2}" stroke-linejoin="round"${dash}${faint}${soft}/>` : "";
   }
 
+  // The point of lines and points that is nearest to the pointer: its series and place, null where there is none.
+  nearest(event, series = this.series) {
+    if (!this.over) return null;
+    const box = this.svg.getBoundingClientRect(), scale = this.size.width / box.width;
+    const x = (event.clientX - box.left) * scale, y = (event.clientY - box.top) * scale;
+    let found = null, least = Infinity;
+    for (const one of series) {
+      if (one.kind === "band") continue;
+      for (let i = 0; i < one.x.length; i += 1) {
+        if (one.x[i] === null || one.y[i] === null) continue;
+        const far = Math.hypot(this.toX(one.x[i]) - x, this.toY(one.y[i]) - y);
+        if (far < least) { least = far; found = { one, i, far }; }
+      }
+    }
+    return found;
+  }
+
+  // Say the numbers of a point under the pointer, and what it is a point of.
+  read(found) {
+    if (!this.hover) return;
+    if (!found || found.far > REACH) { this.hover.innerHTML = ""; return; }
+    const { one, i } = found, { x, y } = this.axes;
+    const px = round(this.toX(one.x[i])), py = round(this.toY(one.y[i]));
+    const lines = [`${said(one.y[i], y.unit)} at ${said(one.x[i], x.unit)}`, one.words || ""];
+    const [side, anchor] = px > this.size.width / 2 ? [-10, "end"] : [10, "start"], top = py < this.inner.y1 + 40 ? py + 24 : py - 26;
+    this.hover.innerHTML = `<circle cx="${px}" cy="${py}" r="4" fill="var(--ink)"/>` + lines.map((words, row) => lettered(px + side, top + 15 * row, words, anchor)).join("");
+  }
+
   // Mark a point, in SI, above everything.
   point(x, y, words = "") {
     this.cursor = [x, y, words];
@@ -170,7 +201,7 @@ export class Plot {
     const px = round(this.toX(x)), py = round(this.toY(y));
     const side = px > this.size.width * 0.6 ? -12 : 12;
     this.over.innerHTML = `<circle cx="${px}" cy="${py}" r="7" fill="var(--paper)" stroke="var(--c0)" stroke-width="3"/>`
-      + (words ? `<text x="${px + side}" y="${Math.max(py - 12, 16)}" text-anchor="${side < 0 ? "end" : "start"}" font-size="13" font-weight="600" fill="var(--ink)" stroke="var(--paper)" stroke-width="4" paint-order="stroke">${escape(words)}</text>` : "");
+      + (words ? lettered(px + side, Math.max(py - 12, 16), words, side < 0 ? "end" : "start") : "");
   }
 
   words() {
@@ -250,6 +281,10 @@ export function escape(text) {
   return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
 
+function lettered(x, y, words, anchor) {
+  return `<text x="${x}" y="${y}" text-anchor="${anchor}" font-size="13" font-weight="600" fill="var(--ink)" stroke="var(--paper)" stroke-width="4" paint-order="stroke">${escape(words)}</text>`;
+}
+
 function mark(x, y, size, colour, filled) {
   return `<circle cx="${x}" cy="${y}" r="${size}" fill="${filled ? colour : "var(--paper)"}" stroke="${colour}" stroke-width="1.5"/>`;
 }
@@ -296,6 +331,8 @@ function label(tick, { factor, log }) {
   return digits(Math.abs(value) < 1e-12 ? 0 : value, 3);
 }
 
+// The axis of depth is turned, so that a test goes to the right as it does in time.
 function named(axis, { unit }) {
-  return escape(unit ? `${axis.words} [${unit}]` : axis.words);
+  const words = escape(unit ? `${axis.words} [${unit}]` : axis.words);
+  return axis.turned ? `← pressed in \u2003 ${words} \u2003 pulled up →` : words;
 }

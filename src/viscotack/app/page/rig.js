@@ -2,7 +2,7 @@
 
 import { Plot, element } from "./plot.js";
 import { button, card } from "./contact.js";
-import { pulled, said } from "./numbers.js";
+import { pulled, quantity, said } from "./numbers.js";
 import { ask } from "./server.js";
 import { curveOf } from "./store.js";
 import { dropped } from "./files.js";
@@ -56,7 +56,7 @@ export class Rig {
       this.tell();
     } catch (error) {
       this.store.rig = null;
-      this.said.replaceChildren(element("p", "refused", error.message), button("Try again with these words", () => this.take(this.files)));
+      this.said.replaceChildren(this.form.refused(error.message), button("Read it again", () => this.take(this.files)));
     }
     this.below.hidden = !this.store.rig;
     this.store.say("quick");
@@ -86,7 +86,7 @@ export class Rig {
   set(one) {
     const tables = structuredClone(this.store.tables), protocol = tables.protocol || {};
     for (const key of Object.keys(protocol)) if (key.startsWith("preload_") || key === "start" || key === "moves") delete protocol[key];
-    tables.protocol = { preload_force: `${Number(one.preload.toPrecision(4))} N`, ...protocol, speed: `${Number(one.speed.toPrecision(4))} m/s` };
+    tables.protocol = { preload_force: quantity(one.preload, "N"), ...protocol, speed: quantity(one.speed, "m/s") };
     this.store.take(tables);
   }
 
@@ -103,7 +103,7 @@ export class Rig {
     try {
       const found = await ask(path, body);
       this.answer.replaceChildren(...found.words.map((words) => element("p", "", words)));
-      if (found.equilibrium_gap_m) this.answer.append(button("Use this interface in the case", () => this.store.take({ ...structuredClone(this.store.tables), interface: { law: "lennard-jones", work_of_adhesion: `${found.work_of_adhesion_J_m2.toPrecision(4)} J/m^2`, equilibrium_gap: `${found.equilibrium_gap_m.toPrecision(4)} m` } })));
+      if (found.equilibrium_gap_m) this.answer.append(button("Use this interface in the case", () => this.store.take({ ...structuredClone(this.store.tables), interface: { law: "lennard-jones", work_of_adhesion: quantity(found.work_of_adhesion_J_m2, "J/m^2"), equilibrium_gap: quantity(found.equilibrium_gap_m, "m") } })));
     } catch (error) {
       this.answer.replaceChildren(element("p", "refused", error.message));
     }

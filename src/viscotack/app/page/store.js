@@ -1,6 +1,7 @@
 // The case, and what is known of it. Views listen; nothing here draws.
 
 import { ask, cancel, follow } from "./server.js";
+import { pulledBy, workOf } from "./numbers.js";
 
 // Milliseconds for which numbers must rest before they are simulated.
 const REST = 80;
@@ -23,6 +24,24 @@ export class Store extends EventTarget {
     this.auto = true;
     this.times = [];
     this.version = 0;
+    this.answered = 0; // the version of the case that `quick` is of
+  }
+
+  // The numbers of `viscotack.predict`, which ranks the tiers: from the surrogates at once, else from the theories; where
+  // it refuses, those of the simulation. Null while they are being computed.
+  get best() {
+    const { quick, run } = this, verdict = this.verdict?.version === this.version ? this.verdict : null;
+    if (!quick || this.answered !== this.version) return null;
+    const numbers = quick.numbers.length ? quick.numbers : verdict ? verdict.numbers : null;
+    if (!numbers || numbers.length) return numbers;
+    if (run.version !== this.version || !["done", "stopped", "refused"].includes(run.state)) return null;
+    if (run.state !== "done") return [];
+    const { summary } = run.answer, error = summary.error_estimate || {};
+    const force = "pull_off_force" in quick.axes ? "pull_off_force" : "pull_off_stress";
+    return [
+      { name: force, value: pulledBy(summary), error: error.force, method: "simulation", why: verdict.refused },
+      { name: "work_to_pull_off", value: workOf(summary), error: error.work, method: "simulation", why: verdict.refused },
+    ].filter(({ value }) => value !== null && value !== undefined);
   }
 
   say(name, detail) {
@@ -59,6 +78,7 @@ export class Store extends EventTarget {
     const version = this.version, began = this.began;
     try {
       this.quick = await ask("/api/quick", { tables: this.tables, ...this.settings });
+      this.answered = version;
       this.refused = "";
     } catch (error) {
       this.refused = error.message;
@@ -151,7 +171,7 @@ export class Store extends EventTarget {
       if (version === this.version) { this.theory = { ...theory, version }; this.say("verdict"); }
     } catch (error) {
       if (error.name !== "AbortError" && version === this.version) {
-        this.verdict = { words: [error.message], tiers: [], version };
+        this.verdict = { numbers: [], refused: error.message, words: [], tiers: [], version };
         this.say("verdict");
       }
     }

@@ -3,7 +3,7 @@
 import csv
 import io
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -20,13 +20,18 @@ from viscotack.forecast.prediction_table import answers_of, kind_of, predict_tab
 
 from ..declare.answer import Answer, Told
 from ..declare.cards import is_number
+from .tables import Writer
+from .workbook import write_workbook
 
 # Rows that are held at once.
 _BLOCK = 50_000
+_SHEET = 2**20 - 1  # rows of a sheet below its headings
 
 
 def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) -> Answer:
-    """Return the answer to the cases of a CSV file, which are predicted as they are written.
+    """Return the answer to the cases of a table, which are predicted as they are written.
+
+    The table is a CSV file, or the first sheet of a workbook .xlsx.
 
     Raises
     ------
@@ -35,7 +40,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     ValueError
         If columns or rows are not those of a table of spheres or punches.
     """
-    header, rows = read_words(path)
+    header, rows = _words_of_workbook(path) if is_workbook(path) else read_words(path)
     kind = kind_of(header)
     names = [name for name in header if name in {*kind.columns, *kind.choices}]
     try:
@@ -50,21 +55,34 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     counts: Counter[str] = Counter()
     methods: Counter[str] = Counter()
 
+    def blocks() -> Iterator[dict[str, Any]]:
+        while block := list(islice(rows, _BLOCK)):
+            begin = counts["rows"]
+            given = {n: [row[i].strip() for _, row in block] for i, n in enumerate(header)}
+            found = _answers(path, given, names, confidence, partial(_rows_told, tell, begin))
+            counts.update(
+                {
+                    "rows": len(block),
+                    "inside": int(found["inside"].sum()),
+                    "unanswered": int(np.sum(found["method"] == "")),
+                }
+            )
+            methods.update(found["method"][found["method"] != ""].astype(str).tolist())
+            yield {**given, **found}
+
     def answered(file: Target) -> None:
         with writing_whole(file) as stream:
-            while block := list(islice(rows, _BLOCK)):
-                begin = counts["rows"]
-                given = {n: [row[i].strip() for _, row in block] for i, n in enumerate(header)}
-                found = _answers(path, given, names, confidence, partial(_rows_told, tell, begin))
-                stream.write(_text({**given, **found}, header=not begin))
-                counts.update(
-                    {
-                        "rows": len(block),
-                        "inside": int(found["inside"].sum()),
-                        "unanswered": int(np.sum(found["method"] == "")),
-                    }
-                )
-                methods.update(found["method"][found["method"] != ""].astype(str).tolist())
+            for number, table in enumerate(blocks()):
+                stream.write(_text(table, header=not number))
+
+    def in_workbook(file: Target) -> None:
+        columns: dict[str, list[Any]] = {}
+        for table in blocks():
+            if counts["rows"] > _SHEET:
+                raise InputError(f"{path} has more rows than a sheet can have; write --csv")
+            for name, values in table.items():
+                columns.setdefault(name, []).extend(map(_in_sheet, np.asarray(values).tolist()))
+        write_workbook({"predictions": columns}, file)
 
     def record() -> dict[str, Any]:
         return {
@@ -75,7 +93,36 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
             "confidence": confidence,
         }
 
-    return Answer(methods, record=record, words=lambda: _words(record()), files={"csv": answered})
+    files: dict[str, Writer] = {"csv": answered, "xlsx": in_workbook}
+    return Answer(methods, record=record, words=lambda: _words(record()), files=files)
+
+
+def is_workbook(path: Path) -> bool:
+    """Return whether a table of cases is a workbook, by its ending."""
+    return path.suffix.lower() == ".xlsx"
+
+
+def _words_of_workbook(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
+    """Return the first sheet of a workbook like :func:`read_words`."""
+    from viscotack.lab.lab_file import load
+    from viscotack.lab.workbook_layout import sheets
+
+    try:
+        first = next(iter(sheets(load(path)).values()), [])
+    except ImportError as error:
+        raise InputError(str(error)) from None
+    # a sheet may have empty columns that were formatted
+    width = max((i + 1 for row in first for i, word in enumerate(row) if word.strip()), default=0)
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows(row[:width] for row in first)
+    return read_words(path, stream.getvalue())
+
+
+def _in_sheet(value: Any) -> Any:
+    """Return an entry of a table as a cell of a workbook; nothing where there is no number."""
+    if value == "" or value != value:
+        return None
+    return float(value) if isinstance(value, str) and is_number(value) else value
 
 
 def _rows_told(tell: Callable[[Told], None], before: int, done: int, count: int) -> None:

@@ -34,14 +34,19 @@ def as_workbook(sheets: Mapping[str, Rows]) -> Writer:
     """
 
     def write(target: "Target") -> None:
-        from viscotack.files.whole import write_whole
-
-        write_whole(target, _content(sheets))
+        write_workbook({title: headed(rows) for title, rows in sheets.items() if rows}, target)
 
     return write
 
 
-def _content(sheets: Mapping[str, Rows]) -> bytes:
+def write_workbook(sheets: Mapping[str, Mapping[str, Sequence[Any]]], target: "Target") -> None:
+    """Write a workbook, whole or not at all, with a sheet for each table of columns."""
+    from viscotack.files.whole import write_whole
+
+    write_whole(target, _content(sheets))
+
+
+def _content(sheets: Mapping[str, Mapping[str, Sequence[Any]]]) -> bytes:
     try:
         from openpyxl import Workbook
         from openpyxl.styles import Font
@@ -52,12 +57,10 @@ def _content(sheets: Mapping[str, Rows]) -> bytes:
         ) from error
     book = Workbook()
     del book["Sheet"]
-    for title, rows in sheets.items():
-        if not rows:
-            continue
+    for title, columns in sheets.items():
         sheet = book.create_sheet(title)
         sheet.freeze_panes = "A2"
-        for number, (heading, values) in enumerate(headed(rows).items(), start=1):
+        for number, (heading, values) in enumerate(columns.items(), start=1):
             for line, value in enumerate((heading, *values), start=1):
                 cell = sheet.cell(line, number)
                 text = isinstance(value, str)

@@ -1,0 +1,101 @@
+"""Problems, predictions and results in a notebook have the numbers that the command line has."""
+
+import base64
+import re
+from dataclasses import replace
+from html import unescape
+from types import SimpleNamespace
+
+import pytest
+
+import viscotack as vt
+from viscotack.app.notebook import html_of_problem, load_ipython_extension
+from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.problem.case_file import case_of_tables
+from viscotack.units import readable
+
+PROBLEM = case_of_tables(FIRST)
+
+
+@pytest.fixture
+def shown():
+    """Return what a shell of IPython shows; it asks the formatter of the type."""
+    known = {}
+    html = SimpleNamespace(for_type=known.__setitem__)
+    load_ipython_extension(
+        SimpleNamespace(display_formatter=SimpleNamespace(formatters={"text/html": html}))
+    )
+    return lambda thing: known[type(thing)](thing)
+
+
+def rows(text):
+    return [
+        [unescape(cell) for cell in re.findall("<td>(.*?)</td>", row)]
+        for row in re.findall("<tr>(<td>.*?)</tr>", text)
+    ]
+
+
+def picture(text):
+    return base64.b64decode(re.search('src="data:image/svg[+]xml;base64,([^"]+)"', text)[1])
+
+
+@pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)
+def test_a_problem_is_shown_with_all_its_numbers(shown, tables):
+    text = shown(case_of_tables(tables))
+    values = {value for *_, value in rows(text)}
+    for table in tables.values():
+        for key, stated in table.items():
+            if re.match(r"[\d.]+ [munkMG]?(m|Pa|s|N|J)", str(stated)):
+                unit = re.sub(r"^[munkMG](?=m|Pa|s|N|J)", "", str(stated).split(" ", 1)[1])
+                assert readable(vt.parse(stated, unit), unit) in values, key
+            elif isinstance(stated, float):
+                assert f"{stated:.4g}" in values, key
+
+
+def test_moves_bases_and_branches_are_in_the_table():
+    pressed = rows(
+        html_of_problem(case_of_tables(EXAMPLES["Pressed, held, pulled through a spring"]))
+    )
+    told = [(part, value) for part, _, _, value in pressed]
+    assert {("Approach", "20 um/s"), ("AtForce", "500 uN"), ("Dwell", "1 s")} <= set(told)
+    pad = rows(html_of_problem(case_of_tables(EXAMPLES["A flat punch on a soft layer"])))
+    assert ["Frictionless", "", "", ""] in pad
+    prony = {"model": "prony", "rubbery_modulus": "1 MPa", "poisson_ratio": 0.5}
+    series = prony | {"branches": [["5 MPa", "1 ms"], ["4 MPa", "1 s"]]}
+    told = rows(html_of_problem(case_of_tables(FIRST | {"material": series})))
+    assert [row[-1] for row in told if row[0] == "Prony"][-2:] == ["5 MPa, 1 ms", "4 MPa, 1 s"]
+
+
+def test_a_prediction_is_shown_with_its_interval_its_tier_and_its_curve(shown):
+    found = vt.predict(PROBLEM)
+    text, force = shown(found), PROBLEM.scales().force
+    words, value, band = rows(text)[0]
+    assert (words, value) == ("pull-off force", readable(found.pull_off_force * force, "N"))
+    assert band == "4.6598 to 4.6709 mN" and "<th>90 % of cases</th>" in text
+    assert f"by the {found.method}: {found.why}" in unescape(text)
+    assert picture(text).lstrip().startswith(b"<?xml")
+    words, value, _ = rows(shown(vt.predict(PROBLEM.groups())))[0]
+    assert value == f"{found.pull_off_force:.4g} x 1.5 pi R dg0"
+
+
+def test_a_theory_is_shown_without_a_curve(shown):
+    elastic = FIRST["material"] | {"model": "elastic"}
+    for gone in ("glassy_modulus", "exponent", "tau0"):
+        del elastic[gone]
+    stiff = {"law": "lennard-jones", "work_of_adhesion": "0.15 J/m^2", "equilibrium_gap": "20 nm"}
+    found = vt.predict(case_of_tables(FIRST | {"material": elastic, "interface": stiff}))
+    assert found.curve is None and "<img" not in shown(found)
+
+
+def test_a_result_is_shown_with_its_numerical_error_and_its_curve(shown):
+    result = vt.solve(PROBLEM, accuracy=0.02)
+    text, stated = shown(result), vt.summary(result)
+    words, value, error = rows(text)[0]
+    assert (words, value) == ("pull-off force", readable(stated["pull_off_force_N"], "N"))
+    assert error == f"{stated['error_estimate']['force']:.2g}"
+    assert stated["status"] in unescape(text) and b"<svg" in picture(text)
+
+
+def test_words_are_text_and_no_markup(shown):
+    text = shown(replace(vt.predict(PROBLEM), why="force < 1 & <b>more</b>"))
+    assert "<b>" not in text and "force < 1 & <b>more</b>" in unescape(text)

@@ -1,0 +1,177 @@
+"""The page without a browser: its parts fit each other, and the fields and answers it is given."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from viscotack.app.engine.forms import forms
+from viscotack.app.engine.overview import quick
+from viscotack.app.engine.page_tasks import ask_verdict
+from viscotack.errors import InputError, OutOfRange
+from viscotack.forecast import advise, predict
+from viscotack.operations import operations
+from viscotack.operations.declare.state import State
+from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.problem.case_file import case_of_tables
+
+FOLDER = Path(__file__).parents[1] / "src/viscotack/app/page"
+SCRIPTS = {file.name: file.read_text() for file in FOLDER.glob("*.js")}
+HTML = (FOLDER / "index.html").read_text()
+examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)
+
+
+def verdict(tables):
+    return ask_verdict({"tables": tables}, lambda told: None, ())
+
+
+@examples
+def test_the_answer_of_the_page_is_that_of_predict(tables):
+    problem = case_of_tables(tables)
+    at_once, soon = quick(State(tables))["numbers"], verdict(tables)
+    assert not at_once or at_once == soon["numbers"]  # what comes first does not change later
+    try:
+        found = predict(problem)
+    except OutOfRange as error:
+        assert soon["numbers"] == [] and soon["refused"].lower() == f"{error}.".lower()
+        return
+    scales = problem.scales()
+    scale = scales.stress if "punch" in tables else scales.force
+    number, *_ = soon["numbers"]
+    assert soon["refused"] == "" and (number["method"], number["why"]) == (found.method, found.why)
+    assert number["value"] == pytest.approx(found.pull_off_force * scale, rel=1e-12)
+    assert number["interval"] == pytest.approx([x * scale for x in found.interval], rel=1e-12)
+
+
+@examples
+def test_every_tier_is_compared_in_the_unit_of_the_answer(tables):
+    problem, found = case_of_tables(tables), verdict(tables)
+    tiers = {row["tier"]: row for row in found["tiers"]}
+    assert len(tiers) == len(found["tiers"]) > 4 and all(row["why"] for row in tiers.values())
+    if found["numbers"]:
+        number, *_ = found["numbers"]
+        row = tiers[number["method"]]
+        assert row["applies"] and row["value"] == pytest.approx(number["value"], rel=1e-12)
+    try:
+        estimates = advise(problem).estimates
+    except InputError:
+        assert found["words"] == []
+        return
+    assert list(tiers) == [each.tier for each in estimates]
+    for each in estimates:
+        value = (
+            None if each.pull_off_force is None else each.pull_off_force * problem.scales().force
+        )
+        assert tiers[each.tier]["value"] == value
+    assert not any(
+        each.tier in words.split(" ")[0] for each in estimates for words in found["words"]
+    )
+
+
+def test_a_refusal_names_the_field_that_it_belongs_to():
+    named = re.compile(r"\[([\w-]+)\] (.*)")
+    for table, key, value in (
+        ("sphere", "radius", "-5 mm"),
+        ("sphere", "radius", "5 kg"),
+        ("material", "poisson_ratio", 0.7),
+        ("material", "glassy_modulus", "1 Pa"),
+        ("interface", "equilibrium_gap", "1 km"),
+        ("protocol", "speed", "fast"),
+        ("protocol", "preload_force", "3 m"),
+    ):
+        with pytest.raises(InputError) as error:
+            quick(State(FIRST | {table: FIRST[table] | {key: value}}))
+        where, words = named.search(str(error.value)).groups()
+        assert (where, re.split(r"[ :]", words)[0]) == (table, key)
+    assert r"/\[([\w-]+)\] (.*)/" in SCRIPTS["fields.js"]
+
+
+def test_every_slider_has_an_example_in_its_unit_or_limits():
+    from viscotack.units import parse
+
+    asked = forms()
+    protocols = asked["protocol"].values()
+    fields = [
+        *(
+            field
+            for name in ("material", "interface", "shape")
+            for x in asked[name]
+            for field in x["fields"]
+        ),
+        *asked["layer"]["fields"],
+        *(
+            field
+            for each in protocols
+            for field in (*each["starts"], each["speed"], each["stiffness"])
+        ),
+    ]
+    numbers = [field for field in fields if field["kind"] == "number"]
+    assert len(numbers) > 30
+    for field in numbers:
+        assert {"above", "least", "most", "unit", "example", "words"} <= field.keys()
+        value = parse(str(field["example"]), field["unit"])
+        least = field["above"] if field["least"] is None else field["least"]
+        assert (least is None or value >= least) and (
+            field["most"] is None or value <= field["most"]
+        )
+
+
+def test_what_a_script_imports_another_exports():
+    for name, text in SCRIPTS.items():
+        for names, source in re.findall(r'import \{ ([^}]+) \} from "\./([\w.]+)";', text):
+            for one in names.split(", "):
+                word = one.split(" as ")[0]
+                exported = rf"export (async )?(function|const|class) {word}\b"
+                assert re.search(exported, SCRIPTS[source]), f"{name}: {word} of {source}"
+                assert len(re.findall(rf"\b{one.split(' as ')[-1]}\b", text)) > 1, f"{name}: {one}"
+
+
+def test_every_element_that_is_looked_up_by_its_id_exists():
+    made = set(re.findall(r'\bid="([\w-]+)"', HTML))
+    looked_up = {
+        x for text in SCRIPTS.values() for x in re.findall(r'getElementById\("([\w-]+)"\)', text)
+    }
+    assert {"best", "refused", "fields", "tabs", "content"} <= looked_up
+    made |= {"tab-material"}  # by main.js, from its list of views
+    assert looked_up <= made
+
+
+def test_the_answer_comes_before_the_inputs_and_these_before_the_views():
+    places = [HTML.index(mark) for mark in ('id="best"', 'id="fields"', 'id="content"')]
+    assert places == sorted(places)
+    css = (FOLDER / "style.css").read_text()
+    phone = css[css.index("@media (max-width: 46rem)") :]
+    assert re.search(r"#best \{ position: sticky; top: 0;", phone)
+
+
+def test_numbers_are_written_in_one_place():
+    for name, text in SCRIPTS.items():
+        if name != "numbers.js":
+            assert not re.search(r"toPrecision|toExponential|1e-6.*1e-9|\.toFixed\([3-9]", text), (
+                name
+            )
+    units = Path(FOLDER.parents[1] / "units.py").read_text()
+    prefixed = re.search(r"_PREFIXED = \(([^)]*)\)", units)[1]
+    shown = re.search(r"const PREFIXED = \[([^\]]*)\]", SCRIPTS["numbers.js"])[1]
+    assert re.findall(r'"([^"]+)"', shown) == re.findall(r'"([^"]+)"', prefixed)
+
+
+def test_views_of_operations_name_operations_that_http_answers():
+    known = operations()
+    views = re.findall(r"some\(([^)]+)\)", SCRIPTS["main.js"])
+    assert len(views) == 5
+    for view in views:
+        for word in re.findall(r'"([^"]+)"', view)[1:]:
+            assert "http" not in known[word].refused
+
+
+def test_no_option_is_called_by_its_flag():
+    for name, text in SCRIPTS.items():
+        assert not re.search(r"[\"'` ]--[a-z]+-[a-z]", text.replace("var(--", "")), name
+
+
+def test_the_page_is_light():
+    parts = [file for file in FOLDER.iterdir() if file.suffix in (".html", ".css", ".js", ".svg")]
+    assert (
+        sum(len(file.read_bytes()) for file in parts if not file.name.startswith("docs")) < 130_000
+    )
