@@ -1,6 +1,7 @@
 """The operation ``rough``: a rough surface pulled off a soft body."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
@@ -8,7 +9,7 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import FileOfNames, Placed, Switch, Whole, number_of
+from .declare.cards import File, FileOfNames, Placed, Switch, Whole, number_of
 from .declare.options import Operation
 from .simulate import Accuracy
 
@@ -58,6 +59,13 @@ class OfRough(Operation):
         False
     )
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 600.0
+    checkpoint: Annotated[
+        Path | None,
+        File(
+            "Keep the run in this file every half a minute; continue from there if it exists.",
+            metavar="RUN.npz",
+        ),
+    ] = None
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate the test, telling ``share``."""
@@ -75,6 +83,7 @@ class OfRough(Operation):
             maps=moments,
             time_limit=self.time_limit,
             force_coarse=self.force,
+            checkpoint=self.checkpoint,
             progress=lambda share: caller.tell({"share": share}),
         )
         spread, measures = problem.roughness, stickiness(problem)
