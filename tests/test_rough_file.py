@@ -3,6 +3,7 @@
 import csv
 import json
 import runpy
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -184,6 +185,16 @@ def test_a_damaged_map_is_refused(tmp_path, name, content, words):
     path.write_bytes(content)
     with pytest.raises(InputError, match=words):
         read_map(path, pixel=1e-6)
+
+
+def test_a_format_of_an_instrument_names_the_package_that_reads_it(tmp_path, monkeypatch):
+    path = tmp_path / "scan.gwy"
+    with pytest.raises(FileNotFoundError):
+        read_map(path)
+    path.write_bytes(b"GWYP")
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    with pytest.raises(InputError, match=r"install it with: .*\[surfaces\]"):
+        read_map(path)
 
 
 def test_an_array_with_a_false_size_is_refused_before_it_takes_memory(tmp_path):

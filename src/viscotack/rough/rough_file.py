@@ -82,8 +82,12 @@ def _surface(table: Table) -> HeightMap:
 
 def _measured(table: Table) -> HeightMap:
     file = table.beside("file", '"scan.npy"')
-    pixel = table.quantity("pixel", "m", '"1 um"')
-    unit = table.quantity("height_unit", "m", '"1 nm"') if "height_unit" in table.values else 1.0
+    table.known |= {"pixel", "height_unit"}
+
+    def stated(key: str) -> float | None:
+        return table.quantity(key, "m", '"1 nm"') if key in table.values else None
+
+    pixel, unit = stated("pixel"), stated("height_unit")
     return table.make(
         read_map, file, pixel=pixel, unit=unit, periodic=_switch(table, "periodic", False)
     )
