@@ -8,7 +8,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
+from viscotack.rough.problem import RoughProblem
 from viscotack.rough.result import FieldMap, RoughResult
+from viscotack.rough.superposition import Superposition
 
 from .plot import axis_unit
 
@@ -64,6 +66,50 @@ def film_of_pull(found: RoughResult, target: Target) -> None:
     held, each = io.BytesIO(), 1000 // _PER_SECOND
     frames[0].save(held, "gif", save_all=True, append_images=frames[1:], duration=each, loop=0)
     write_whole(target, held.getvalue())
+
+
+def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
+    """Draw the tension by position of the plate, and the asperities on the map.
+
+    Parameters
+    ----------
+    problem : RoughProblem
+        The surface.
+    found : Superposition
+        Result of :func:`viscotack.rough.superposed`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Left the tension, right the heights with the summits.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    surface, curve = problem.surface, found.curve
+    length, length_unit = axis_unit(float(np.abs(curve.position).max()), "m")
+    force, force_unit = axis_unit(float(np.abs(curve.force).max()), "N")
+    height, height_unit = axis_unit(float(np.ptp(surface.heights)) or 1e-9, "m")
+    side, side_unit = axis_unit(max(surface.size), "m")
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+        left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
+        left.axhline(0, color="0.6", lw=0.8)
+        left.plot(curve.position / length, -curve.force / force, color="#08519c")
+        left.set_xlabel(f"position of the plate [{length_unit}]")
+        left.set_ylabel(f"tension [{force_unit}]")
+        left.invert_xaxis()
+        left.set_title(f"largest tension {found.pull_off_force / force:.3g} {force_unit}")
+        rows, columns = (each / side for each in surface.size)
+        image = right.imshow(surface.heights / height, cmap="cividis", extent=(0, columns, rows, 0))
+        x, y = found.asperities.positions.T / side
+        right.plot(y, x, ".", color="#d94801", ms=3)
+        right.grid(False)
+        right.set_xlabel(f"x [{side_unit}]")
+        right.set_ylabel(f"y [{side_unit}]")
+        right.set_title(f"{len(x)} asperities, {found.touching} in contact")
+        figure.colorbar(image, ax=right, label=f"height [{height_unit}]")
+    return figure
 
 
 def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, Any]]:

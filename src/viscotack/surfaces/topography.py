@@ -70,7 +70,7 @@ def _check(channel: Any) -> None:
 
 
 def _given(channel: Any, pixel: float | None, unit: float | None) -> dict[str, Any]:
-    """Return what the file does not state; InputError where both or neither do."""
+    """Return the lengths that the file does not state; InputError where both or neither do."""
     sizes, length = channel.physical_sizes, channel.unit
     if (sizes is None) != (pixel is not None):
         raise InputError(
