@@ -25,6 +25,8 @@ from viscotack.protocol import Apart, AtDepth, AtRadius, Start
 # Steps in which a relaxed contact is loaded, and gap [range of the law] from which.
 _LOADINGS, _APART = 16, 4.0
 _MOST_LOADINGS = 400
+# Largest number of iterations of a relaxed state, which may jump into contact.
+_PATIENCE = 500
 # Largest sum of unbalanced tractions of a relaxed state over that of all.
 _UNBALANCED = 1e-7
 
@@ -87,6 +89,7 @@ def _balanced(contact: MapContact, moved: npt.NDArray, hold: Hold, depth: float)
         hold,
         depth=depth,
         tolerance=_UNBALANCED,
+        most_iterations=_PATIENCE,
     )
 
 
