@@ -107,6 +107,31 @@ def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
     assert Path("a.gif").read_bytes()[:6] == b"GIF89a"
 
 
+# Stands for ffmpeg: counts the bytes of the frames.
+FFMPEG = """#!{python}
+import sys
+open(sys.argv[-1], "w").write(str(len(sys.stdin.buffer.read())))
+"""
+
+
+def test_a_film_for_ffmpeg_has_every_frame(small, monkeypatch):
+    line = ["rough", "small.toml", "--movie", "a.mp4", "--moments", "6"]
+    monkeypatch.setenv("PATH", "")
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 2 and "needs the program ffmpeg; install it" in done.output
+    program = Path("ffmpeg")
+    program.write_text(FFMPEG.format(python=sys.executable))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(Path.cwd()))
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 0, done.output
+    whole, frame = int(Path("a.mp4").read_text()), 800 * 352 * 4
+    assert whole % frame == 0 and 3 <= whole // frame <= 6
+    program.write_text(f"#!{sys.executable}\nraise SystemExit(1)")
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 2 and "ffmpeg did not write the film" in done.output
+
+
 def test_the_examples_are_read_and_bumps_pull_off():
     assert read_rough(EXAMPLES / "rough_rubber.toml").zone.pixels > 1.5
     record = ask("rough", file=str(EXAMPLES / "bumps.toml"), accuracy=0.01).record()

@@ -142,7 +142,9 @@ def test_a_flat_map_on_a_layer_jumps_off_at_the_strength():
     assert -at == pytest.approx(drawn + SOFT.edge_gap - GAP, rel=5e-3)
 
 
-@pytest.mark.parametrize("body", [HalfSpace(), Layer(thickness=40e-6, base=Bonded(poisson_ratio=0.5))])
+@pytest.mark.parametrize(
+    "body", [HalfSpace(), Layer(thickness=40e-6, base=Bonded(poisson_ratio=0.5))]
+)
 def test_a_wide_flat_map_whose_waves_open_first_is_refused(body):
     # on a half-space waves longer than pi E*/fall, 75 um of this law, are not held
     for pixels in (64, 128):

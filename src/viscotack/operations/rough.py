@@ -35,6 +35,12 @@ class OfRough(Operation):
         Output("maps", "Write maps of gap and pressure to a .npz file.", "binary", ending=".npz"),
         picture("Draw the force curve and the contact to a .png, .pdf or .svg file."),
         Output("film", "Write the detachment as a film to a .gif file.", "binary", ending=".gif"),
+        Output(
+            "movie",
+            "Write the detachment as a film to an .mp4 file, by the program ffmpeg.",
+            "binary",
+            ending=".mp4",
+        ),
     )
     takes_own: ClassVar = True
 
@@ -83,14 +89,21 @@ class OfRough(Operation):
         """Simulate the test, telling ``share``."""
         if self.theory is not None:
             return self._superposed(caller)
-        from viscotack.pictures.rough import draw_rough, film_of_pull
+        from viscotack.pictures.rough import (
+            check_ffmpeg,
+            draw_rough,
+            film_of_pull,
+            movie_of_pull,
+        )
         from viscotack.result import Outcome
         from viscotack.rough import pull, read_rough, stickiness
 
         from .parts.tables import rows_as_csv
 
+        if "movie" in caller.wants:
+            check_ffmpeg()
         problem = read_rough(self.file.path, also=caller.also, beside=self.file.inside.file)
-        moments = self.moments or (_FRAMES if "film" in caller.wants else 0)
+        moments = self.moments or (_FRAMES if caller.wants & {"film", "movie"} else 0)
         found = pull(
             problem,
             accuracy=self.accuracy,
@@ -118,6 +131,7 @@ class OfRough(Operation):
                 "csv": rows_as_csv(found.rows()),
                 "maps": found.save_maps,
                 "film": lambda target: film_of_pull(found, target),
+                "movie": lambda target: movie_of_pull(found, target),
             },
             pictures={"plot": lambda: draw_rough(found)},
             notes=found.warnings,
@@ -131,7 +145,7 @@ class OfRough(Operation):
 
         from .parts.tables import rows_as_csv
 
-        if unknown := sorted(caller.wants & {"maps", "film"}):
+        if unknown := sorted(caller.wants & {"maps", "film", "movie"}):
             raise InputError(
                 f"--{unknown[0]} needs the simulation; superposition has no fields, leave out "
                 "--theory"
