@@ -139,6 +139,19 @@ def test_the_examples_are_read_and_bumps_pull_off():
     assert record["patches_at_pull_off"] <= 9
 
 
+def test_wrong_nouns_are_refused_with_the_command_for_them(small):
+    for words in ("predict", "simulate case", "advise", "design", "array", "window"):
+        done = CliRunner().invoke(application(), [*words.split(), "small.toml"])
+        assert done.exit_code == 2
+        refused = " ".join(done.output.split())
+        assert "a map of heights, in a file of `viscotack rough`" in refused, refused
+    with pytest.raises(InputError, match=r"name a map of heights in it: .* file = .map.csv"):
+        ask("rough", file="map.csv")
+    small.write_text(SMALL.replace("[surface]", "[sphere]"))
+    with pytest.raises(InputError, match="one sphere, in a file of `viscotack simulate case`"):
+        ask("rough", file="small.toml")
+
+
 @pytest.mark.slow
 def test_a_stiff_rubber_loses_its_grip_on_a_rough_sphere_first(tmp_path):
     picture = tmp_path / "why.png"

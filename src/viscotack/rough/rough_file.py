@@ -18,6 +18,7 @@ from viscotack.surfaces import HeightMap, bumps, pillars, read_map, self_affine,
 from .problem import RoughProblem
 
 _TABLES = ("surface", "material", "interface", "protocol", "layer")
+_TOML = (".toml", "")
 # Generated maps: their function, lengths that are needed, lengths and numbers that may be given.
 _KINDS: dict[str, tuple[Any, tuple[str, ...], tuple[str, ...]]] = {
     "sphere": (sphere, ("radius",), ()),
@@ -50,6 +51,11 @@ def read_rough(
         If it is not TOML, or a table or key is missing, unknown or invalid.
     """
     path = Path(path)
+    if path.suffix.lower() not in _TOML and path.is_file():
+        raise InputError(
+            f"{path} must be a TOML file with a test; name a map of heights in it: [surface] with "
+            f'file = "{path.name}"'
+        )
     tables = read_toml(path)
     refuse_unknown(f"{path}", tables, _TABLES, "table")
     beside = beside or path.parent.joinpath
