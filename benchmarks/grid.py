@@ -6,6 +6,7 @@ python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres
 python benchmarks/grid.py random --count 50 # drawn problems: endings, residuals and times
 python benchmarks/grid.py superposition     # asperities by themselves beside the grid
 python benchmarks/grid.py size              # time and memory by the number of pixels
+python benchmarks/grid.py inner --limit 30  # time of an inner iteration and memory, to 1024 x 1024
 """
 
 import argparse
@@ -20,6 +21,8 @@ import numpy as np
 from scipy.signal import resample
 
 import viscotack as vt
+from viscotack.bem.grid.descent import _Tangent
+from viscotack.bem.grid.plane import Plane
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, HalfSpace, Layer
 from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
@@ -349,16 +352,7 @@ def size(given):
     for side in (64, 128, 256, 512):
         if side > given.pixels:
             break
-        pixel = 10e-6
-        surface = self_affine(
-            side, pixel, hurst=0.8, rms_height=1.5e-6, seed=4, roll_off=640e-6, shortest=80e-6
-        )
-        law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
-        test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
-        material = vt.RelaxationPowerLaw(
-            rubbery_modulus=0.75e6, glassy_modulus=15e6, exponent=0.5, tau0=0.05, poisson_ratio=0.5
-        )
-        problem = RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+        problem = of_size(side)
         began = process_time()
         found = pull(problem, estimate_error=False)
         spent = process_time() - began
@@ -372,7 +366,69 @@ def size(given):
         )
 
 
-PARTS = ("spheres", "pixels", "trust", "rough", "random", "superposition", "size")
+def inner(given):
+    """Show the time of an iteration of conjugate gradients, and the memory of a few steps."""
+    print(
+        "pixels    domain     s per inner iteration    ns per pixel log2 pixels   peak MB   B/pixel"
+    )
+    before = None
+    for side in (64, 128, 256, 512, 1024):
+        if side > given.pixels:
+            break
+        surface = self_affine(side, 1.0, hurst=0.8, rms_height=1.0, seed=4, shortest=8.0)
+        plane = Plane((side, side), 1.0, periodic=not given.free)
+        wide = plane.widened(np.maximum(surface.heights.ravel(), 0.0))
+        tangent = _Tangent(plane, plane.stiffness, plane.compliance, 1.0, wide, None)
+        apply, p = tangent.preconditioner(), plane.widened(surface.heights.ravel())
+        spent = []
+        for _ in range(5):
+            began = process_time()
+            for _ in range(max(1, 2_000_000 // side**2)):
+                z, _ = apply(p, 0.0)
+                tangent.times(z, 0.0)
+            spent.append((process_time() - began) / max(1, 2_000_000 // side**2))
+        many = wide.size
+        of_steps(side, not given.free, given.limit)
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        growth = "" if before is None else f"{(peak - before[0]) * 2**20 / (many - before[1]):8.0f}"
+        print(
+            f"{side:4d}^2 {'x'.join(map(str, plane.domain)):>10} {min(spent):14.5f} "
+            f"{1e9 * min(spent) / many / np.log2(many):22.2f} {peak:18.0f} {growth}",
+            flush=True,
+        )
+        before = peak, many
+
+
+def of_steps(side, periodic, limit):
+    """Pull a viscoelastic map of the benchmark of sizes until a time limit."""
+    problem = of_size(side, periodic)
+    try:
+        pull(problem, estimate_error=False, time_limit=limit)
+    except InputError:  # before the start was found
+        pass
+
+
+def of_size(side, periodic=True):
+    """Return the problem of the benchmark of sizes."""
+    surface = self_affine(
+        side,
+        10e-6,
+        hurst=0.8,
+        rms_height=1.5e-6,
+        seed=4,
+        roll_off=640e-6,
+        shortest=80e-6,
+        periodic=periodic,
+    )
+    law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
+    test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
+    material = vt.RelaxationPowerLaw(
+        rubbery_modulus=0.75e6, glassy_modulus=15e6, exponent=0.5, tau0=0.05, poisson_ratio=0.5
+    )
+    return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+
+
+PARTS = ("spheres", "pixels", "trust", "rough", "random", "superposition", "size", "inner")
 
 
 def main():
@@ -383,6 +439,7 @@ def main():
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--pixels", type=int, default=64)
     parser.add_argument("--limit", type=float, default=60.0)
+    parser.add_argument("--free", action="store_true", help="maps without neighbours")
     parser.add_argument("--plot", help="picture of superposition")
     given = parser.parse_args()
     globals()[given.part](given)
