@@ -400,8 +400,11 @@ def inner(given):
 
 
 def of_steps(side, periodic, limit):
-    """Pull a viscoelastic map of the benchmark of sizes until a time limit."""
+    """Approach a viscoelastic map of the benchmark of sizes, from afar, until a time limit."""
     problem = of_size(side, periodic)
+    test = problem.protocol
+    moves = (Approach(speed=test.speed, to=test.start),)
+    problem = replace(problem, protocol=replace(test, start=Apart(60e-6), moves=moves))
     try:
         pull(problem, estimate_error=False, time_limit=limit)
     except InputError:  # before the start was found
