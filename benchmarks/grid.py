@@ -4,7 +4,9 @@ python benchmarks/grid.py spheres           # forces, works and processor time o
 python benchmarks/grid.py pixels            # errors of the force by pixels per zone
 python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres
 python benchmarks/grid.py random --count 50 # drawn problems: endings, residuals and times
+python benchmarks/grid.py superposition     # asperities by themselves beside the grid
 python benchmarks/grid.py size              # time and memory by the number of pixels
+python benchmarks/grid.py inner --limit 30  # time of an inner iteration and memory, to 1024 x 1024
 """
 
 import argparse
@@ -19,12 +21,14 @@ import numpy as np
 from scipy.signal import resample
 
 import viscotack as vt
+from viscotack.bem.grid.descent import _Tangent
+from viscotack.bem.grid.plane import Plane
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, HalfSpace, Layer
 from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
 from viscotack.result.observables import work_of_separation
-from viscotack.rough import RoughProblem, pull
-from viscotack.surfaces import self_affine, sphere
+from viscotack.rough import RoughProblem, pull, stickiness, superposed
+from viscotack.surfaces import roughness, self_affine, sphere
 
 RADIUS, GAP = 5e-3, 1.5e-6
 ALONG = np.sqrt(RADIUS * GAP)
@@ -271,22 +275,84 @@ def rough(given):
     summed(inside)
 
 
+def of_asperities(rng, pixels):
+    """Return a drawn self-affine map and its test, for superposition."""
+    k = float(rng.choice([1, 0.3, 0.1]))
+    material = solid(k)
+    pixel = rng.uniform(4e-6, 10e-6)
+    law = vt.LennardJones(
+        work_of_adhesion=material.contact_modulus * GAP**2 * 0.75 / pixel / rng.uniform(2, 4),
+        equilibrium_gap=GAP,
+    )
+    surface = self_affine(
+        pixels,
+        pixel,
+        hurst=0.8,
+        rms_height=GAP * 10 ** rng.uniform(0, 1),
+        seed=int(rng.integers(1 << 30)),
+        roll_off=pixels * pixel / rng.choice([1, 2]),
+        shortest=pixel * rng.choice([10, 16, 24]),
+    )
+    full = law.strength * surface.area
+    preload = AtForce(full * 10 ** rng.uniform(-3, -1))
+    test = Retraction(start=preload, speed=10 ** rng.uniform(-6, -3))
+    return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+
+
+def superposition(given):
+    """Compare superposition with the grid, by the share of the surface around contacts."""
+    rng = np.random.default_rng(given.seed)
+    print("k    speed   slope   U/dg  theta touching  share  force, grid  over grid CPU, grid s")
+    rows = []
+    while len(rows) < given.count:
+        try:
+            problem = of_asperities(rng, given.pixels)
+            began = process_time()
+            found = superposed(problem, force_outside=True)
+            spent = process_time() - began
+        except InputError as error:
+            print(f"refused: {error}"[:100], flush=True)
+            continue
+        began = process_time()
+        better = pull(problem, estimate_error=False, time_limit=given.limit)
+        grid = process_time() - began
+        if better.outcome is vt.Outcome.STOPPED:
+            print(better.status, flush=True)
+            continue
+        ratio = found.pull_off_force / better.pull_off_force
+        k, measures = problem.material.modulus_ratio, stickiness(problem)
+        slope = roughness(problem.surface).rms_slope
+        rows.append((k, found.share, ratio))
+        speed = problem.protocol.speed
+        print(
+            f"{k:<4g} {speed:.1e} {slope:6.3f} {measures.full_contact:6.2f} "
+            f"{measures.fuller_tabor:6.2f} {found.touching:6d} {found.share:9.3f} "
+            f"{better.pull_off_force:11.3g} N {ratio:10.3f} {spent:8.1f} {grid:6.1f}",
+            flush=True,
+        )
+    if given.plot:
+        import matplotlib.pyplot as plt
+
+        _, axes = plt.subplots(figsize=(5.6, 3.6), layout="constrained")
+        for k, mark in ((1.0, "o"), (0.3, "s"), (0.1, "^")):
+            at = [(share, ratio) for each, share, ratio in rows if each == k]
+            if at:
+                axes.plot(*zip(*at, strict=True), mark, label=f"modulus ratio {k:g}")
+        axes.axhline(1, color="0.5", lw=0.8)
+        axes.set(xscale="log", yscale="log")
+        axes.set_xlabel("share of the surface around contacts")
+        axes.set_ylabel("pull-off force over that of the grid")
+        axes.legend()
+        plt.savefig(given.plot, dpi=150)
+
+
 def size(given):
     """Show processor time and memory of one pull by the number of pixels."""
     print("pixels  CPU s  s per inner iteration  peak memory MB")
     for side in (64, 128, 256, 512):
         if side > given.pixels:
             break
-        pixel = 10e-6
-        surface = self_affine(
-            side, pixel, hurst=0.8, rms_height=1.5e-6, seed=4, roll_off=640e-6, shortest=80e-6
-        )
-        law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
-        test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
-        material = vt.RelaxationPowerLaw(
-            rubbery_modulus=0.75e6, glassy_modulus=15e6, exponent=0.5, tau0=0.05, poisson_ratio=0.5
-        )
-        problem = RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+        problem = of_size(side)
         began = process_time()
         found = pull(problem, estimate_error=False)
         spent = process_time() - began
@@ -300,14 +366,84 @@ def size(given):
         )
 
 
+def inner(given):
+    """Show the time of an iteration of conjugate gradients, and the memory of a few steps."""
+    print(
+        "pixels    domain     s per inner iteration    ns per pixel log2 pixels   peak MB   B/pixel"
+    )
+    before = None
+    for side in (64, 128, 256, 512, 1024):
+        if side > given.pixels:
+            break
+        surface = self_affine(side, 1.0, hurst=0.8, rms_height=1.0, seed=4, shortest=8.0)
+        plane = Plane((side, side), 1.0, periodic=not given.free)
+        wide = plane.widened(np.maximum(surface.heights.ravel(), 0.0))
+        tangent = _Tangent(plane, plane.stiffness, plane.compliance, 1.0, wide, None)
+        apply, p = tangent.preconditioner(), plane.widened(surface.heights.ravel())
+        spent = []
+        for _ in range(5):
+            began = process_time()
+            for _ in range(max(1, 2_000_000 // side**2)):
+                z, _ = apply(p, 0.0)
+                tangent.times(z, 0.0)
+            spent.append((process_time() - began) / max(1, 2_000_000 // side**2))
+        many = wide.size
+        of_steps(side, not given.free, given.limit)
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        growth = "" if before is None else f"{(peak - before[0]) * 2**20 / (many - before[1]):8.0f}"
+        print(
+            f"{side:4d}^2 {'x'.join(map(str, plane.domain)):>10} {min(spent):14.5f} "
+            f"{1e9 * min(spent) / many / np.log2(many):22.2f} {peak:18.0f} {growth}",
+            flush=True,
+        )
+        before = peak, many
+
+
+def of_steps(side, periodic, limit):
+    """Approach a viscoelastic map of the benchmark of sizes, from afar, until a time limit."""
+    problem = of_size(side, periodic)
+    test = problem.protocol
+    moves = (Approach(speed=test.speed, to=test.start),)
+    problem = replace(problem, protocol=replace(test, start=Apart(60e-6), moves=moves))
+    try:
+        pull(problem, estimate_error=False, time_limit=limit)
+    except InputError:  # before the start was found
+        pass
+
+
+def of_size(side, periodic=True):
+    """Return the problem of the benchmark of sizes."""
+    surface = self_affine(
+        side,
+        10e-6,
+        hurst=0.8,
+        rms_height=1.5e-6,
+        seed=4,
+        roll_off=640e-6,
+        shortest=80e-6,
+        periodic=periodic,
+    )
+    law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=GAP)
+    test = Retraction(start=AtForce(0.1 * law.strength * surface.area), speed=5e-5)
+    material = vt.RelaxationPowerLaw(
+        rubbery_modulus=0.75e6, glassy_modulus=15e6, exponent=0.5, tau0=0.05, poisson_ratio=0.5
+    )
+    return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+
+
+PARTS = ("spheres", "pixels", "trust", "rough", "random", "superposition", "size", "inner")
+
+
 def main():
     """Run one part."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("part", choices=["spheres", "pixels", "trust", "rough", "random", "size"])
+    parser.add_argument("part", choices=PARTS)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--pixels", type=int, default=64)
     parser.add_argument("--limit", type=float, default=60.0)
+    parser.add_argument("--free", action="store_true", help="maps without neighbours")
+    parser.add_argument("--plot", help="picture of superposition")
     given = parser.parse_args()
     globals()[given.part](given)
     return 0

@@ -55,4 +55,5 @@ def test_every_extra_in_messages_and_pages_exists():
     text = "".join(p.read_text() for p in [*pages, *ROOT.glob("src/**/*.py")])
     named = re.findall(r"install_command\(['\"](\w+)|(?:viscotack|-e \"\.)\[([\w,]+)\]", text)
     found = {extra for pair in named for extra in "".join(pair).split(",")}
-    assert {"app", "lab", "campaign", "cluster", "onnx", "afm", "data"} <= found <= extras
+    least = {"app", "lab", "campaign", "cluster", "onnx", "afm", "data", "surfaces"}
+    assert least <= found <= extras

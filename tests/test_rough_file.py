@@ -3,6 +3,7 @@
 import csv
 import json
 import runpy
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -106,11 +107,49 @@ def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
     assert Path("a.gif").read_bytes()[:6] == b"GIF89a"
 
 
+# Stands for ffmpeg: counts the bytes of the frames.
+FFMPEG = """#!{python}
+import sys
+open(sys.argv[-1], "w").write(str(len(sys.stdin.buffer.read())))
+"""
+
+
+def test_a_film_for_ffmpeg_has_every_frame(small, monkeypatch):
+    line = ["rough", "small.toml", "--movie", "a.mp4", "--moments", "6"]
+    monkeypatch.setenv("PATH", "")
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 2 and "needs the program ffmpeg; install it" in done.output
+    program = Path("ffmpeg")
+    program.write_text(FFMPEG.format(python=sys.executable))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(Path.cwd()))
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 0, done.output
+    whole, frame = int(Path("a.mp4").read_text()), 800 * 352 * 4
+    assert whole % frame == 0 and 3 <= whole // frame <= 6
+    program.write_text(f"#!{sys.executable}\nraise SystemExit(1)")
+    done = CliRunner().invoke(application(), line)
+    assert done.exit_code == 2 and "ffmpeg did not write the film" in done.output
+
+
 def test_the_examples_are_read_and_bumps_pull_off():
     assert read_rough(EXAMPLES / "rough_rubber.toml").zone.pixels > 1.5
     record = ask("rough", file=str(EXAMPLES / "bumps.toml"), accuracy=0.01).record()
     assert record["status"].startswith("detached")
     assert record["patches_at_pull_off"] <= 9
+
+
+def test_wrong_nouns_are_refused_with_the_command_for_them(small):
+    for words in ("predict", "simulate case", "advise", "design", "array", "window"):
+        done = CliRunner().invoke(application(), [*words.split(), "small.toml"])
+        assert done.exit_code == 2
+        refused = " ".join(done.output.split())
+        assert "a map of heights, in a file of `viscotack rough`" in refused, refused
+    with pytest.raises(InputError, match=r"name a map of heights in it: .* file = .map.csv"):
+        ask("rough", file="map.csv")
+    small.write_text(SMALL.replace("[surface]", "[sphere]"))
+    with pytest.raises(InputError, match="one sphere, in a file of `viscotack simulate case`"):
+        ask("rough", file="small.toml")
 
 
 @pytest.mark.slow
@@ -184,6 +223,16 @@ def test_a_damaged_map_is_refused(tmp_path, name, content, words):
     path.write_bytes(content)
     with pytest.raises(InputError, match=words):
         read_map(path, pixel=1e-6)
+
+
+def test_a_format_of_an_instrument_names_the_package_that_reads_it(tmp_path, monkeypatch):
+    path = tmp_path / "scan.gwy"
+    with pytest.raises(FileNotFoundError):
+        read_map(path)
+    path.write_bytes(b"GWYP")
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    with pytest.raises(InputError, match=r"install it with: .*\[surfaces\]"):
+        read_map(path)
 
 
 def test_an_array_with_a_false_size_is_refused_before_it_takes_memory(tmp_path):

@@ -142,6 +142,22 @@ def test_a_flat_map_on_a_layer_jumps_off_at_the_strength():
     assert -at == pytest.approx(drawn + SOFT.edge_gap - GAP, rel=5e-3)
 
 
+@pytest.mark.parametrize(
+    "body", [HalfSpace(), Layer(thickness=40e-6, base=Bonded(poisson_ratio=0.5))]
+)
+def test_a_wide_flat_map_whose_waves_open_first_is_refused(body):
+    # on a half-space waves longer than pi E*/fall, 75 um of this law, are not held
+    for pixels in (64, 128):
+        with pytest.raises(InputError, match="opens under tension in waves"):
+            flat(pixels, body)
+    # whatever is uneven decides, and the map pulls off
+    nearly = self_affine(32, 5e-6, hurst=0.8, rms_height=1e-8, seed=1, shortest=4e-5)
+    test = Retraction(start=AtDepth(0.0), speed=1e-6)
+    found = pull(rough(nearly, protocol=test), estimate_error=False)
+    assert found.has_separated
+    assert found.pull_off_stress == pytest.approx(SOFT.strength, rel=5e-3)
+
+
 def rough(surface=None, **more):
     surface = surface or self_affine(32, 1e-5, hurst=0.8, rms_height=1.5e-6, seed=3, shortest=8e-5)
     test = Retraction(start=AtForce(0.02 * SOFT.strength * surface.area), speed=20e-6)

@@ -83,11 +83,15 @@ def through(
     progress: Callable[[float], None] | None = None,
     watch: Callable[[Snapshot], None] | None = None,
 ) -> History:
-    """Integrate through all legs of a run from a relaxed place; see :func:`march`."""
-    history = run.history
-    run.keep(at)
+    """Integrate through all legs of a run from a relaxed place; see :func:`march`.
+
+    A run that has a history continues from a place after a step.
+    """
+    history, continues = run.history, bool(run.history.snapshots)
+    if not continues:
+        run.keep(at)
     try:
-        at = _begun(run, at, 0)
+        at = _judged(run, at, until) if continues else _begun(run, at, 0)
         while not history.outcome:
             told = len(history.snapshots)
             at = _stepped(run, at)

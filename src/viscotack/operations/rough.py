@@ -1,14 +1,16 @@
 """The operation ``rough``: a rough surface pulled off a soft body."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
+from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import FileOfNames, Placed, Switch, Whole, number_of
+from .declare.cards import Choice, File, FileOfNames, Placed, Switch, Whole, number_of
 from .declare.options import Operation
 from .simulate import Accuracy
 
@@ -21,8 +23,8 @@ class OfRough(Operation):
     """Press a rough surface against a soft body and pull it off, by simulation on a grid.
 
     The surface is a map of heights from a file or generated. Force, contact area, energies and maps
-    of gap and pressure follow with error estimates; docs/rough_surfaces.md describes the file and
-    the theory.
+    of gap and pressure follow with error estimates. With --theory superposition each asperity is
+    pulled off by itself. docs/rough_surfaces.md describes the file and the theory.
 
     Example: viscotack rough rough_rubber.toml --plot rough.png
     """
@@ -33,6 +35,12 @@ class OfRough(Operation):
         Output("maps", "Write maps of gap and pressure to a .npz file.", "binary", ending=".npz"),
         picture("Draw the force curve and the contact to a .png, .pdf or .svg file."),
         Output("film", "Write the detachment as a film to a .gif file.", "binary", ending=".gif"),
+        Output(
+            "movie",
+            "Write the detachment as a film to an .mp4 file, by the program ffmpeg.",
+            "binary",
+            ending=".mp4",
+        ),
     )
     takes_own: ClassVar = True
 
@@ -45,6 +53,13 @@ class OfRough(Operation):
         ),
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
+    theory: Annotated[
+        str | None,
+        Choice(
+            "Answer by a theory instead of a simulation: the asperities by themselves.",
+            choices=("superposition",),
+        ),
+    ] = None
     moments: Annotated[
         int | None,
         Whole(
@@ -54,27 +69,48 @@ class OfRough(Operation):
             most=1000,
         ),
     ] = None
-    force: Annotated[bool, Switch("Answer although a zone at an edge has less than one pixel.")] = (
-        False
-    )
+    force: Annotated[
+        bool,
+        Switch(
+            "Answer although a zone at an edge has less than one pixel, or asperities "
+            "are neighbours."
+        ),
+    ] = False
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 600.0
+    checkpoint: Annotated[
+        Path | None,
+        File(
+            "Keep the run in this file every half a minute; continue from there if it exists.",
+            metavar="RUN.npz",
+        ),
+    ] = None
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate the test, telling ``share``."""
-        from viscotack.pictures.rough import draw_rough, film_of_pull
+        if self.theory is not None:
+            return self._superposed(caller)
+        from viscotack.pictures.rough import (
+            check_ffmpeg,
+            draw_rough,
+            film_of_pull,
+            movie_of_pull,
+        )
         from viscotack.result import Outcome
         from viscotack.rough import pull, read_rough, stickiness
 
         from .parts.tables import rows_as_csv
 
+        if "movie" in caller.wants:
+            check_ffmpeg()
         problem = read_rough(self.file.path, also=caller.also, beside=self.file.inside.file)
-        moments = self.moments or (_FRAMES if "film" in caller.wants else 0)
+        moments = self.moments or (_FRAMES if caller.wants & {"film", "movie"} else 0)
         found = pull(
             problem,
             accuracy=self.accuracy,
             maps=moments,
             time_limit=self.time_limit,
             force_coarse=self.force,
+            checkpoint=self.checkpoint,
             progress=lambda share: caller.tell({"share": share}),
         )
         spread, measures = problem.roughness, stickiness(problem)
@@ -95,10 +131,49 @@ class OfRough(Operation):
                 "csv": rows_as_csv(found.rows()),
                 "maps": found.save_maps,
                 "film": lambda target: film_of_pull(found, target),
+                "movie": lambda target: movie_of_pull(found, target),
             },
             pictures={"plot": lambda: draw_rough(found)},
             notes=found.warnings,
             status=1 if found.outcome is Outcome.STOPPED else 0,
+        )
+
+    def _superposed(self, caller: Caller) -> Answer:
+        """Answer by superposition of asperities."""
+        from viscotack.pictures.rough import draw_superposition
+        from viscotack.rough import read_rough, superposed
+
+        from .parts.tables import rows_as_csv
+
+        if unknown := sorted(caller.wants & {"maps", "film", "movie"}):
+            raise InputError(
+                f"--{unknown[0]} needs the simulation; superposition has no fields, leave out "
+                "--theory"
+            )
+        if self.checkpoint is not None or self.moments is not None:
+            raise InputError("--checkpoint and --moments belong to the simulation, not to --theory")
+        problem = read_rough(self.file.path, also=caller.also, beside=self.file.inside.file)
+        found = superposed(
+            problem,
+            accuracy=self.accuracy,
+            force_outside=self.force,
+            progress=lambda share: caller.tell({"share": share}),
+        )
+        return Answer(
+            found,
+            record=lambda: found.summary,
+            words=lambda: (
+                f"superposition of {len(found.asperities.radii)} asperities, {found.touching} of "
+                f"them in contact, by {found.method}\n"
+                f"pull-off force: {readable(found.pull_off_force, 'N')}"
+                + (f" +- {100 * found.band:.2g} %" if found.inside else "")
+                + f", a stress of {readable(found.pull_off_stress, 'Pa')}\n"
+                f"work of separation: {readable(found.work_of_separation, 'J')}\n"
+                f"share of the surface around contacts: {found.share:.2g}"
+            ),
+            files={"csv": rows_as_csv(found.rows())},
+            pictures={"plot": lambda: draw_superposition(problem, found)},
+            notes=(found.why,) if found.why else (),
         )
 
 

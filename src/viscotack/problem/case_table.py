@@ -25,6 +25,14 @@ def refuse_named(
         raise InputError(f"{path}: {found[0]!r} is not computed; {why}")
 
 
+# Tables of one kind of file: the command that reads it, and what it has.
+_ELSEWHERE = {
+    "surface": ("rough", "a map of heights"),
+    "sphere": ("simulate case", "one sphere"),
+    "punch": ("simulate case", "one punch"),
+}
+
+
 def refuse_maps(where: str, tables: Iterable[str]) -> None:
     """Raise an InputError for the tables of a window or an array, which state several contacts."""
     for word, names in (("window", {"stamp", "donor", "receiver"}), ("array", {"pad", "array"})):
@@ -194,6 +202,12 @@ def refuse_unknown(
     known = sorted(known)
     for name in given:
         if name not in known:
+            if what == "table" and name in _ELSEWHERE:
+                command, noun = _ELSEWHERE[name]
+                raise InputError(
+                    f"{where}: unknown table {name!r}: it states {noun}, in a file of "
+                    f"`viscotack {command}`; expected {', '.join(known)}"
+                )
             close = difflib.get_close_matches(name, known, n=1)
             hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}{more}"
             raise InputError(f"{where}: unknown {what} {name!r}; {hint}")

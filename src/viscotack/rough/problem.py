@@ -25,12 +25,14 @@ from viscotack.geometry import HalfSpace, Layer
 from viscotack.problem.units import time_unit
 from viscotack.protocol import Apart, Approach, AtRadius, Retract, Retraction, Units
 from viscotack.surfaces import HeightMap, Roughness, roughness
-from viscotack.traction import Traction, effective_range, has_rest
+from viscotack.traction import Traction, effective_range, has_rest, softening
 
 # Length of the zone in l, of a law as long as Lennard-Jones.
 _ZONE = 0.75
 # Largest rms slope of small strain, and fewest thicknesses of a layer across a free map.
 _STEEPEST, _FEWEST = 0.5, 2.0
+# Range of the heights of an even map [equilibrium gaps].
+_EVEN = 1e-6
 # Most pixels: 512 x 512 take 0.5 GB and two minutes (benchmarks/grid.py size).
 _MOST = 2048 * 2048
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
@@ -122,10 +124,32 @@ class RoughProblem:
                     f"side thick, {min(self.surface.size) / _FEWEST:.3g} m; give a wider map, or "
                     "leave the layer out if it is thicker than the map is wide"
                 )
+        self._check_even()
         protocol = self.protocol
         ends = [m.to for m in protocol.moves if isinstance(m, Approach | Retract)]
         if any(isinstance(state, AtRadius) for state in (protocol.start, *ends)):
             raise InputError("a map has no contact radius; give a depth or a force")
+
+    def _check_even(self) -> None:
+        """Refuse an even map that opens in waves under tension before it does so everywhere.
+
+        A wave is held by the stiffness of the body at its wave number against the falling tension
+        of the law; on a half-space those longer than pi E*/fall are not.
+        """
+        surface, law = self.surface, self.traction.reduced()
+        if not surface.periodic or np.ptp(surface.heights) > _EVEN * self.traction.equilibrium_gap:
+            return
+        plane = self.contact.plane
+        stiffness, q = plane.stiffness.ravel(), plane.wave_number.ravel()
+        least = 1 + int(np.argmin(stiffness[1:]))
+        everywhere = np.inf if plane.mean_is_zero else stiffness[0]
+        fall = softening(law) * law.strength**2
+        if stiffness[least] < min(fall, everywhere):
+            raise InputError(
+                f"an even map opens under tension in waves of about "
+                f"{2 * np.pi / q[least] * self.length:.3g} m, and nothing decides where; give a "
+                "narrower map, heights, a thin frictionless layer or a map that does not repeat"
+            )
 
     @cached_property
     def roughness(self) -> Roughness:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+import os
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
+from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 
 from viscotack.bem.bounds import check_clock
 from viscotack.bem.estimate import COARSER, from_difference
+from viscotack.bem.grid.checkpoint import EVERY, Checkpoint
 from viscotack.bem.grid.descent import Found
-from viscotack.bem.grid.run import Frame, GridRun, march_on_grid, relaxed
+from viscotack.bem.grid.recorded import Frame, GridRun
+from viscotack.bem.grid.run import march_on_grid, relaxed
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
 from viscotack.bem.machine import spring_energy
 from viscotack.bem.settings import Settings
@@ -21,8 +28,10 @@ from viscotack.bem.verdict import status_of
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.problem.record import to_dict
 from viscotack.protocol import Move
 from viscotack.result import Event, Outcome
+from viscotack.version import __version__
 
 from .problem import COARSE, COARSEST, FINE, RoughProblem
 from .result import FieldMap, RoughResult
@@ -48,6 +57,8 @@ def pull(
     maps: int = 0,
     time_limit: float | None = None,
     force_coarse: bool = False,
+    checkpoint: str | os.PathLike[str] | None = None,
+    every: float = EVERY,
     progress: Callable[[float], None] | None = None,
 ) -> RoughResult:
     """Press a rough surface against a soft body and pull it off, by simulation on its pixels.
@@ -68,6 +79,11 @@ def pull(
         Wall time after which the simulation stops [s]; what was found so far is returned.
     force_coarse : bool
         Whether to answer although a zone at an edge has less than one pixel.
+    checkpoint : path, optional
+        File (.npz) in which the run is kept, and from which it continues, to the same digits, after
+        a kill or the time limit. The finished run stays there too.
+    every : float
+        Wall time between two writes of this file [s]; a kill loses this and the step under way.
     progress : callable, optional
         Called with the completed share of the work, 0 to 1.
 
@@ -79,8 +95,8 @@ def pull(
     Raises
     ------
     ValueError
-        If the pixels are too coarse, the start is not possible, or the time limit is met before
-        the test begins.
+        If the pixels are too coarse, the start is not possible, the time limit is met before the
+        test begins, or the checkpoint is of another problem.
 
     Examples
     --------
@@ -101,6 +117,9 @@ def pull(
     warnings = _resolved(problem, force_coarse)
     settings = Settings.for_accuracy(accuracy)
     share = _MAIN if estimate_error else 1.0
+    kept = None
+    if checkpoint is not None:
+        kept = Checkpoint.opened(Path(checkpoint), _key(problem, settings, maps), every)
 
     def part(begin: float, end: float) -> Callable[[float], None] | None:
         tell = progress
@@ -108,15 +127,16 @@ def pull(
 
     with limited(time_limit):
         try:
-            start = relaxed(problem.contact, problem.units.start(problem.protocol.start))
+            start = relaxed(problem.contact, problem.units.start(problem.protocol.start), kept)
         except TimeUp as limit:
             raise InputError(f"{limit} before the relaxed start was found") from None
         except ArithmeticError as reason:
             raise InputError(f"the relaxed start was not found: {reason}") from None
-        run = _run(problem, start, settings, maps, part(0.0, share))
+        run = _run(problem, start, settings, maps, kept, "main", part(0.0, share))
         result = _result(problem, run, settings, warnings)
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            light = _run(problem, start, settings.coarser(COARSER), 0, part(share, 1.0))
+            coarser = settings.coarser(COARSER)
+            light = _run(problem, start, coarser, 0, kept, "light", part(share, 1.0))
             coarse = _result(problem, light, settings, ())
             if coarse.outcome is not Outcome.STOPPED:
                 result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
@@ -146,6 +166,8 @@ def _run(
     start: Found,
     settings: Settings,
     maps: int,
+    kept: Checkpoint | None,
+    part: str,
     progress: Callable[[float], None] | None,
 ) -> GridRun:
     """Simulate the test."""
@@ -161,8 +183,27 @@ def _run(
     longest = longest_time(depths, moves, rate, contact, spring)  # type: ignore[arg-type]
     modes = modes_of_run(material, legs, longest, settings)
     return march_on_grid(
-        contact, start, modes, legs, settings, stiffness=stiffness, frames=maps, progress=progress
+        contact,
+        start,
+        modes,
+        legs,
+        settings,
+        stiffness=stiffness,
+        frames=maps,
+        checkpoint=kept,
+        part=part,
+        progress=progress,
     )
+
+
+def _key(problem: RoughProblem, settings: Settings, maps: int) -> str:
+    """Return an identifier of what the digits of a run depend on."""
+    surface, nouns = problem.surface, ("material", "traction", "protocol", "body")
+    parts = [to_dict(getattr(problem, name)) for name in nouns]
+    about = [parts, surface.pixel, surface.periodic, surface.beyond, surface.heights.shape]
+    versions = [__version__, np.__version__, scipy.__version__]
+    text = json.dumps([about, asdict(settings), maps, versions], sort_keys=True)
+    return hashlib.sha256(text.encode() + surface.heights.tobytes()).hexdigest()
 
 
 class _Start(NamedTuple):

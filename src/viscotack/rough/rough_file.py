@@ -18,6 +18,7 @@ from viscotack.surfaces import HeightMap, bumps, pillars, read_map, self_affine,
 from .problem import RoughProblem
 
 _TABLES = ("surface", "material", "interface", "protocol", "layer")
+_TOML = (".toml", "")
 # Generated maps: their function, lengths that are needed, lengths and numbers that may be given.
 _KINDS: dict[str, tuple[Any, tuple[str, ...], tuple[str, ...]]] = {
     "sphere": (sphere, ("radius",), ()),
@@ -50,6 +51,11 @@ def read_rough(
         If it is not TOML, or a table or key is missing, unknown or invalid.
     """
     path = Path(path)
+    if path.suffix.lower() not in _TOML and path.is_file():
+        raise InputError(
+            f"{path} must be a TOML file with a test; name a map of heights in it: [surface] with "
+            f'file = "{path.name}"'
+        )
     tables = read_toml(path)
     refuse_unknown(f"{path}", tables, _TABLES, "table")
     beside = beside or path.parent.joinpath
@@ -82,8 +88,12 @@ def _surface(table: Table) -> HeightMap:
 
 def _measured(table: Table) -> HeightMap:
     file = table.beside("file", '"scan.npy"')
-    pixel = table.quantity("pixel", "m", '"1 um"')
-    unit = table.quantity("height_unit", "m", '"1 nm"') if "height_unit" in table.values else 1.0
+    table.known |= {"pixel", "height_unit"}
+
+    def stated(key: str) -> float | None:
+        return table.quantity(key, "m", '"1 nm"') if key in table.values else None
+
+    pixel, unit = stated("pixel"), stated("height_unit")
     return table.make(
         read_map, file, pixel=pixel, unit=unit, periodic=_switch(table, "periodic", False)
     )

@@ -1,4 +1,4 @@
-"""Maps of heights in files: tables of numbers (CSV and other text) and NumPy arrays (.npy)."""
+"""Maps of heights in files: text, NumPy arrays (.npy), and what :mod:`.topography` reads."""
 
 from __future__ import annotations
 
@@ -15,9 +15,12 @@ from viscotack.files.bounded import open_regular, read_bytes
 from viscotack.files.whole import Target, write_whole
 
 from .heights import MOST, HeightMap
+from .topography import read_topography
 
 # Largest size of a file, 4096 x 4096 numbers of 25 characters [bytes].
 _LARGEST = 420_000_000
+# Endings of text; other files than these and .npy are read by SurfaceTopography.
+_TEXT = ("", ".csv", ".txt", ".tsv", ".dat", ".asc")
 _SEPARATORS = (",", ";", "\t", None)
 # Header of an array [bytes].
 _HEADER = 10_000
@@ -26,8 +29,8 @@ _HEADER = 10_000
 def read_map(
     path: str | os.PathLike[str],
     *,
-    pixel: float,
-    unit: float = 1.0,
+    pixel: float | None = None,
+    unit: float | None = None,
     periodic: bool = False,
 ) -> HeightMap:
     """Read a map of heights from a file.
@@ -36,11 +39,14 @@ def read_map(
     ----------
     path : path
         A `.npy` file with an array of two dimensions; or text, one row of the map in each line,
-        separated by commas, semicolons, tabs or blanks. Lines that begin with # are skipped.
-    pixel : float
-        Side of a pixel [m].
-    unit : float
-        Unit of the heights [m], for example 1e-9.
+        separated by commas, semicolons, tabs or blanks (`.csv`, `.txt`, `.tsv`, `.dat`, `.asc`);
+        lines that begin with # are skipped. With the extra ``surfaces``, also what the package
+        SurfaceTopography reads (`.gwy`, `.x3p`, `.sur`, `.nid` and other formats of instruments).
+    pixel : float, optional
+        Side of a pixel [m], where the file does not state it; text and `.npy` do not.
+    unit : float, optional
+        Unit of the heights [m], for example 1e-9; of text and `.npy` by default 1 m, of other files
+        where they do not state it.
     periodic : bool
         Whether the map repeats in both directions.
 
@@ -49,12 +55,19 @@ def read_map(
     FileNotFoundError
         If the file does not exist.
     ValueError
-        If it contains no such map; the message names the line.
+        If it contains no such map; the message names the line. If SurfaceTopography is needed and
+        not installed, or the file states pixel or unit too.
     """
     path = Path(path)
+    ending = path.suffix.lower()
     try:
-        heights = _array(path) if path.suffix.lower() == ".npy" else _table(path)
-        return HeightMap(heights * unit, pixel, periodic)
+        if ending not in (".npy", *_TEXT):
+            path.stat()  # FileNotFoundError in our words
+            return read_topography(path, pixel=pixel, unit=unit, periodic=periodic)
+        if pixel is None:
+            raise InputError("pixel is missing: this format does not state the size of a pixel")
+        heights = _array(path) if ending == ".npy" else _table(path)
+        return HeightMap(heights * (1.0 if unit is None else unit), pixel, periodic)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

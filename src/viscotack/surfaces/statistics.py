@@ -55,14 +55,14 @@ def roughness(surface: HeightMap) -> Roughness:
     >>> x = (np.arange(64) + 0.5) * 1e-6
     >>> wave = HeightMap(1e-8 * np.add.outer(np.cos(2e6 * np.pi / 8 * x), 0 * x), 1e-6, True)
     >>> f"{roughness(wave).rms_height:.3g} {roughness(wave).rms_slope:.3g}"
-    '7.07e-09 0.00537'
+    '7.07e-09 0.00541'
     """
     if not surface.periodic:
         surface = surface.levelled()
     h, dx = surface.heights - surface.heights.mean(), surface.pixel
-    wide = np.pad(h, 1, mode="wrap") if surface.periodic else h
-    along = np.diff(wide, axis=0) / dx
-    across = np.diff(wide, axis=1) / dx
+    wide = np.pad(h, (0, 1), mode="wrap") if surface.periodic else h
+    along = np.diff(wide, axis=0)[:, : h.shape[1]] / dx
+    across = np.diff(wide, axis=1)[: h.shape[0]] / dx
     q, spectrum = _spectrum(h, dx, surface.periodic)
     return Roughness(
         rms_height=float(h.std()),

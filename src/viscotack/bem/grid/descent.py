@@ -45,6 +45,9 @@ _SHARE = 0.1
 _LARGEST_CLOSING = 0.3
 # Smallest mean of the tractions to which the unbalanced ones are related [strength of the law].
 _LEAST = 1e-9
+# Length of a step out of an equilibrium that is not stable [range of the law], and iterations after
+# which it is taken.
+_KICK, _LINGERED = 0.05, 5
 # A search along a direction of negative curvature goes at most so far [range of the law].
 _FAR = 1.0
 
@@ -189,7 +192,8 @@ def equilibrium(
             return found(iteration, True)
         curvature = plane.widened(law.stiffness(gap))
         tangent = _Tangent(plane, elastic, inverse, compliance, curvature, spring)
-        step, lowered, stable = _direction(tangent, residual, unheld)
+        saddle = iteration > _LINGERED and missing <= tolerance * scale
+        step, lowered, stable = _direction(tangent, residual, unheld, span if saddle else 0.0)
         at_surface = plane.within(step) - lowered
         slope = float(np.vdot(residual, step)) + unheld * lowered
         stretched = plane.applied(elastic, step)
@@ -241,12 +245,13 @@ def _longest(change: npt.NDArray, gap: npt.NDArray, span: float, stable: bool) -
 
 
 def _direction(
-    tangent: _Tangent, residual: npt.NDArray, unheld: float
+    tangent: _Tangent, residual: npt.NDArray, unheld: float, saddle: float
 ) -> tuple[npt.NDArray, float, bool]:
     """Return a direction of descent by conjugate gradients, and whether no curvature is negative.
 
     The direction is that of Newton's method unless negative curvature is met; then it is what was
-    found before, or the first direction.
+    found before, or the first direction. At an equilibrium that is not stable, where `saddle` is
+    the range of the law and not 0, it is that of the negative curvature, a part of the range long.
     """
     apply = tangent.preconditioner()
     r, s = -residual, -unheld
@@ -262,6 +267,9 @@ def _direction(
         if tangent.plane.mean_is_zero:
             bent = bent - bent.mean()
         curvature = float(np.vdot(p, bent)) + d * unbalanced
+        if not curvature > 0 and saddle:
+            longer = _KICK * saddle / max(float(np.abs(p).max()), abs(d))
+            return longer * p, longer * d, False
         if not curvature > 0:
             return (p, d, False) if many == 1 else (x, lowered, False)
         length = product / curvature

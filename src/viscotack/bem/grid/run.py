@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
-from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest, Snapshot
-from viscotack.bem.grid.body import GridBody, GridState
+from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest
+from viscotack.bem.grid.body import GridBody
+from viscotack.bem.grid.checkpoint import Checkpoint
 from viscotack.bem.grid.descent import Found, equilibrium
 from viscotack.bem.grid.map_contact import MapContact
+from viscotack.bem.grid.recorded import Fixed, Frames, GridRun
+from viscotack.bem.grid.stored import continued, found_arrays, found_of, run_arrays
 from viscotack.bem.machine import Hold, Leg
 from viscotack.bem.march import through
-from viscotack.bem.place import Place, Run
+from viscotack.bem.place import Place
 from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.materials import Modes
@@ -27,36 +25,29 @@ from viscotack.protocol import Apart, AtDepth, AtRadius, Start
 # Steps in which a relaxed contact is loaded, and gap [range of the law] from which.
 _LOADINGS, _APART = 16, 4.0
 _MOST_LOADINGS = 400
+# Largest number of iterations of a relaxed state, which may jump into contact.
+_PATIENCE = 500
 # Largest sum of unbalanced tractions of a relaxed state over that of all.
 _UNBALANCED = 1e-7
 
-# Without types, which SciPy states for several libraries of arrays.
-_label: Any = ndimage.label
 
-
-@dataclass(frozen=True)
-class Fixed:
-    """The nodes of a grid, which stay: no step is limited by them."""
-
-    lattice: float = 0.0
-    edge: float = 0.0
-    inner: tuple[float, ...] = ()
-    narrows: bool = False
-
-    def strain(self, before: Snapshot, after: Snapshot) -> float:
-        """Return 0."""
-        return 0.0
-
-    def left_by(self, edge: float, inner: tuple[float, ...] = ()) -> bool:
-        """Return False."""
-        return False
-
-
-def relaxed(contact: MapContact, start: Start | Apart) -> Found:
+def relaxed(
+    contact: MapContact, start: Start | Apart, checkpoint: Checkpoint | None = None
+) -> Found:
     """Return the relaxed state that a slow approach from far away reaches.
 
     Under a tensile force it is the contact that is left when a compressed one is unloaded.
     """
+    if checkpoint is None:
+        return _relaxed(contact, start)
+    found = checkpoint.part("start", found_of)
+    if found is None:
+        found = _relaxed(contact, start)
+        checkpoint.keep("start", found_arrays(found))
+    return found
+
+
+def _relaxed(contact: MapContact, start: Start | Apart) -> Found:
     plane, law, span = contact.plane, contact.law, contact.span
     apart = _APART * span
 
@@ -98,6 +89,7 @@ def _balanced(contact: MapContact, moved: npt.NDArray, hold: Hold, depth: float)
         hold,
         depth=depth,
         tolerance=_UNBALANCED,
+        most_iterations=_PATIENCE,
     )
 
 
@@ -105,78 +97,6 @@ def _checked(found: Found) -> Found:
     if found.stable:
         return found
     raise ArithmeticError("no equilibrium of the surface was found")
-
-
-@dataclass(frozen=True, eq=False)
-class Frame:
-    """Gap [h0] and pressure [dg/h0] of the pixels at one instant."""
-
-    time: float
-    depth: float
-    force: float
-    gap: npt.NDArray
-    pressure: npt.NDArray
-
-
-@dataclass(frozen=True, eq=False)
-class Frames:
-    """Frames of a run: that of the largest tension, and evenly drawn ones, at most `most`."""
-
-    most: int
-    kept: list[Frame] = field(default_factory=list)
-    every: list[int] = field(default_factory=lambda: [1, 0])  # stride, and number of frames seen
-    strongest: list[Frame] = field(default_factory=list)
-
-    def take(self, frame: Frame) -> None:
-        """Keep a frame; where there are too many, every second goes."""
-        if not self.strongest or frame.force < self.strongest[0].force:
-            self.strongest[:] = [frame]
-        stride, count = self.every
-        if self.most and count % stride == 0:
-            self.kept.append(frame)
-            if len(self.kept) > self.most:
-                del self.kept[1::2]
-                self.every[0] = 2 * stride
-        self.every[1] += 1
-
-
-@dataclass(frozen=True)
-class GridRun(Run):
-    """Data of a run on a grid, which records areas, patches and frames too."""
-
-    touching: list[tuple[int, int]] = field(default_factory=list)
-    frames: Frames = field(default_factory=lambda: Frames(0))
-
-    def keep(self, at: Place) -> None:
-        """Append the present state to the history."""
-        super().keep(at)
-        state: GridState = at.state  # type: ignore[assignment]
-        contact = state.surface
-        shape, seen = contact.plane.shape, at.seen
-        close = (state.gap < contact.law.edge_gap).reshape(shape)
-        self.touching.append((int(close.sum()), patches(close, contact.plane.periodic)))
-        pressure = (state.nodal / contact.area).astype(np.float32).reshape(shape)
-        gap = state.gap.astype(np.float32).reshape(shape)
-        self.frames.take(Frame(seen.time, seen.depth, seen.force, gap, pressure))
-
-
-def patches(close: npt.NDArray, periodic: bool) -> int:
-    """Return the number of connected parts of a contact, also across the sides of a periodic one.
-
-    Examples
-    --------
-    >>> close = np.zeros((8, 8), dtype=bool)
-    >>> close[2, 0] = close[2, 7] = True
-    >>> patches(close, periodic=False), patches(close, periodic=True)
-    (2, 1)
-    """
-    names, count = _label(close)
-    if not periodic or count < 2:
-        return int(count)
-    ends = [(names[0], names[-1]), (names[:, 0], names[:, -1])]
-    joined = np.concatenate([np.array([a, b])[:, (a > 0) & (b > 0)] for a, b in ends], axis=1) - 1
-    links = coo_array((np.ones(joined.shape[1]), tuple(joined)), shape=(count, count))
-    return int(connected_components(links, directed=False)[0])
 
 
 def march_on_grid(
@@ -188,17 +108,65 @@ def march_on_grid(
     *,
     stiffness: float | None = None,
     frames: int = 0,
+    checkpoint: Checkpoint | None = None,
+    part: str = "main",
     progress: Callable[[float], None] | None = None,
 ) -> GridRun:
     """Integrate a relaxed body through all legs; see :func:`viscotack.bem.march.march`.
 
-    Up to `frames` frames are kept. The history is an attribute of the run.
+    Up to `frames` frames are kept. The history is an attribute of the run. A run that is a part of
+    the checkpoint continues from there.
     """
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
     body = GridBody(contact, modes, np.asarray(modes.weights))
-    run = GridRun(body, settings, legs, False, history, frames=Frames(frames))  # type: ignore[arg-type]
-    state, leg = body.first(start), legs[0]
-    books = Books(0.0, np.zeros(len(body.weights)))
-    at = Place(state, books, Fixed(), leg, 0, state.seen, leg.least_step, Lowest())  # type: ignore[arg-type]
-    through(run, at, "detached", progress)
+    keeper = _Keeper(checkpoint, part)
+    run = GridRun(body, settings, legs, False, history, frames=Frames(frames), told=keeper.take)  # type: ignore[arg-type]
+    at = keeper.begun(run)
+    if at is None:
+        state, leg = body.first(start), legs[0]
+        books = Books(0.0, np.zeros(len(body.weights)))
+        at = Place(state, books, Fixed(), leg, 0, state.seen, leg.least_step, Lowest())  # type: ignore[arg-type]
+    if not history.outcome:
+        through(run, at, "detached", progress)
+        keeper.end()
     return run
+
+
+class _Keeper:
+    """Writes a run to its part of a checkpoint, now and then and at its end."""
+
+    def __init__(self, checkpoint: Checkpoint | None, part: str) -> None:
+        self.checkpoint, self.part = checkpoint, part
+        self.run: GridRun | None = None
+        self.at: Place | None = None
+        self.counted = (0, 0, 0)
+
+    def begun(self, run: GridRun) -> Place | None:
+        """Continue from the checkpoint; None if it does not have the run."""
+        self.run = run
+        if self.checkpoint is None:
+            return None
+        return self.checkpoint.part(self.part, lambda arrays: continued(run, arrays))
+
+    def take(self, at: Place) -> None:
+        """Take a place that is kept, and write it if it is time."""
+        assert self.run is not None
+        history = self.run.history
+        self.at, self.counted = at, (history.iterations, history.rejected, len(history.events))
+        # the first place is before the machine is attached
+        if self.checkpoint is not None and self.checkpoint.due and len(history.snapshots) > 1:
+            self._write()
+
+    def end(self) -> None:
+        """Write the run after its end, or the last place before the time limit."""
+        assert self.run is not None
+        history = self.run.history
+        if self.checkpoint is None or len(history.snapshots) < 2:
+            return
+        if history.outcome != "time":
+            self.counted = history.iterations, history.rejected, len(history.events)
+        self._write()
+
+    def _write(self) -> None:
+        assert self.run is not None and self.at is not None and self.checkpoint is not None
+        self.checkpoint.keep(self.part, run_arrays(self.run, self.at, self.counted))

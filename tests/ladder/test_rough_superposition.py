@@ -1,0 +1,164 @@
+"""Superposition of asperities: identities, limits, and the grid as a peer."""
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.errors import InputError
+from viscotack.geometry import Layer
+from viscotack.operations import ask
+from viscotack.protocol import Apart, AtDepth, AtForce, Dwell, Retraction
+from viscotack.rough import RoughProblem, pull, superposed
+from viscotack.surfaces import HeightMap, bumps, drawn_asperities, self_affine, sphere, summits
+from viscotack.theory import jkr
+
+PLATEAUS = {"rubbery_modulus": 3e6, "poisson_ratio": 0.5}
+ELASTIC = vt.Elastic(**PLATEAUS)
+VISCOUS = vt.StandardSolid(**PLATEAUS, glassy_modulus=30e6, tau0=0.05)
+LAW = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
+
+
+def problem(surface, material=ELASTIC, law=LAW, **more):
+    test = Retraction(start=AtForce(1e-5), speed=5e-5, **more)
+    return RoughProblem(surface=surface, material=material, traction=law, protocol=test)
+
+
+def four_bumps(pixels=64, radius=100e-6):
+    side = 320e-6
+    return bumps(pixels, side / pixels, radius=radius, spacing=side / 2, height=10e-6)
+
+
+def test_summits_of_a_paraboloid_are_exact():
+    x, y = np.arange(40) - 19.3, np.arange(40) - 17.8
+    h = 0.3 - np.add.outer(x**2 / 100, y**2 / 160) - 2e-3 * np.outer(x, y)
+    found = summits(HeightMap(h, 2.0))
+    assert found.positions == pytest.approx(2 * np.array([[19.8, 18.3]]))
+    assert found.heights == pytest.approx([0.3])
+    assert found.radii == pytest.approx([4 / np.sqrt(1 / 4000 - 4e-6)])
+
+
+def test_summits_of_shifted_and_turned_maps_are_alike():
+    surface = self_affine(48, 1e-6, hurst=0.8, rms_height=1e-7, seed=2, shortest=8e-6)
+    first = summits(surface)
+    for same in (np.roll(surface.heights, (7, 31), (0, 1)), surface.heights.T):
+        other = summits(HeightMap(same, 1e-6, periodic=True))
+        assert np.sort(other.heights) == pytest.approx(np.sort(first.heights), rel=1e-9)
+        assert np.sort(other.radii) == pytest.approx(np.sort(first.radii), rel=1e-9)
+    with pytest.raises(InputError, match="no summit"):
+        summits(HeightMap(np.zeros((8, 8)), 1.0, periodic=True))
+
+
+def test_equal_asperities_add_up():
+    one, four = (
+        superposed(
+            problem(four_bumps()),
+            asperities=drawn_asperities(n, 1e-5, radius=1e-4, rms_height=1e-15, seed=1),
+        )
+        for n in (1, 4)
+    )
+    # all at one height: the start shares the force, and an elastic pull-off does not know it
+    assert four.pull_off_force == pytest.approx(4 * one.pull_off_force, rel=1e-3)
+
+
+def test_asperities_of_random_height_tend_to_fuller_and_tabor_for_short_range():
+    # their sum of JKR's forces over Gaussian heights, at its least
+    radius, sigma = 200e-6, 1.5e-6
+    case = {"radius": radius, "contact_modulus": ELASTIC.contact_modulus, "work_of_adhesion": 0.05}
+    asperities = drawn_asperities(800, 1e-2, radius=radius, rms_height=sigma, seed=3)
+    end, rises = jkr.instability(**case).depth, asperities.heights - asperities.heights.max()
+
+    def whole(z):
+        depth = (z + rises)[z + rises > end]
+        return float(np.sum(jkr.force(jkr.contact_radius_at_depth(depth, **case), **case)))
+
+    expected = -min(whole(z) for z in np.linspace(0.0, 8 * sigma, 400))
+    off = []
+    for gap in (0.1e-6, 0.05e-6):
+        law = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=gap)
+        given = RoughProblem(
+            surface=four_bumps(),
+            material=ELASTIC,
+            traction=law,
+            protocol=Retraction(start=AtForce(0.05), speed=1e-6),
+        )
+        found = superposed(given, asperities=asperities, force_outside=True)
+        off.append(found.pull_off_force / expected - 1)
+    assert 0 < off[1] < 0.1
+    assert off[1] / off[0] == pytest.approx(0.5, abs=0.15)  # of first order in the range
+
+
+@pytest.mark.parametrize("material", [ELASTIC, VISCOUS])
+def test_bumps_far_apart_are_those_of_the_grid(material):
+    given = problem(four_bumps(), material)
+    found, grid = superposed(given), pull(given, estimate_error=False)
+    assert found.touching == 4 and found.inside
+    assert found.pull_off_force == pytest.approx(grid.pull_off_force, rel=0.06)
+
+
+def test_a_smooth_sphere_is_that_of_the_grid():
+    cap = sphere(64, 5e-6, radius=1e-3)
+    law = vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
+    given = problem(cap, law=law)
+    found, grid = superposed(given, force_outside=True), pull(given, estimate_error=False)
+    assert found.touching == 1
+    assert found.pull_off_force == pytest.approx(grid.pull_off_force, rel=5e-3)
+
+
+def test_neighbours_are_refused_unless_forced():
+    law = vt.LennardJones(work_of_adhesion=0.3, equilibrium_gap=3e-6)
+    given = problem(four_bumps(radius=1e-3), law=law)
+    with pytest.raises(InputError, match="asperities are neighbours; simulate"):
+        superposed(given)
+    assert not superposed(given, force_outside=True).inside
+
+
+def test_other_problems_are_refused():
+    surface = four_bumps()
+    common = {"surface": surface, "material": ELASTIC, "traction": LAW}
+    away = Retraction(start=Apart(5e-6), speed=1e-5, moves=())
+    wait = Retraction(start=AtForce(1e-5), moves=(Dwell(duration=1.0),), speed=1e-5)
+    for test in (away, wait):
+        with pytest.raises(InputError, match="relaxed contact"):
+            superposed(RoughProblem(**common, protocol=test))
+    deep = Retraction(start=AtDepth(1e-6), speed=1e-5)
+    with pytest.raises(InputError, match="mean plane"):
+        superposed(RoughProblem(**common, protocol=deep))
+    with pytest.raises(InputError, match="without a spring"):
+        superposed(problem(surface, VISCOUS, stiffness=100.0))
+    straight = Retraction(start=AtForce(1e-5), speed=1e-5)
+    layer = RoughProblem(**common, protocol=straight, body=Layer(thickness=1e-4))
+    with pytest.raises(InputError, match="half-space"):
+        superposed(layer)
+
+
+def test_the_command_answers_by_superposition(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "b.toml").write_text(
+        """
+        [surface]
+        kind = "bumps"
+        pixels = 32
+        pixel = "10 um"
+        radius = "100 um"
+        spacing = "160 um"
+        height = "10 um"
+        [material]
+        model = "elastic"
+        rubbery_modulus = "3 MPa"
+        poisson_ratio = 0.5
+        [interface]
+        law = "lennard-jones"
+        work_of_adhesion = "50 mJ/m^2"
+        equilibrium_gap = "1 um"
+        [protocol]
+        preload_force = "10 uN"
+        speed = "50 um/s"
+        """
+    )
+    answer = ask("rough", file="b.toml", theory="superposition")
+    assert answer.record()["touching"] == 4
+    answer.files["csv"](tmp_path / "b.csv")
+    answer.pictures["plot"]().savefig(tmp_path / "b.png")
+    assert "position_m,force_N" in (tmp_path / "b.csv").read_text()
+    with pytest.raises(InputError, match="belong to the simulation"):
+        ask("rough", file="b.toml", theory="superposition", moments=5)

@@ -1,0 +1,180 @@
+"""Runs on a grid that are interrupted and continue from a checkpoint, to the same digits."""
+
+import os
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.errors import InputError
+from viscotack.operations import ask
+from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.rough import RoughProblem, pull
+from viscotack.surfaces import self_affine
+
+# A stopped script: it says how far it is, and does not end by itself before it is killed.
+SCRIPT = """
+import sys
+from test_rough_checkpoint import problem
+from viscotack.rough import pull
+
+def told(share):
+    print(share, flush=True)
+    if share > float(sys.argv[2]):
+        sys.stdin.read()
+
+pull(problem(), maps=6, checkpoint=sys.argv[1], every=0.0, progress=told)
+"""
+
+
+def problem():
+    """Return a rough map with an approach, a dwell, a spring and jumps."""
+    surface = self_affine(24, 1e-5, hurst=0.8, rms_height=2.5e-6, seed=3, shortest=8e-5)
+    law = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
+    full = law.strength * surface.area
+    return RoughProblem(
+        surface=surface,
+        material=vt.StandardSolid(
+            rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
+        ),
+        traction=law,
+        protocol=Retraction(
+            start=Apart(6e-6),
+            moves=(Approach(speed=2e-5, to=AtForce(0.02 * full)), Dwell(duration=0.1)),
+            speed=2e-5,
+            stiffness=2 * full / 1.5e-6,
+        ),
+    )
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """Return the uninterrupted answer."""
+    return pull(problem(), maps=6)
+
+
+def assert_same(found, whole):
+    """Compare all digits of two answers."""
+    assert found.rows() == whole.rows()
+    assert found.summary == whole.summary
+    assert found.error_estimate == whole.error_estimate
+    assert found.events == whole.events
+    for one, other in zip(
+        (found.strongest, *found.maps), (whole.strongest, *whole.maps), strict=True
+    ):
+        assert np.array_equal(one.gap, other.gap)
+        assert np.array_equal(one.pressure, other.pressure)
+    assert len(found.maps) == len(whole.maps)
+    counts = ("steps", "newton_iterations", "rejected_steps", "modes")
+    assert [found.statistics[n] for n in counts] == [whole.statistics[n] for n in counts]
+
+
+@pytest.mark.parametrize("share", [0.3, pytest.param(0.8, marks=pytest.mark.slow)])
+def test_a_killed_run_continues_to_the_same_digits(tmp_path, whole, share):
+    # in the retraction of the run, and in that of the run with coarser steps
+    path = tmp_path / "run.npz"
+    child = subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, str(path), str(share)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        text=True,
+    )
+    assert child.stdin is not None and child.stdout is not None
+    for line in child.stdout:
+        if float(line) > share:
+            break
+    child.send_signal(signal.SIGKILL)
+    child.communicate()
+    begun = []
+    found = pull(problem(), maps=6, checkpoint=path, every=1e9, progress=begun.append)
+    assert begun[0] >= share  # no step was lost
+    assert_same(found, whole)
+    again = []
+    assert_same(pull(problem(), maps=6, checkpoint=path, progress=again.append), whole)
+    assert not again  # the finished run is in the file
+
+
+def test_an_interrupted_run_loses_the_steps_since_it_was_written(tmp_path, whole):
+    path, shares = tmp_path / "run.npz", []
+
+    def stop(share):
+        shares.append(share)
+        if share > 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        pull(problem(), maps=6, checkpoint=path, every=1e9, progress=stop)
+    begun = []
+    assert_same(pull(problem(), maps=6, checkpoint=path, progress=begun.append), whole)
+    assert begun[0] == shares[0]  # from the relaxed start, which was written
+
+
+def test_a_run_that_met_its_time_limit_continues(tmp_path, whole, monkeypatch):
+    path, now = tmp_path / "run.npz", [0.0]
+    monkeypatch.setattr("viscotack.clock.perf_counter", lambda: now[0])
+
+    def late(share):
+        now[0] = 100.0 if share > 0.4 else 0.0
+
+    first = pull(problem(), maps=6, checkpoint=path, time_limit=10.0, progress=late)
+    assert "time limit" in first.status
+    assert len(first.time) < len(whole.time)
+    assert_same(pull(problem(), maps=6, checkpoint=path), whole)
+
+
+def test_a_checkpoint_of_something_else_is_refused(tmp_path):
+    path = tmp_path / "run.npz"
+    with pytest.raises(InputError, match="time limit"):
+        pull(problem(), checkpoint=path, time_limit=1e-9)
+    assert not path.exists()
+    other = replace(problem(), surface=problem().surface.scaled(0.5))
+    pull(other, accuracy=0.02, estimate_error=False, checkpoint=path)
+    with pytest.raises(InputError, match="of another problem"):
+        pull(problem(), accuracy=0.01, checkpoint=path)
+    with pytest.raises(InputError, match="of another problem"):
+        pull(other, accuracy=0.01, checkpoint=path)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(InputError, match="is not a checkpoint"):
+        pull(other, accuracy=0.01, checkpoint=path)
+    np.savez(path, key=np.array("x"), main=np.zeros(3))
+    with pytest.raises(InputError, match="unexpected array"):
+        pull(other, accuracy=0.02, checkpoint=path)
+
+
+def test_the_command_keeps_its_run(tmp_path):
+    file = tmp_path / "bumps.toml"
+    file.write_text(
+        """
+        [surface]
+        kind = "bumps"
+        pixels = 16
+        pixel = "10 um"
+        radius = "200 um"
+        spacing = "80 um"
+        height = "5 um"
+
+        [material]
+        model = "elastic"
+        rubbery_modulus = "0.75 MPa"
+        poisson_ratio = 0.5
+
+        [interface]
+        law = "lennard-jones"
+        work_of_adhesion = "100 mJ/m^2"
+        equilibrium_gap = "1.5 um"
+
+        [protocol]
+        preload_depth = "1 um"
+        speed = "20 um/s"
+        """
+    )
+    given = {"file": str(file), "accuracy": 0.02, "checkpoint": str(tmp_path / "run.npz")}
+    first = ask("rough", **given).record()
+    assert (tmp_path / "run.npz").exists()
+    assert ask("rough", **given).record() == first
