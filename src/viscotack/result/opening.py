@@ -136,6 +136,17 @@ def lost_beside(result: Result, span: Span) -> float:
     return float(force[i] ** 2 / _curvature(x, force, i))
 
 
+def is_smooth(result: Result, span: Span) -> bool:
+    """Return whether the force minimum is a smooth valley, with steps of one move on both sides.
+
+    It is none at the end of a piece, or where the machine set the force.
+    """
+    steps, i = _valley_of(result, span)
+    number = move_numbers(result)[steps]
+    loaded = isinstance(moves_of(result)[number[i]], LoadTo)
+    return 0 < i < len(steps) - 1 and not loaded and _smooth(number, i) is not None
+
+
 def between_steps(result: Result, span: Span) -> float:
     """Return how far the place of the force minimum is known between the steps [h0].
 
