@@ -125,6 +125,7 @@ class _Shape:
     surfaces: list[tuple[Surface, Surface]]
     rigid_gap: npt.NDArray  # (P, N)
     unit: npt.NDArray  # (P,)
+    flank: npt.NDArray  # (P,)
     stiffer: list[float | npt.NDArray]  # of ln S where S changes by a factor, else of S
 
 
@@ -166,6 +167,8 @@ class Tangents:
         self._shape: tuple[Surface, _Shape] | None = None
         self._laws = [tuple(c.law for c in d.contacts) for d in each]
         self._same_law = [low == high for low, high in self._laws]
+        gaps = [d.slope(*(c.law.edge_gap for c in d.contacts)) for d in each]
+        self._edge_gap = np.array(gaps)
 
     def kept(self, at: Place) -> None:
         """Carry the derivatives on to a recorded state, through all that led to it."""
@@ -255,7 +258,9 @@ class Tangents:
         """Carry the derivatives through a step in the frame of the solid."""
         s, now = step(self.body.modes, length), self.now
         e0, e1, d = before.relaxed, state.relaxed, before.memory.displacement
-        known = s.decay[:, None] * now.modes + s.drive[:, 0, None] * now.relaxed[:, None]
+        known = now.modes
+        known *= s.decay[:, None]
+        known += s.drive[:, 0, None] * now.relaxed[:, None]
         if self._timed.size:
             x = length / s.times
             phi = 1 - s.drive[:, 1]
@@ -265,7 +270,7 @@ class Tangents:
                 known[i] += decay[:, None] * d + np.outer(mean - decay, e0) - np.outer(mean, e1)
         gap, depth = self._changed_gap(state, s.compliance, known)
         now.relaxed = (gap + depth[:, None] - self._given) / s.compliance
-        now.modes = known + s.drive[:, 1, None] * now.relaxed[:, None]
+        known += s.drive[:, 1, None] * now.relaxed[:, None]
 
     def _travel(self, before: State, state: State, origin: ByTravel) -> None:
         """Carry the derivatives through a step in the frame of the crack."""
@@ -300,7 +305,7 @@ class Tangents:
         right = np.vstack([-load - _times(band, given), _times(band, np.ones((1, len(nodes))))])
         e = tangent.solved(right.T).T
         still, deeper = e[:-1] @ C.T + given, (C @ e[-1] - 1)[None]
-        depth = self._placed(state, band, still, deeper)
+        depth = self._placed(state, band, still, deeper, None)
         now.relaxed = e[:-1] + depth[:, None] * e[-1]
         gap = still + depth[:, None] * deeper
         new = np.stack([passage.interpolated(each) for each in now.relaxed])
@@ -337,7 +342,7 @@ class Tangents:
             "relaxed": (gap[0] - given[0] + depth) / c,
             "depth": depth[0],
             "force": _force_of(state, band, self.body, gap, deeper)[0][0],
-            "edge": _moved_edge(state, gap, self.body.contact.law.edge_gap)[0],
+            "edge": _moved_edge(state, gap)[0][0],
         }
         late = self._later(at, flow)
         now.relaxed = now.relaxed + np.outer(late, flow["relaxed"])
@@ -393,10 +398,12 @@ class Tangents:
         band: Band,
         still: npt.NDArray,
         deeper: npt.NDArray,
-        machine: _Machine | None = None,
+        machine: _Machine | None,
     ) -> npt.NDArray:
         """Return the derivatives of the depth, from gaps at fixed depth and per unit of depth."""
         machine = self._machine(state.seen) if machine is None else machine
+        if np.isinf(machine.stiffness):
+            return machine.value
         force, per_depth = _force_of(state, band, self.body, still, deeper)
         return machine.depth(force + self._explicit_force(state), per_depth)
 
@@ -410,12 +417,8 @@ class Tangents:
         now.edge = self._edge(state, gap)
 
     def _edge(self, state: State, gap: npt.NDArray) -> npt.NDArray:
-        law = [
-            d.slope(low.edge_gap, high.edge_gap)
-            for d, (low, high) in zip(self.directions, self._laws, strict=True)
-        ]
-        own, slope = _moved_edge(state, gap, self.body.contact.law.edge_gap, both=True)
-        return own + np.array(law) / slope
+        own, slope = _moved_edge(state, gap)
+        return own + self._edge_gap / slope
 
     def _load(self, state: State) -> npt.NDArray:
         """Return the derivatives of the unbalanced forces at fixed gap and fixed e."""
@@ -438,14 +441,17 @@ class Tangents:
         """Return the derivatives of the force at fixed gap."""
         shape, gap = self._of(state.surface), state.gap
         found = shape.unit * float(state.nodal.sum())
+        if np.any(shape.flank):
+            found += shape.flank * float(self.body.contact.law.energy(gap[-1]))
         for i, d in enumerate(self.directions):
-            low, high = shape.surfaces[i]
-            pair = zip((low, high), self._laws[i], strict=True)
-            found[i] += d.slope(*(s.flank_force(law, gap) for s, law in pair))
-            if not self._same_law[i]:
-                pair = zip((low, high), self._laws[i], strict=True)
-                sums = (float(s.interface.at(law, gap).tension.sum()) for s, law in pair)
-                found[i] -= state.surface.unit * d.slope(*sums)
+            if self._same_law[i]:
+                continue
+            forces = [
+                state.surface.flank_force(law, gap)
+                - state.surface.unit * float(s.interface.at(law, gap).tension.sum())
+                for s, law in zip(shape.surfaces[i], self._laws[i], strict=True)
+            ]
+            found[i] += d.slope(*forces)
         return found
 
     def _of(self, surface: Surface) -> _Shape:
@@ -456,7 +462,7 @@ class Tangents:
 
     def _shape_of(self, surface: Surface) -> _Shape:
         x, contact = surface.position, self.body.contact
-        pairs, gaps, units, stiffer = [], [], [], []
+        pairs, gaps, units, flanks, stiffer = [], [], [], [], []
         relaxed = surface.stiffness / contact.hardness
         for d in self.directions:
             low, high = d.contacts
@@ -464,6 +470,7 @@ class Tangents:
                 pairs.append((surface, surface))
                 gaps.append(np.zeros_like(x))
                 units.append(0.0)
+                flanks.append(0.0)
                 stiffer.append(0.0)
                 continue
             known = relaxed if low.body == high.body == contact.body else None
@@ -471,11 +478,12 @@ class Tangents:
             pairs.append((a, b))
             gaps.append(d.slope(a.rigid_gap, b.rigid_gap))
             units.append(d.slope(a.unit, b.unit))
+            flanks.append(d.slope(a.flank, b.flank))
             if known is None:
                 stiffer.append(d.slope(a.stiffness, b.stiffness))
             else:
                 stiffer.append(float(d.slope(np.log(low.hardness), np.log(high.hardness))))
-        return _Shape(pairs, np.array(gaps), np.array(units), stiffer)
+        return _Shape(pairs, np.array(gaps), np.array(units), np.array(flanks), stiffer)
 
     # -- machine
 
@@ -583,20 +591,19 @@ def _times(band: Band, rows: npt.NDArray) -> npt.NDArray:
     return product
 
 
-def _moved_edge(
-    state: State, gap: npt.NDArray, edge_gap: float, *, both: bool = False
-) -> Any:
-    """Return how far the edge moves for changes of the gap, by the cubic through four nodes."""
+def _moved_edge(state: State, gap: npt.NDArray) -> tuple[npt.NDArray, float]:
+    """Return how far the edge moves for changes of the gap, and the slope of the gap there.
+
+    Both are those of the cubic through four nodes; an edge at the end of the nodes does not move.
+    """
     x, edge = state.surface.position, state.seen.edge
     i = int(np.searchsorted(x, edge)) - 1 if np.isfinite(edge) else -1
     if not 0 < i < len(x) - 2:
-        none = np.full(len(gap), 0.0 if np.isfinite(edge) else np.nan)
-        return (none, np.inf) if both else none
+        return np.full(len(gap), 0.0 if np.isfinite(edge) else np.nan), np.inf
     r = slice(i - 1, i + 3)
-    cell = (x[r] - x[i]) / (x[i + 1] - x[i])
-    powers, at = np.vander(cell, increasing=True), (edge - x[i]) / (x[i + 1] - x[i])
-    value = np.linalg.solve(powers.T, at ** np.arange(4))
-    steep = np.linalg.solve(powers.T, [0, 1, 2 * at, 3 * at**2]) / (x[i + 1] - x[i])
-    slope = float(steep @ state.gap[r])
-    moved = -(gap[:, r] @ value) / slope
-    return (moved, slope) if both else moved
+    wide = x[i + 1] - x[i]
+    cell, at = (x[r] - x[i]) / wide, (edge - x[i]) / wide
+    there = np.array([[1, 0], [at, 1], [at**2, 2 * at], [at**3, 3 * at**2]])
+    value, steep = np.linalg.solve(cell ** np.arange(4)[:, None], there).T
+    slope = float(steep @ state.gap[r]) / wide
+    return -(gap[:, r] @ value) / slope, slope

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.problem.inputs import Changed
-from viscotack.result.observables import equal_peak, number_of, pull_off
-from viscotack.result.opening import is_smooth
+from viscotack.problem.outputs import Unit
+from viscotack.result.observables import equal_peak, number_of, pull_off, work_to
+from viscotack.result.opening import edge_at, is_smooth
 from viscotack.result.parts import spans
 from viscotack.result.result import Result, Sensitivities
 
@@ -25,6 +25,7 @@ _OUTPUTS = (
     "contact_radius_at_pull_off",
     "ligament_at_pull_off",
 )
+_EDGES = ("contact_radius_at_pull_off", "ligament_at_pull_off")
 # Series that are moved, in the order of the derivatives of a march.
 _SERIES = ("time", "depth", "force", "contact_radius")
 # Steps after the pull-off that its interpolation may use.
@@ -61,26 +62,22 @@ def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
     """
     kind = result.problem.outputs
     outputs = {name: kind.observables[name].unit for name in _OUTPUTS if name in kind.observables}
-    refused = {name: why for name in outputs if (why := _refused(result, slopes, name))}
-    derivatives: dict[str, dict[str, float]] = {}
-    elasticities: dict[str, dict[str, float]] = {}
-    pairs = [_moved(result, slopes, i) for i in range(len(slopes.changes))]
-    for name, unit in outputs.items():
-        if name in refused:
-            continue
-        value = _value(name, unit, result)
-        if value is None:
-            refused[name] = number_of(name, result)[1] or "it is not defined"
-            continue
-        derivatives[name], elasticities[name] = {}, {}
-        for change, (low, high) in zip(slopes.changes, pairs, strict=True):
-            ends = _value(name, unit, low), _value(name, unit, high)
-            if ends[0] is None or ends[1] is None:
-                continue
-            slope = (ends[1] - ends[0]) / (np.log1p(change.up) - np.log1p(change.down))
-            derivatives[name][change.name] = float(slope / change.value)
-            if value:
-                elasticities[name][change.name] = float(slope / abs(value))
+    refused = _refused(result, slopes, list(outputs))
+    given = [name for name in outputs if name not in refused]
+    values = _values(given, outputs, result)
+    refused |= {name: why for name in given if (why := _undefined(name, values, result))}
+    given = [name for name in given if name not in refused]
+    derivatives: dict[str, dict[str, float]] = {name: {} for name in given}
+    elasticities: dict[str, dict[str, float]] = {name: {} for name in given}
+    for i, change in enumerate(slopes.changes):
+        low, high = (_values(given, outputs, end) for end in _moved(result, slopes, i))
+        step = np.log1p(change.up) - np.log1p(change.down)
+        for name in given:
+            slope = (high[name] - low[name]) / step
+            if np.isfinite(slope):
+                derivatives[name][change.name] = float(slope / change.value)
+                if values[name]:
+                    elasticities[name][change.name] = float(slope / abs(values[name]))
     return Sensitivities(
         inputs={change.name: change.value for change in slopes.changes},
         derivatives=derivatives,
@@ -114,21 +111,49 @@ def _moved(result: Result, slopes: Slopes, i: int) -> tuple[Result, Result]:
     return ends[0], ends[1]
 
 
-def _value(name: str, unit: Any, result: Result) -> float | None:
-    """Return an output, in SI where the problem is."""
-    value, scales = number_of(name, result)[0], result.scales
-    if value is None or scales is None or not unit.scale:
-        return value
-    return value * getattr(scales, unit.scale)
+def _values(names: Iterable[str], units: Mapping[str, Unit], result: Result) -> dict[str, float]:
+    """Return the outputs at the pull-off, in SI where the problem is; nan without one."""
+    scales, found = result.scales, {}
+    at = pull_off(result)
+    for name in names:
+        if name in _EDGES:
+            value = edge_at(result, spans(result)[-1], at)
+        elif name == "work_to_pull_off":
+            value = work_to(result, at)
+        else:
+            value = at.depth if name == "depth_at_pull_off" else at.force
+        scale = units[name].scale
+        found[name] = value * (getattr(scales, scale) if scales is not None and scale else 1.0)
+    return found
 
 
-def _refused(result: Result, slopes: Slopes, name: str) -> str:
-    """Return why an output has no meaningful derivative, empty if it has."""
+def _undefined(name: str, values: Mapping[str, float], result: Result) -> str:
+    """Return why an output is not defined, empty if it is."""
+    value, note = number_of(name, result)
+    if value is None or not np.isfinite(values[name]):
+        return note or "it is not defined"
+    return ""
+
+
+def _refused(result: Result, slopes: Slopes, names: Iterable[str]) -> dict[str, str]:
+    """Return the outputs without meaningful derivatives, and why."""
     try:
-        found = pull_off(result)
+        why = _never(result, slopes)
     except InputError as error:
-        return str(error)
-    span = spans(result)[-1]
+        why = str(error)
+    if why:
+        return dict.fromkeys(names, why)
+    found, turn = pull_off(result), spans(result)[-1].turn
+    jumps = [e for e in result.events if e.kind.startswith("jump")]
+    if any(result.time[turn] <= e.time <= found.time for e in jumps):
+        why = "the contact jumped on the way to the pull-off, and the jump moves with the inputs"
+        return {"work_to_pull_off": why}
+    return {}
+
+
+def _never(result: Result, slopes: Slopes) -> str:
+    """Return why no output has a meaningful derivative, empty if some have."""
+    found, span = pull_off(result), spans(result)[-1]
     lowest = int(np.searchsorted(result.time, found.time))
     if len(slopes.rows) < min(lowest + _AFTER, len(result.time)):
         return f"there are no derivatives at the pull-off: {slopes.reason}"
@@ -148,6 +173,4 @@ def _refused(result: Result, slopes: Slopes, name: str) -> str:
             f"the contact jumped before the pull-off, at a depth of {jumps[0].depth:.4g} h0; the "
             "jump moves with the inputs, and the solid remembers it"
         )
-    if name == "work_to_pull_off" and any(e.time >= result.time[span.turn] for e in jumps):
-        return "the contact jumped on the way to the pull-off, and the jump moves with the inputs"
     return ""
