@@ -26,7 +26,7 @@ from viscotack.bem.machine import Leg, spring_energy
 from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
-from viscotack.bem.tangent import Direction, Tangents, mode_slopes
+from viscotack.bem.tangent import Direction, Tangents, mode_slopes, null_direction
 from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.clock import TimeUp, met
 from viscotack.errors import InputError
@@ -170,7 +170,10 @@ def _run(
     directions, missing = _directions(changes, groups, modes, window, settings)
     growing = groups.traction if has_rest(groups.traction) else None
     body = Body(contact, modes, np.asarray(modes.weights), growing)
-    tangents = Tangents(body, list(directions.values())) if directions else None
+    tangents = None
+    if directions:
+        null = null_direction(contact, legs, groups.start, modes)
+        tangents = Tangents(body, [*directions.values(), null])
     grading = contact.grading(finer(settings, groups.traction, longest), max(depths))
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
@@ -204,9 +207,7 @@ def _run(
     return replace(result, sensitivities=slopes_of(result, slopes)).posed(groups)
 
 
-def _changes(
-    problem: Case, groups: Groups, sensitivities: bool | Iterable[str]
-) -> list[Changed]:
+def _changes(problem: Case, groups: Groups, sensitivities: bool | Iterable[str]) -> list[Changed]:
     """Return the problem with each wanted input changed by a little; refuse what is not possible."""
     if sensitivities is False:
         return []

@@ -23,7 +23,7 @@ the input, which is not part of these equations: derivatives after it are not me
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -71,6 +71,8 @@ class Direction:
         Contact, legs and start for the smaller and the larger input.
     instantaneous, weights, times : float, ndarray (M,), ndarray (M,)
         Derivatives of the modes, that of the times by their logarithm.
+    null : bool
+        Whether nothing changes but the unit of time (:func:`null_direction`).
     """
 
     step: float
@@ -80,10 +82,30 @@ class Direction:
     instantaneous: float
     weights: npt.NDArray
     times: npt.NDArray
+    null: bool = False
 
     def slope(self, low: Any, high: Any) -> Any:
         """Return the derivative by the logarithm of the input, from the values of both versions."""
         return (high - low) / self.step
+
+
+def null_direction(
+    contact: Contact, legs: tuple[Leg, ...], start: Start | Apart, modes: Modes
+) -> Direction:
+    """Return a change of the unit of time: faster machine, and modes that are faster by as much.
+
+    No output changes. The time steps are not changed with the unit, so that the derivatives in this
+    direction are the error of frozen nodes: nodes that hold the edge between them, for example.
+    """
+    low, high = 1 - _TINY, 1 + _TINY
+    moved = [
+        tuple(replace(leg, rate=leg.rate * x, duration=leg.duration / x) for leg in legs)
+        for x in (low, high)
+    ]
+    many = np.zeros(len(modes.times))
+    step = float(np.log(high / low))
+    pairs = (contact, contact), (moved[0], moved[1]), (start, start)
+    return Direction(step, *pairs, 0.0, many, many - 1, null=True)
 
 
 def mode_slopes(
@@ -163,7 +185,8 @@ class Tangents:
         self._c = np.array([d.instantaneous for d in each])
         self._w = np.array([d.weights for d in each]).reshape(len(each), -1)
         self._tau = np.array([d.times for d in each]).reshape(len(each), -1)
-        self._timed = np.flatnonzero(np.any(self._tau != 0, axis=1))
+        self._tau_or_step = self._tau
+        self._null = np.array([d.null for d in each])
         self._shape: tuple[Surface, _Shape] | None = None
         self._laws = [tuple(c.law for c in d.contacts) for d in each]
         self._same_law = [low == high for low, high in self._laws]
@@ -202,6 +225,8 @@ class Tangents:
         self._leg, self._began = at.leg, at.seen
         self._from = now.depth.copy(), now.force.copy()
         self._slopes = self._leg_slopes(at.number)
+        self._stretch = self._stretched()
+        self._tau_or_step = self._tau - self._stretch[:, None]
 
     # -- what led to a state
 
@@ -225,9 +250,7 @@ class Tangents:
         state, n = at.state, len(self.directions)
         many, nodes = len(self.body.weights), len(state.gap)
         zero = np.zeros(n)
-        self.now = Now(
-            np.zeros((n, nodes)), np.zeros((n, many, nodes)), zero, zero, zero, zero
-        )
+        self.now = Now(np.zeros((n, nodes)), np.zeros((n, many, nodes)), zero, zero, zero, zero)
         shape = self._of(state.surface)
         starts = [
             d.slope(*(_value_of(x, c) for x, c in zip(d.starts, d.contacts, strict=True)))
@@ -261,11 +284,12 @@ class Tangents:
         known = now.modes
         known *= s.decay[:, None]
         known += s.drive[:, 0, None] * now.relaxed[:, None]
-        if self._timed.size:
+        now.time = now.time + self._stretch * length
+        if (timed := self._timed).size:
             x = length / s.times
             phi = 1 - s.drive[:, 1]
-            for i in self._timed:
-                way = -x * self._tau[i]
+            for i in timed:
+                way = -x * self._tau_or_step[i]
                 decay, mean = -s.decay * way, (s.decay - phi) / x * way
                 known[i] += decay[:, None] * d + np.outer(mean - decay, e0) - np.outer(mean, e1)
         gap, depth = self._changed_gap(state, s.compliance, known)
@@ -282,16 +306,17 @@ class Tangents:
         path *= (1 - theta)[:, None]
         d = self._carried(old, state.surface, now.modes)
         known = passage.decay[:, None] * d + passage.weights @ path
-        if self._timed.size:
+        now.time = now.time + self._stretch * origin.length
+        if (timed := self._timed).size:
             whole = passage.old + theta[:, None] * passage.interpolated(state.relaxed)
             x = origin.length / self.body.times
-            for i in self._timed:
-                some = _TINY * self._tau[i]
+            for i in timed:
+                some = _TINY * self._tau_or_step[i]
                 up, down = (
                     path_recursion(self.body.times * np.exp(sign * some), origin.length, theta)[1]
                     for sign in (1, -1)
                 )
-                known[i] += (passage.decay * x * self._tau[i])[:, None] * origin.modes
+                known[i] += (passage.decay * x * self._tau_or_step[i])[:, None] * origin.modes
                 known[i] += (up - down) / (2 * _TINY) @ whole
         given = self._given_gap(state, known)
         C = passage.compliance(modes)
@@ -356,7 +381,7 @@ class Tangents:
         leg, seen, slopes = self._leg, at.seen, self._slopes
         elapsed = seen.time - self._began.time
         if np.isfinite(leg.duration) and elapsed >= leg.duration * (1 - _TIMED):
-            return slopes["duration"]
+            return slopes["duration"] - self._stretch * elapsed
         ends = [name for name in ("depth", "force", "edge") if not np.isnan(getattr(leg, name))]
         name = min(ends, key=lambda x: abs(getattr(leg, x) - getattr(seen, x)))
         return (slopes[name] - getattr(self.now, name)) / flow[name]
@@ -407,9 +432,7 @@ class Tangents:
         force, per_depth = _force_of(state, band, self.body, still, deeper)
         return machine.depth(force + self._explicit_force(state), per_depth)
 
-    def _note(
-        self, state: State, band: Band, gap: npt.NDArray, depth: npt.NDArray
-    ) -> None:
+    def _note(self, state: State, band: Band, gap: npt.NDArray, depth: npt.NDArray) -> None:
         """Store the derivatives of the recorded quantities."""
         now = self.now
         force, _ = _force_of(state, band, self.body, gap, gap[:1])
@@ -505,11 +528,31 @@ class Tangents:
             found["rate"] = (found["drive"] - at - leg.rate * found["duration"]) / leg.duration
         return found
 
+    @property
+    def _timed(self) -> npt.NDArray:
+        """Inputs that change the steps over the times of the modes."""
+        return np.flatnonzero(np.any(self._tau_or_step != 0, axis=1))
+
+    def _stretched(self) -> npt.NDArray:
+        """Return the derivatives of the logarithm of the time steps of the present leg.
+
+        The steps are frozen as parts of the duration of a leg, or of the travel of the machine:
+        the state of an elastic solid then does not move along its curve with the rate.
+        """
+        leg, slopes = self._leg, self._slopes
+        if np.isfinite(leg.duration):
+            found = slopes["duration"] / leg.duration
+        elif leg.rate:
+            found = -slopes["rate"] / leg.rate
+        else:
+            found = np.zeros(len(self.directions))
+        return np.where(self._null, 0.0, found)
+
     def _machine(self, seen: Snapshot) -> _Machine:
         """Return the machine at a time of the present leg."""
         leg, began, slopes = self._leg, self._began, self._slopes
         elapsed, (depth, force) = seen.time - began.time, self._from
-        moved = slopes["rate"] * elapsed
+        moved = (slopes["rate"] + leg.rate * self._stretch) * elapsed
         if leg.dead_load:
             return _Machine(0.0, force + moved)
         if leg.rigid:

@@ -146,14 +146,15 @@ class Sensitivities:
     refused : mapping
         Outputs and inputs without meaningful derivatives, and the reason.
     errors : mapping or None
-        Estimated errors of the elasticities; None without an error estimate.
+        Estimated errors of the elasticities: their size by the unit of time, which should be 0, and
+        with an error estimate their difference to those of the coarser run.
     """
 
     inputs: Mapping[str, float]
     derivatives: Mapping[str, Mapping[str, float]]
     elasticities: Mapping[str, Mapping[str, float]]
     refused: Mapping[str, str] = field(default_factory=dict)
-    errors: Mapping[str, Mapping[str, float]] | None = None
+    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
 
 def _versions() -> dict[str, str]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.problem import Case
 from viscotack.problem.inputs import Changed
 from viscotack.problem.outputs import Unit
 from viscotack.result.observables import equal_peak, number_of, pull_off, work_to
@@ -30,6 +32,9 @@ _EDGES = ("contact_radius_at_pull_off", "ligament_at_pull_off")
 _SERIES = ("time", "depth", "force", "contact_radius")
 # Steps after the pull-off that its interpolation may use.
 _AFTER = 3
+# Relative change of the unit of time, and the largest elasticity by it beside the largest by an
+# input.
+_SMALL, _NOISE = 1e-4, 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +45,9 @@ class Slopes:
     ----------
     changes : sequence of Changed
         The inputs.
-    rows : ndarray, shape (n, 4, P)
-        Derivatives of time, depth, force and contact radius at the first n steps.
+    rows : ndarray, shape (n, 4, P + 1)
+        Derivatives of time, depth, force and contact radius at the first n steps; the last ones by
+        the unit of time, on which no output depends: they are errors of the method.
     reason : str
         Why there are none at later steps.
     missing : mapping
@@ -78,7 +84,17 @@ def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
                 derivatives[name][change.name] = float(slope / change.value)
                 if values[name]:
                     elasticities[name][change.name] = float(slope / abs(values[name]))
+    errors = _of_null(result, slopes, given, outputs, values)
+    for name in given:
+        largest = max(map(abs, elasticities[name].values()), default=0.0)
+        if errors[name] > _NOISE * largest:
+            refused[name] = (
+                "the nodes hold the edge: by frozen nodes the output depends on the unit of time, "
+                f"by an elasticity of {errors[name]:.2g} beside {largest:.2g} of the largest input"
+            )
+            del elasticities[name], derivatives[name]
     return Sensitivities(
+        errors={name: dict.fromkeys(each, errors[name]) for name, each in elasticities.items()},
         inputs={change.name: change.value for change in slopes.changes},
         derivatives=derivatives,
         elasticities=elasticities,
@@ -86,29 +102,51 @@ def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
     )
 
 
+def _of_null(
+    result: Result,
+    slopes: Slopes,
+    names: Iterable[str],
+    units: Mapping[str, Unit],
+    values: Mapping[str, float],
+) -> dict[str, float]:
+    """Return the size of the elasticities by the unit of time, which should be zero."""
+    low, high = (
+        _values(names, units, _along(result, slopes, -1, result.problem, by))
+        for by in (-_SMALL, _SMALL)
+    )
+    return {x: abs(high[x] - low[x]) / (2 * _SMALL * abs(values[x])) for x in names}
+
+
 def with_errors(found: Sensitivities, coarse: Sensitivities) -> Sensitivities:
-    """Return the sensitivities with the errors of the elasticities, from those of a coarser run."""
+    """Return the sensitivities with errors that count the difference to a coarser run."""
     errors = {
-        name: {x: abs(value - coarse.elasticities[name][x]) for x, value in each.items()}
-        for name, each in found.elasticities.items()
-        if coarse.elasticities.get(name, {}).keys() >= each.keys()
+        name: {
+            x: max(own, abs(found.elasticities[name][x] - coarse.elasticities[name][x]))
+            if x in coarse.elasticities.get(name, {})
+            else own
+            for x, own in each.items()
+        }
+        for name, each in found.errors.items()
     }
     return replace(found, errors=errors)
 
 
 def _moved(result: Result, slopes: Slopes, i: int) -> tuple[Result, Result]:
     """Return the result with a smaller and with a larger input."""
-    change, many = slopes.changes[i], len(slopes.rows)
-    ends = []
-    for problem, by in ((change.low, change.down), (change.high, change.up)):
-        moved = {}
-        for k, name in enumerate(_SERIES):
-            series = np.array(getattr(result, name))
-            series[:many] += np.log1p(by) * slopes.rows[:, k, i]
-            moved[name] = series
-        moved["time"] = np.maximum.accumulate(moved["time"])
-        ends.append(replace(result, problem=problem, sensitivities=None, **moved))
-    return ends[0], ends[1]
+    change = slopes.changes[i]
+    low = _along(result, slopes, i, change.low, float(np.log1p(change.down)))
+    return low, _along(result, slopes, i, change.high, float(np.log1p(change.up)))
+
+
+def _along(result: Result, slopes: Slopes, i: int, problem: Case, by: float) -> Result:
+    """Return the result of a problem, with its series moved in one direction."""
+    moved: dict[str, Any] = {}
+    for k, name in enumerate(_SERIES):
+        series = np.array(getattr(result, name))
+        series[: len(slopes.rows)] += by * slopes.rows[:, k, i]
+        moved[name] = series
+    moved["time"] = np.maximum.accumulate(moved["time"])
+    return replace(result, problem=problem, sensitivities=None, **moved)
 
 
 def _values(names: Iterable[str], units: Mapping[str, Unit], result: Result) -> dict[str, float]:
