@@ -184,7 +184,7 @@ def report(path: Path) -> None:
         off, finer_off = np.abs(ours - best) / scale, np.abs(finer - best) / scale
         held = np.abs(ours - best) <= stated + 0.01 * scale
         print(
-            f"{output:28} {len(mine):4d} elasticities, {np.mean(sure):.0%} with converged differences;"
+            f"{output:28} {len(mine):4d} elasticities, {np.mean(sure):.0%} with sure differences;"
             f" of these within 1 %: {np.mean(off[sure] < 0.01):.1%} (at a quarter of the accuracy "
             f"{np.mean(finer_off[sure] < 0.01):.1%}), median {np.median(off[sure]):.1e}, "
             f"95 % {np.quantile(off[sure], 0.95):.1e}; stated error holds {np.mean(held[sure]):.1%}"

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from viscotack.bem.ageing import finer
-from viscotack.bem.books import History, Snapshot
 from viscotack.bem.body import Body
+from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.contacts.disc import DiscContact
@@ -208,7 +208,7 @@ def _run(
 
 
 def _changes(problem: Case, groups: Groups, sensitivities: bool | Iterable[str]) -> list[Changed]:
-    """Return the problem with each wanted input changed by a little; refuse what is not possible."""
+    """Return the problem with each wanted input changed by a little, or refuse."""
     if sensitivities is False:
         return []
     if has_rest(groups.traction):

@@ -46,8 +46,8 @@ from viscotack.protocol import Apart, AtDepth, AtForce, Start
 
 # Times at which the creep of the modes is compared with that of the solid, per decade.
 _PER_DECADE = 20
-# Relative size below which combinations of modes are left out, and the largest part of the change of
-# the creep that the modes may miss.
+# Relative size below which combinations of modes are left out, and the largest part of the change
+# of the creep that the modes may miss.
 _RANK, _MISSED = 1e-9, 0.02
 # Relative change of the times of modes in central differences.
 _TINY = 1e-5
@@ -600,7 +600,7 @@ def _value_of(start: Start | Apart, contact: Contact) -> float:
 def _responses(
     state: State, compliance: float, given: npt.NDArray, load: npt.NDArray, band: Band
 ) -> tuple[npt.NDArray, npt.NDArray]:
-    """Return the gaps for given free gaps and loads, shape (P, N), and per unit of depth, (1, N)."""
+    """Return the gaps for free gaps and loads, shape (P, N), and per unit of depth, (1, N)."""
     surface = state.surface
     solid = elastic_energy(surface, compliance, surface.rigid_gap, Hold(np.inf))
     factor = factored(solid, band)

@@ -1,8 +1,8 @@
 """Numbers of a problem by name, and the problem with one of them changed.
 
 A number is named by its place: ``material.tau0``, ``protocol.start.force``,
-``material.branches.2.modulus``. In dimensionless groups the names are those of the groups: ``rate``,
-``start.depth``.
+``material.branches.2.modulus``. In dimensionless groups the names are those of the groups:
+``rate``, ``start.depth``.
 """
 
 from __future__ import annotations
