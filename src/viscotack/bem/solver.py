@@ -213,8 +213,8 @@ def _changes(problem: Case, groups: Groups, sensitivities: bool | Iterable[str])
         return []
     if has_rest(groups.traction):
         raise InputError(
-            f"there are no derivatives for an interface that grows or ages ({groups.traction.word})"
-            ": its bonds are not differentiated; take a law that depends on the gap alone"
+            "there are no derivatives for an interface that grows or ages: its bonds are not "
+            f"differentiated: {groups.traction}; take a law that depends on the gap alone"
         )
     if groups.in_plane_strain:
         raise InputError(
@@ -231,13 +231,13 @@ def _directions(
     window: tuple[float, float],
     settings: Settings,
 ) -> tuple[dict[Changed, Direction], dict[str, str]]:
-    """Return what each input changes in a march, and the inputs that have no derivative."""
+    """Return the change of a march by each input, and the inputs without a derivative."""
     found, missing = {}, {}
     replaced = bool(changes) and groups.start != changes[0].base.start
     for change in changes:
         pair = change.groups
         if replaced:  # by a shallower start, whose depth has no influence
-            pair = tuple(_from(each, groups.start.depth) for each in pair)
+            pair = replace(pair[0], start=groups.start), replace(pair[1], start=groups.start)
         step = float(np.log1p(change.up) - np.log1p(change.down))
         low, high = (contact_of(each) for each in pair)
         legs = [
