@@ -6,7 +6,7 @@ import pytest
 import viscotack as vt
 from viscotack.problem.inputs import changed
 from viscotack.protocol import Approach, LoadTo
-from viscotack.traction.ageing import LogarithmicAgeing
+from viscotack.traction.growing import Eyring
 
 ARMS = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.03), (5.0, 1.0)], poisson_ratio=0.0)
 PULL = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=8.0)
@@ -106,7 +106,7 @@ def test_an_edge_that_the_nodes_hold_has_no_derivative():
 
 def test_growing_interfaces_and_punches_are_refused():
     rest = vt.LennardJones(1.0, 1.0)
-    growing = LogarithmicAgeing.of(rest, reference_time=1.0, sensitivity=0.1)
+    growing = Eyring.of(rest, reference_speed=1.0, sensitivity=0.1)
     aged = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=8.0, traction=growing)
     with pytest.raises(ValueError, match="grows or ages"):
         solved(aged, sensitivities=True)
