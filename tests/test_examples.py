@@ -40,9 +40,22 @@ def test_every_example_is_run_here():
         "dwell_time.py",
         "dead_load.py",
         "growing_interface.py",
+        "what_matters.py",
     }
     found = {path.name for path in EXAMPLES.iterdir() if path.name != "__pycache__"}
     assert found == known
+
+
+def test_a_lens_pulls_off_by_its_radius_and_its_work_of_adhesion(tmp_path, capsys):
+    picture = tmp_path / "tornado.png"
+    result = load("what_matters").main(picture, accuracy=5e-3)
+    force = result.sensitivities.elasticities["pull_off_force"]
+    assert sorted(force, key=lambda name: -force[name])[:2] == [
+        "traction.work_of_adhesion",
+        "geometry.radius",
+    ]
+    assert picture.stat().st_size > 10_000
+    assert "protocol.speed" in capsys.readouterr().out
 
 
 def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys):

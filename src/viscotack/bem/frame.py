@@ -130,7 +130,7 @@ class Passage:
     ) -> Passage:
         """Return the passage for e_0 as a spline, onto nodes that are h apart at the edge."""
         theta = _shares(abs(way.travel) / h)
-        decay, weights = _recursion(modes, dt, theta)
+        decay, weights = path_recursion(np.asarray(modes.times), dt, theta)
         moves = along(nodes, way.begin + way.travel)
         old = (1 - theta)[:, None] * before(nodes + np.outer(way.from_begin(theta), moves))
         at = nodes + np.outer(way.to_end(theta), moves)
@@ -151,10 +151,13 @@ class Passage:
         w = np.asarray(modes.weights)
         return (w * self.decay) @ d + (w @ self.weights) @ self.old
 
+    def interpolated(self, e1: npt.NDArray) -> npt.NDArray:
+        """Return the field at the end of the step, shifted back along the path, shape (Q, N)."""
+        return sum(part * e1[self.first + k] for k, part in enumerate(self.part))  # type: ignore
+
     def advanced(self, d: npt.NDArray, e1: npt.NDArray) -> npt.NDArray:
         """Return the displacement of every mode at the end."""
-        new = sum(part * e1[self.first + k] for k, part in enumerate(self.part))
-        e = self.old + self.theta[:, None] * new
+        e = self.old + self.theta[:, None] * self.interpolated(e1)
         return self.decay[:, None] * d + self.weights @ e
 
 
@@ -168,9 +171,11 @@ def _shares(travel: float) -> npt.NDArray:
     return 1 - np.array(lags[::-1]) / lags[-1]
 
 
-def _recursion(modes: Modes, dt: float, theta: npt.NDArray) -> tuple[npt.NDArray, npt.NDArray]:
+def path_recursion(
+    times: npt.NDArray, dt: float, theta: npt.NDArray
+) -> tuple[npt.NDArray, npt.NDArray]:
     """Return the decay factor of each mode over a step, and the weights of e at the shares."""
-    tau = np.asarray(modes.times)[:, None]
+    tau = times[:, None]
     x = np.diff(theta) * dt / tau
     decay = np.exp(-x)
     phi = -np.expm1(-x) / x
@@ -246,7 +251,7 @@ class Balancing:
         here = face.at(self.law, gap)
         for iteration in range(1, _MOST_ITERATIONS + 1):
             look()
-            tangent = _Tangent.of(here, self)
+            tangent = Tangent.of(here, self)
             if tangent is None:
                 return None
             e, depth = self._linear(gap, here.tension, tangent)
@@ -265,7 +270,7 @@ class Balancing:
         return None
 
     def _linear(
-        self, gap: npt.NDArray, tension: npt.NDArray, tangent: _Tangent
+        self, gap: npt.NDArray, tension: npt.NDArray, tangent: Tangent
     ) -> tuple[npt.NDArray, float]:
         """Return e and depth in equilibrium with tensions linearised at these gaps."""
         right = tangent.pull(gap - self.free) - tension
@@ -284,7 +289,7 @@ class Balancing:
 
 
 @dataclass(frozen=True, eq=False)
-class _Tangent:
+class Tangent:
     """Derivative of tensions with respect to gaps, and the LU factors of S + T' C."""
 
     curvature: Band
@@ -293,7 +298,7 @@ class _Tangent:
     negative: bool
 
     @classmethod
-    def of(cls, face: Faces, of: Balancing) -> _Tangent | None:
+    def of(cls, face: Faces, of: Balancing) -> Tangent | None:
         """Return the factored tangent at a face, None if it is singular."""
         diagonal, beside = curvature = face.tangent()
         tangent = diagonal[:, None] * of.compliance

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.bem.ageing import finer
+from viscotack.bem.body import Body
 from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.contacts.contact import Contact, Relaxed
@@ -25,16 +26,20 @@ from viscotack.bem.machine import Leg, spring_energy
 from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
+from viscotack.bem.tangent import Direction, Tangents, mode_slopes, null_direction
 from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.clock import TimeUp, met
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, Disc, FlatPunch, HalfSpace, PowerLawProfile, Sphere, detail
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups
+from viscotack.problem.inputs import Changed, changed
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
+from viscotack.result.sensitivities import Slopes, with_errors
+from viscotack.result.sensitivities import sensitivities as slopes_of
 from viscotack.traction import effective_range, has_rest
 
 # Called with the completed fraction of the work, 0 to 1.
@@ -72,6 +77,7 @@ def simulate(
     throw: bool,
     progress: Progress,
     watch: Watch,
+    sensitivities: bool | Iterable[str] = False,
 ) -> Result:
     """Simulate a problem, also given by its dimensionless groups, for any range of adhesion.
 
@@ -82,16 +88,21 @@ def simulate(
     share = _MAIN if estimate_error else 1.0
     contact = contact_of(groups)
     check_bounds(problem, groups, contact)
+    changes = _changes(problem, groups, sensitivities)
+    coarse: list[Result] = []
 
     def light(marched: Groups, seen: Progress = None, *, whole: bool = False) -> Result:
         # after moves the force may have a minimum before pull-off: end both runs at the same event
         end = until if groups.moves else "detached" if whole else "pull-off"
-        return _run(problem, marched, settings.coarser(COARSER), end, False, seen)
+        coarser = settings.coarser(COARSER)
+        coarse.append(_run(problem, marched, coarser, end, False, seen, changes=changes))
+        return coarse[-1]
 
     try:
         beginning = None if whole else _beginning(groups, contact, settings, light)
         marched = groups if beginning is None else _from(groups, beginning.start.depth)
-        result = _run(problem, marched, settings, until, fields, _part(progress, 0.0, share), watch)
+        own = _part(progress, 0.0, share)
+        result = _run(problem, marched, settings, until, fields, own, watch, changes=changes)
     except TimeUp as limit:
         raise InputError(
             f"{limit} before the relaxed start was found; give more time, or ask for less accuracy"
@@ -107,6 +118,9 @@ def simulate(
         if result.error_estimate is None and (limit := met()):
             status = out_of_time(limit, "while the error was estimated")
             result = replace(result, status=status)
+    if result.sensitivities and result.error_estimate and coarse[-1].sensitivities:
+        found = with_errors(result.sensitivities, coarse[-1].sensitivities)
+        result = replace(result, sensitivities=found)
     result = replace(
         result,
         shallow_start=None if beginning is None else beginning.start,
@@ -141,6 +155,8 @@ def _run(
     fields: bool,
     progress: Progress,
     watch: Watch = None,
+    *,
+    changes: Sequence[Changed] = (),
 ) -> Result:
     contact = contact_of(groups)
     start, legs = begun(groups, contact, settings)
@@ -150,6 +166,14 @@ def _run(
     spring = spring_travel(start, depths, groups.moves, groups.stiffness, k, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact, spring)
     modes = modes_of_run(groups.material, legs, longest, settings)
+    window = _FASTEST * min(leg.least_step for leg in legs), longest
+    directions, missing = _directions(changes, groups, modes, window, settings)
+    growing = groups.traction if has_rest(groups.traction) else None
+    body = Body(contact, modes, np.asarray(modes.weights), growing)
+    tangents = None
+    if directions:
+        null = null_direction(contact, legs, groups.start, modes)
+        tangents = Tangents(body, [*directions.values(), null])
     grading = contact.grading(finer(settings, groups.traction, longest), max(depths))
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
@@ -167,13 +191,68 @@ def _run(
         settings,
         until=until,
         stiffness=groups.stiffness,
-        growing=groups.traction if has_rest(groups.traction) else None,
+        growing=growing,
         profiles=fields,
         progress=progress,
         watch=None if watch is None else seen,
+        follower=tangents,
     )
     result = _result(problem, groups, contact, history, modes, fields)
-    return replace(result, accuracy=settings.accuracy).posed(groups)
+    result = replace(result, accuracy=settings.accuracy).posed(groups)
+    if tangents is None or result.outcome is Outcome.STOPPED:
+        return result
+    rows = np.array(tangents.rows)
+    rows[:, 3] /= contact.edge_unit
+    slopes = Slopes(list(directions), rows, tangents.reason, missing)
+    return replace(result, sensitivities=slopes_of(result, slopes)).posed(groups)
+
+
+def _changes(problem: Case, groups: Groups, sensitivities: bool | Iterable[str]) -> list[Changed]:
+    """Return the problem with each wanted input changed by a little, or refuse."""
+    if sensitivities is False:
+        return []
+    if has_rest(groups.traction):
+        raise InputError(
+            "there are no derivatives for an interface that grows or ages: its bonds are not "
+            f"differentiated: {groups.traction}; take a law that depends on the gap alone"
+        )
+    if groups.in_plane_strain:
+        raise InputError(
+            "there are no derivatives for a flat punch: its nodes move with its ends, which are "
+            "inputs"
+        )
+    return changed(problem, None if sensitivities is True else sensitivities)
+
+
+def _directions(
+    changes: Sequence[Changed],
+    groups: Groups,
+    modes: Modes,
+    window: tuple[float, float],
+    settings: Settings,
+) -> tuple[dict[Changed, Direction], dict[str, str]]:
+    """Return the change of a march by each input, and the inputs without a derivative."""
+    found, missing = {}, {}
+    replaced = bool(changes) and groups.start != changes[0].base.start
+    for change in changes:
+        pair = change.groups
+        if replaced:  # by a shallower start, whose depth has no influence
+            pair = replace(pair[0], start=groups.start), replace(pair[1], start=groups.start)
+        step = float(np.log1p(change.up) - np.log1p(change.down))
+        low, high = (contact_of(each) for each in pair)
+        legs = [
+            legs_of(each.moves, each.rate, each.stiffness, contact, settings)
+            for each, contact in zip(pair, (low, high), strict=True)
+        ]
+        solids = (pair[0].material, pair[1].material)
+        try:
+            creep = mode_slopes(modes, solids, step, window)
+        except ArithmeticError as reason:
+            missing[change.name] = str(reason)
+            continue
+        starts = (pair[0].start, pair[1].start)
+        found[change] = Direction(step, (low, high), (legs[0], legs[1]), starts, *creep)
+    return found, missing
 
 
 def relaxed_start(groups: Groups, contact: Contact, settings: Settings) -> Relaxed:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from time import perf_counter
 
@@ -37,6 +38,7 @@ def solve(
     progress: Progress = None,
     watch: Watch = None,
     time_limit: float | None = None,
+    sensitivities: bool | Iterable[str] = False,
 ) -> Result:
     """Simulate the detachment of a rigid indenter from a viscoelastic solid.
 
@@ -82,6 +84,12 @@ def solve(
     time_limit : float, optional
         Longest wall time [s] of both simulations. A run that reaches it stops; the result contains
         the steps so far, and its status gives the reason.
+    sensitivities : bool or iterable of str
+        Also compute the derivatives of force, work, depth and contact radius at the pull-off by all
+        inputs of the problem, or by those of these names (``material.tau0``, ``protocol.speed``),
+        from the same run: ``result.sensitivities``. Nodes and steps are frozen, so the derivatives
+        leave out jumps and a change of the largest peak; where these matter, the derivative is
+        refused with the reason.
 
     Returns
     -------
@@ -133,6 +141,11 @@ def solve(
                     "profiles exist for simulations only, and the Tabor number of "
                     f"{groups.effective_tabor:.4g} is too large to simulate; use fields=False"
                 )
+            if sensitivities:
+                raise InputError(
+                    "derivatives exist for simulations only, and the Tabor number of "
+                    f"{groups.effective_tabor:.4g} is too large to simulate"
+                )
             return _handed_over(problem, chosen.accuracy, began)
         return simulate(
             problem,
@@ -145,6 +158,7 @@ def solve(
             throw=throw,
             progress=progress,
             watch=watch,
+            sensitivities=sensitivities,
         )
 
 

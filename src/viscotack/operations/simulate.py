@@ -1,7 +1,7 @@
 """The operations ``simulate`` and ``show``: simulate a contact, and show a saved result."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -37,8 +37,8 @@ PlotKind = Annotated[
     str,
     Choice(
         "force: against depth; radius: force against contact radius; overview: four pictures; "
-        "energy: energy balance.",
-        choices=("force", "radius", "overview", "energy"),
+        "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed.",
+        choices=("force", "radius", "overview", "energy", "sensitivities"),
     ),
 ]
 _FILES = (
@@ -140,6 +140,13 @@ class Simulate(Operation):
     profiles: Annotated[
         bool, Switch("Also keep pressure and gap along the radius, at the steps of the solver.")
     ] = False
+    sensitivities: Annotated[
+        bool,
+        Switch(
+            "Also compute the elasticities of force, work, depth and contact radius at pull-off "
+            "by every input, from the same simulation."
+        ),
+    ] = False
     plot_kind: PlotKind = "force"
 
     def answer(self, caller: Caller) -> Answer:
@@ -157,6 +164,7 @@ class Simulate(Operation):
             whole=self.whole,
             points="points" in caller.wants,
             profiles=self.profiles,
+            sensitivities=self.sensitivities,
         )
         answer = _answer(result, self.plot_kind, caller)
         files = {**answer.files, "save": lambda target: save(result, target)}
@@ -207,12 +215,15 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
         "radius": plot.draw_radius,
         "overview": plot.draw_overview,
         "energy": plot.draw_energy,
+        "sensitivities": plot.draw_sensitivities,
     }[plot_kind]
     stopped = result.outcome is Outcome.STOPPED
     files: dict[str, Any] = {"csv": lambda target: write_csv(result, target)}
     if not stopped:
         files["cycles"] = lambda target: write_cycles(result, target)
     found = summary(result, also)
+    if result.sensitivities is not None:
+        found["sensitivities"] = asdict(result.sensitivities)
     return Answer(
         result,
         record=lambda: found,
@@ -238,6 +249,7 @@ def _not_met(result: "Result") -> str:
 def _words(result: "Result", answer: dict[str, Any], also: "Iterable[Observable]") -> str:
     """Return a summary as lines a person reads."""
     from .parts.cycle_table import table_of_cycles
+    from .parts.sensitivity_table import table_of_sensitivities
 
     lines, kind = [answer["status"]], result.problem.outputs
     said = {name: (output.words, output.unit) for name, output in kind.observables.items()}
@@ -270,6 +282,8 @@ def _words(result: "Result", answer: dict[str, Any], also: "Iterable[Observable]
         if error is not None:
             unit = "h0, estimated" if name == "depth" else "estimated, relative"
             lines.append(f"  {'error of the ' + name:<21}{error:>12.1e}  {unit}")
+    if result.sensitivities is not None:
+        lines += table_of_sensitivities(result.sensitivities)
     cost = answer["statistics"]
     if cost.get("steps") is not None and answer["wall_time_s"] is not None:
         lines.append(f"  {cost['steps']:.0f} steps in {answer['wall_time_s']:.2f} s")

@@ -126,6 +126,43 @@ def draw_overview(result: Result) -> "Figure":
     return figure
 
 
+def draw_sensitivities(result: Result) -> "Figure":
+    """Draw the elasticities of the pull-off by every input as a tornado, largest on top.
+
+    Parameters
+    ----------
+    result : Result
+        Result of ``solve(sensitivities=True)``.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A panel for the force and one for the work, as far as they have derivatives.
+
+    Raises
+    ------
+    ValueError
+        If the result has no derivatives.
+    """
+    found = result.sensitivities
+    if found is None or not found.elasticities:
+        why = "; ".join(dict.fromkeys(found.refused.values())) if found else "none were computed"
+        raise InputError(f"there are no derivatives to draw: {why}")
+    shown = list(found.elasticities)[:2]
+    first = found.elasticities[shown[0]]
+    names = sorted(first, key=lambda name: abs(first[name]))
+    with _style():
+        figure = _figure(figsize=(4.6 * len(shown) + 1.5, 1.2 + 0.32 * len(names)))
+        panels = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
+        for axes, name in zip(panels, shown, strict=True):
+            values = [found.elasticities[name].get(x, np.nan) for x in names]
+            axes.barh(names, values, color=["#08519c" if v > 0 else "#d94801" for v in values])
+            axes.axvline(0, color="0.4", lw=0.8)
+            axes.set_xlabel("d ln y/d ln x")
+            axes.set_title(name.replace("_", " "))
+    return figure
+
+
 def draw_energy(result: Result) -> "Figure":
     """Draw the energy balance, and the heat by retardation time.
 

@@ -731,6 +731,11 @@ _OBSERVABLES: dict[str, Callable[[Result], float]] = (
 )
 
 
+def number_of(name: str, result: Result) -> tuple[float | None, str | None]:
+    """Return the observable of a name and its note, as in a summary; None if it is undefined."""
+    return _number(_OBSERVABLES[name], result)
+
+
 def _number(
     observable: Callable[[Result], float], result: Result
 ) -> tuple[float | None, str | None]:

@@ -136,6 +136,31 @@ def lost_beside(result: Result, span: Span) -> float:
     return float(force[i] ** 2 / _curvature(x, force, i))
 
 
+def is_smooth(result: Result, span: Span) -> bool:
+    """Return whether the force minimum is a smooth valley, with steps of one move on both sides.
+
+    It is none at the end of a piece, or where the machine set the force.
+    """
+    steps, i = _valley_of(result, span)
+    number = move_numbers(result)[steps]
+    loaded = isinstance(moves_of(result)[number[i]], LoadTo)
+    return 0 < i < len(steps) - 1 and not loaded and _smooth(number, i) is not None
+
+
+def edge_at(result: Result, span: Span, found: PullOff) -> float:
+    """Return the contact edge at a force minimum by a cubic between steps; nan without one.
+
+    The contact radius of a `PullOff` is linear between steps, which is as accurate; its derivative
+    is not, because the edge accelerates there.
+    """
+    steps, i = _valley_of(result, span)
+    x, edge = -result.depth[steps], result.contact_radius[steps]
+    points = _nearest(x, i)
+    scale = x[i + 1] - x[i - 1]
+    taylor = np.linalg.solve(np.vander((x[points] - x[i]) / scale, increasing=True), edge[points])
+    return float(np.polynomial.polynomial.polyval((-found.depth - x[i]) / scale, taylor))
+
+
 def between_steps(result: Result, span: Span) -> float:
     """Return how far the place of the force minimum is known between the steps [h0].
 

@@ -128,6 +128,35 @@ class ShallowStart:
             object.__setattr__(self, name, finite(f"{name} of a start", getattr(self, name), "1"))
 
 
+@dataclass(frozen=True)
+class Sensitivities:
+    """Derivatives of the pull-off by the inputs of a problem, from ``solve(sensitivities=True)``.
+
+    Attributes
+    ----------
+    inputs : mapping
+        Value of each input, by name: ``material.tau0``, ``protocol.start.force``; in the unit of
+        the problem.
+    derivatives : mapping
+        For each output, its derivative by each input; in SI where the problem is, else in the
+        dimensionless units of the result.
+    elasticities : mapping
+        For each output y, its elasticity by each input x, (x/|y|) dy/dx: for positive outputs
+        d ln y/d ln x.
+    refused : mapping
+        Outputs and inputs without meaningful derivatives, and the reason.
+    errors : mapping or None
+        Estimated errors of the elasticities: their size by the unit of time, which should be 0, and
+        with an error estimate their difference to those of the coarser run.
+    """
+
+    inputs: Mapping[str, float]
+    derivatives: Mapping[str, Mapping[str, float]]
+    elasticities: Mapping[str, Mapping[str, float]]
+    refused: Mapping[str, str] = field(default_factory=dict)
+    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+
 def _versions() -> dict[str, str]:
     import scipy
 
@@ -188,6 +217,8 @@ class Result:
         "simulation"; "crack contact" if the range of the forces is too short for a simulation and
         the theory of a contact whose edge is a steady crack is used (:func:`crack_contact`), with
         its band as the error of the force.
+    sensitivities : Sensitivities or None
+        Derivatives of the pull-off by the inputs, on request.
     versions : dict
         Versions of this package, numpy and scipy.
     """
@@ -212,6 +243,7 @@ class Result:
     shallow_start: ShallowStart | None = None
     accuracy: float | None = None
     method: str = "simulation"
+    sensitivities: Sensitivities | None = None
     versions: Mapping[str, str] = field(default_factory=_versions)
 
     def __post_init__(self) -> None:
@@ -461,6 +493,7 @@ def save(result: Result, path: Target) -> None:
         "hysteresis_errors": result.hysteresis_errors,
         "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),
+        "sensitivities": result.sensitivities and asdict(result.sensitivities),
         "energy": result.energy is not None,
         "fields": result.fields is not None,
     }
@@ -551,6 +584,7 @@ def _from_parts(
         found = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
         return found if header[name] else None
 
+    slopes = header.get("sensitivities")
     began = header.get("shallow_start")  # missing in results of 0.1
     errors = header.get("hysteresis_errors")
     return Result(
@@ -570,5 +604,6 @@ def _from_parts(
         shallow_start=None if began is None else ShallowStart(**began),
         accuracy=header.get("accuracy"),
         method=header.get("method", "simulation"),
+        sensitivities=None if slopes is None else Sensitivities(**slopes),
         versions=header["versions"],
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy.typing as npt
 
@@ -44,6 +44,8 @@ class Contact(Protocol):
         Unit of the outputs for the contact edge, in the unit of the mesh.
     zone : float
         Length over which the gap opens at a relaxed contact edge.
+    hardness : float
+        Stiffness of a surface over that of the body for E* = 1.
     """
 
     @property
@@ -56,7 +58,13 @@ class Contact(Protocol):
     def edge_unit(self) -> float: ...  # noqa: D102
     @property
     def zone(self) -> float: ...  # noqa: D102
-    def surface(self, nodes: npt.NDArray) -> Surface: ...  # noqa: D102
+    @property
+    def hardness(self) -> float: ...  # noqa: D102
+    @property
+    def body(self) -> Any: ...  # noqa: D102
+    def surface(  # noqa: D102
+        self, nodes: npt.NDArray, relaxed: npt.NDArray | None = None
+    ) -> Surface: ...
     def grading(self, settings: Settings, depth: float) -> Grading: ...  # noqa: D102
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed: ...  # noqa: D102
     def deepest(self, start: Start) -> float: ...  # noqa: D102

@@ -1,0 +1,123 @@
+"""Derivatives of a simulation: exact relations between them, differences, and refusals."""
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.problem.inputs import changed
+from viscotack.protocol import Approach, LoadTo
+from viscotack.traction.growing import Eyring
+
+ARMS = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.03), (5.0, 1.0)], poisson_ratio=0.0)
+PULL = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=8.0)
+FORCE, WORK = "pull_off_force", "work_to_pull_off"
+
+
+def solved(problem, **options):
+    return vt.solve(problem, until="pull-off", estimate_error=False, **options)
+
+
+@pytest.fixture(scope="module")
+def pulled():
+    return solved(PULL, sensitivities=True)
+
+
+@pytest.mark.parametrize("output", [FORCE, WORK, "depth_at_pull_off"])
+def test_only_the_product_of_rate_and_times_matters(pulled, output):
+    by = pulled.sensitivities.elasticities[output]
+    times = sum(value for name, value in by.items() if name.endswith(".time"))
+    assert times == pytest.approx(by["rate"], rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["tabor", "material.branches.0.modulus", "rate", "start.depth"])
+def test_derivatives_are_those_of_simulations_with_changed_inputs(pulled, name, monkeypatch):
+    monkeypatch.setattr("viscotack.problem.inputs._CHANGE", 0.04)
+    (one,) = changed(PULL, [name])
+    ends = [vt.summary(solved(x, accuracy=5e-4)) for x in (one.low, one.high)]
+    for output in (FORCE, WORK):
+        difference = np.log(ends[1][output] / ends[0][output])
+        expected = difference / (np.log1p(one.up) - np.log1p(one.down))
+        found = pulled.sensitivities.elasticities[output][name]
+        assert found == pytest.approx(expected, rel=0.02, abs=1e-3)
+
+
+def test_derivatives_follow_a_move_that_ends_at_a_force_and_a_dwell(monkeypatch):
+    solid = vt.StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    moves = Approach(to=vt.AtForce(6.0), speed=3.0), vt.Dwell(0.5)
+    test = vt.Groups(tabor=1.0, material=solid, start=vt.AtForce(1.0), rate=5.0, moves=moves)
+    found = solved(test, sensitivities=True).sensitivities.elasticities[FORCE]
+    # every time of the problem scaled by one factor changes nothing
+    assert found["rate"] + found["moves.0.speed"] == pytest.approx(
+        found["material.tau0"] + found["moves.1.duration"], rel=2e-3
+    )
+    monkeypatch.setattr("viscotack.problem.inputs._CHANGE", 0.05)
+    for name in ("moves.0.to.force", "moves.0.speed"):
+        (one,) = changed(test, [name])
+        ends = [vt.summary(solved(x, accuracy=5e-4))[FORCE] for x in (one.low, one.high)]
+        expected = np.log(ends[1] / ends[0]) / (np.log1p(one.up) - np.log1p(one.down))
+        assert found[name] == pytest.approx(expected, rel=0.02)
+
+
+def test_in_si_units_of_stress_and_length_do_not_matter():
+    rubber = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=8e6, tau0=0.1, poisson_ratio=0.49)
+    problem = vt.Problem(
+        material=rubber,
+        traction=vt.LennardJones(0.1, 1e-6),
+        geometry=vt.Sphere(3e-3),
+        protocol=vt.Retraction(start=vt.AtForce(2e-3), speed=3e-5),
+    )
+    by = solved(problem, sensitivities=True).sensitivities.elasticities[FORCE]
+    stresses = by["material.rubbery_modulus"] + by["material.glassy_modulus"]
+    work, load = by["traction.work_of_adhesion"], by["protocol.start.force"]
+    # of force = stress times length squared, work of adhesion = stress times length
+    assert stresses + work + load == pytest.approx(1.0, abs=1e-3)
+    lengths = by["traction.equilibrium_gap"] + by["geometry.radius"] + by["protocol.speed"]
+    assert lengths + work + 2 * load == pytest.approx(2.0, abs=2e-3)
+
+
+def test_only_named_inputs_are_computed_and_saved(tmp_path):
+    result = solved(PULL, accuracy=0.02, sensitivities=["rate"])
+    assert set(result.sensitivities.inputs) == {"rate"}
+    vt.save(result, tmp_path / "run.npz")
+    assert vt.load(tmp_path / "run.npz").sensitivities == result.sensitivities
+    with pytest.raises(ValueError, match="the inputs are tabor"):
+        solved(PULL, sensitivities=["thickness"])
+
+
+def test_the_curve_is_the_same_with_derivatives(pulled):
+    assert np.array_equal(solved(PULL).force, pulled.force)
+
+
+def test_a_peak_that_the_machine_sets_has_no_derivative():
+    moves = (LoadTo(-20.0, 5.0),)
+    test = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=None, moves=moves)
+    found = solved(test, accuracy=0.01, sensitivities=["tabor"]).sensitivities
+    assert not found.elasticities
+    assert "set by the machine" in found.refused[FORCE]
+
+
+def test_an_edge_that_the_nodes_hold_has_no_derivative():
+    solid = vt.Elastic(rubbery_modulus=1, poisson_ratio=0)
+    test = vt.Groups(tabor=5.0, material=solid, start=vt.AtDepth(5.0), rate=5.0)
+    found = solved(test, sensitivities=True).sensitivities
+    assert "the nodes hold the edge" in found.refused[WORK]
+    assert WORK not in found.elasticities
+
+
+def test_growing_interfaces_and_punches_are_refused():
+    rest = vt.LennardJones(1.0, 1.0)
+    growing = Eyring.of(rest, reference_speed=1.0, sensitivity=0.1)
+    aged = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=8.0, traction=growing)
+    with pytest.raises(ValueError, match="grows or ages"):
+        solved(aged, sensitivities=True)
+    punch = vt.Groups(
+        tabor=None,
+        cohesion=0.05,
+        geometry=vt.FlatPunch(20.0),
+        body=vt.Layer(3.0),
+        material=ARMS,
+        start=vt.AtDepth(1.0),
+        rate=1.0,
+    )
+    with pytest.raises(ValueError, match="flat punch"):
+        solved(punch, sensitivities=True)
