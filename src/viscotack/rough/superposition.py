@@ -46,8 +46,8 @@ from .problem import RoughProblem
 
 # Largest share of the surface for which results are given (benchmarks/grid.py superposition).
 LARGEST_SHARE = 0.15
-# Largest difference of the force from that of the grid there, viscoelastic and elastic: in fast
-# pulls neighbours are drawn into contact.
+# Largest difference of the force from that of the grid there, viscoelastic and elastic; fast pulls
+# differ most.
 _BANDS = (0.4, 0.06)
 # Ratio of neighbouring radii between which curves are interpolated, and most radii.
 _RATIO, _MOST = 1.6, 6
