@@ -71,7 +71,10 @@ def test_a_prediction_is_shown_with_its_interval_its_tier_and_its_curve(shown):
     text, force = shown(found), PROBLEM.scales().force
     words, value, band = rows(text)[0]
     assert (words, value) == ("pull-off force", readable(found.pull_off_force * force, "N"))
-    assert band == "4.6598 to 4.6709 mN" and "<th>90 % of cases</th>" in text
+    low, high = (float(x) * 1e-3 / force for x in band.removesuffix(" mN").split(" to "))
+    # to one unit of the last digit that is shown
+    assert (low, high) == pytest.approx(found.interval, abs=1e-7 / force)
+    assert "<th>90 % of cases</th>" in text
     assert f"by the {found.method}: {found.why}" in unescape(text)
     assert picture(text).lstrip().startswith(b"<?xml")
     words, value, _ = rows(shown(vt.predict(PROBLEM.groups())))[0]

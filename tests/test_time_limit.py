@@ -86,11 +86,11 @@ def test_the_companion_is_within_the_limit_too(monkeypatch, hand):
     whole = solve(SPHERE, until="pull-off", estimate_error=False)
     run, made = solver._run, []
 
-    def late(*arguments):
+    def late(*arguments, **more):
         made.append(arguments)
         if len(made) == 2:
             hand.now += 2.5
-        return run(*arguments)
+        return run(*arguments, **more)
 
     monkeypatch.setattr(solver, "_run", late)
     result = solve(SPHERE, until="pull-off", time_limit=2.0, throw=False)

@@ -76,7 +76,7 @@ class Release:
     ... )
     >>> release = Release(table, wanted=2e-3, stiffness=500.0, period=1e-3, fastest=1e-2)
     >>> f"{release.speed:.1e} {release.drive_speed(drive=3e-6, force=1e-3):.2e}"
-    '1.0e-05 -2.00e-05'
+    '1.0e-05 -3.00e-05'
     """
 
     table: ForceTable

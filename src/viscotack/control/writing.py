@@ -20,6 +20,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.files.whole import write_whole
 from viscotack.version import __version__
 
 from .release import CATCH_UP, PAST
@@ -208,7 +209,7 @@ def _built(sources: dict[str, str], library: str, compiler: str | None) -> bytes
         )
     with tempfile.TemporaryDirectory() as folder:
         for name, text in sources.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8")
+            write_whole(Path(folder) / name, text.encode())
         options = [
             "-std=c99",
             "-O2",
