@@ -116,7 +116,7 @@ export class Store extends EventTarget {
       if (run !== this.run) { cancel(run.job); return; }
       const answer = await follow(run.job, (news) => {
         if (run !== this.run) return;
-        run.state = news.state;
+        if (["queued", "running"].includes(news.state)) run.state = news.state; // done is said with the answer
         run.share = news.share;
         run.notice = news.notice;
         for (const [, depth, force] of news.points) { run.depth.push(depth); run.force.push(force); }
