@@ -32,7 +32,7 @@ class Control(Operation):
     this force.
 
     Example: viscotack control lens.toml --slowest "1 um/s" --fastest "1 mm/s" --c contact.h
-    --wanted "3 mN" --stiffness "500 N/m"
+    --wanted "5 mN" --stiffness "300 N/m"
     """
 
     word: ClassVar = "control"
