@@ -30,6 +30,7 @@ from viscotack.control import (
 )
 from viscotack.control.table import checked
 from viscotack.errors import InputError, OutOfRange
+from viscotack.series.simulated import part_of, posed_contact
 
 PAD = vt.Problem(
     material=vt.StandardSolid(
@@ -99,14 +100,11 @@ def test_a_contact_moved_in_pieces_is_the_one_of_a_history(stiffness):
     whole = vt.solve(at(1e-4, stiffness=None if stiffness == inf else stiffness), accuracy=0.002)
     rate = groups.rate
     piece = 0.05 / rate
-    contact = LiveContact(
-        groups,
-        spring,
-        fastest=rate,
-        period=piece,
-        longest=60 / rate,
-        settings=Settings.for_accuracy(0.002),
-    )
+    settings = Settings.for_accuracy(0.002)
+    posed = posed_contact(PAD, settings)
+    least = settings.first_travel * posed.contact.travel / rate
+    part = part_of(posed, settings, least * unit.time, 60 / rate * unit.time)
+    contact = LiveContact(part, spring, least_step=least, settings=settings)
     seen = [contact.now]
     while not contact.apart and len(seen) < 2000:
         seen.append(contact.move(-rate, piece))
@@ -198,6 +196,12 @@ def test_a_punch_and_a_pull_from_its_largest_tension_are_refused():
     )
     with pytest.raises(InputError, match="mean stress"):
         force_table(punch, 1e-5, 1e-4)
+
+
+def test_a_release_that_takes_too_long_is_refused(table):
+    for limit in (1e-6, 0.05):
+        with pytest.raises(InputError, match="time limit of .* before the contact let go"):
+            let_go(PAD, Release(table, 4e-3, 100.0, 1e-4), time_limit=limit)
 
 
 def test_a_used_controller_is_refused(table):

@@ -5,19 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from math import isinf
 
-import numpy as np
-
-from viscotack.bem.ageing import finer
-from viscotack.bem.body import Body
-from viscotack.bem.books import SMALLEST_ENERGY, History, Snapshot
+from viscotack.bem.books import Snapshot
 from viscotack.bem.machine import Leg
-from viscotack.bem.march import advanced, first_place
-from viscotack.bem.place import Run
+from viscotack.bem.march import advanced
+from viscotack.bem.series import Part, begun_run
 from viscotack.bem.settings import Settings
-from viscotack.bem.solver import contact_of, modes_of_run, relaxed_start
 from viscotack.errors import InputError
-from viscotack.problem import Groups
-from viscotack.traction import has_rest
 
 
 class LiveContact:
@@ -28,45 +21,22 @@ class LiveContact:
 
     Parameters
     ----------
-    groups : Groups
-        The contact and its relaxed start; rate, moves and stiffness are not used.
+    part : Part
+        The contact, with modes for the shortest step and for the time of all pieces.
     stiffness : float
         Of the spring between drive and indenter; infinite for a rigid machine.
-    fastest : float
-        Largest speed of the drive that will be asked for.
-    period : float
-        Duration of the shortest piece.
-    longest : float
-        Time that all pieces take at most, for the range of the relaxation modes.
+    least_step : float
+        Length of the first step.
     settings : Settings
-        Mesh, steps and modes.
+        Mesh and steps.
     """
 
     def __init__(
-        self,
-        groups: Groups,
-        stiffness: float,
-        *,
-        fastest: float,
-        period: float,
-        longest: float,
-        settings: Settings,
+        self, part: Part, stiffness: float, *, least_step: float, settings: Settings
     ) -> None:
-        contact = contact_of(groups)
-        start = relaxed_start(groups, contact, settings)
-        first = settings.first_travel * contact.travel / fastest
-        self._leg = Leg(stiffness, 0.0, duration=period, least_step=min(first, period))
-        modes = modes_of_run(groups.material, (self._leg,), longest, settings)
-        grading = contact.grading(finer(settings, groups.traction, longest), start.depth)
-        if not modes.weights:
-            grading = replace(grading, scar_half_width=0.0)
-        law = groups.traction if has_rest(groups.traction) else None
-        body = Body(contact, modes, np.asarray(modes.weights), law)
+        self._leg = Leg(stiffness, 0.0, least_step=least_step)
         spring = None if isinf(stiffness) else stiffness
-        history = History(SMALLEST_ENERGY * contact.span, spring)
-        self._run = Run(body, settings, (self._leg,), False, history)
-        self._at = first_place(self._run, start, grading)
-        self._run.keep(self._at)
+        self._run, self._at = begun_run(part, self._leg, settings, spring)
 
     @property
     def now(self) -> Snapshot:

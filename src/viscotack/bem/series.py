@@ -345,17 +345,28 @@ class _Pair:
         return replace(self, first=first, second=second, drive=drive, largest_tension=most)
 
 
+def begun_run(
+    part: Part, leg: Leg, settings: Settings, stiffness: float | None = None
+) -> tuple[Run, Place]:
+    """Return a run of one leg from the relaxed start, and its first place, which is kept.
+
+    `stiffness` is that of the spring of the machine [output force/h0], None without one.
+    """
+    body = Body(part.contact, part.modes, np.asarray(part.modes.weights), part.growing)
+    history = History(SMALLEST_ENERGY * part.contact.span, stiffness)
+    run = Run(body, settings, (leg,), False, history)
+    at = first_place(run, part.start, part.grading)
+    run.keep(at)
+    return run, at
+
+
 def begun_side(part: Part, settings: Settings, speed: float) -> Side:
     """Return a contact at its relaxed start; each takes half the speed of the drive at first."""
     contact, units = part.contact, part.units
     rate = speed / 2 / units.depth * units.time
     leg = Leg(inf, -rate, least_step=settings.first_travel * contact.travel / rate)
-    weights = np.asarray(part.modes.weights)
-    body = Body(contact, part.modes, weights, part.growing)
-    run = Run(body, settings, (leg,), False, History(SMALLEST_ENERGY * contact.span))
-    at = first_place(run, part.start, part.grading)
-    run.keep(at)
-    at = replace(at, state=body.at_rest(at.state))
+    run, at = begun_run(part, leg, settings)
+    at = replace(at, state=run.body.at_rest(at.state))
     stiffness = units.force / (contact.travel * units.depth)
     side = Side(run, at, units, -speed / 2, stiffness, leg.least_step * units.time)
     # the stiffness of a fast solid is larger by up to the ratio of its moduli

@@ -11,10 +11,11 @@ from threadpoolctl import threadpool_limits
 from viscotack.arrays import Array
 from viscotack.bem.live import LiveContact
 from viscotack.bem.settings import Settings
-from viscotack.clock import limited
+from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
-from viscotack.problem import Problem
+from viscotack.problem import Problem, Scales
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.series.simulated import part_of, posed_contact
 
 from .release import Release
 
@@ -33,7 +34,7 @@ class Released:
     time, drive, depth, force : ndarray, shape (n,)
         Time [s], positions of drive and indenter [m], force [N], positive in compression.
     drive_speed : ndarray, shape (n,)
-        Speed of the drive until the next tick [m/s]; nan at the last one.
+        Speed of the drive until the next tick [m/s], positive into the solid.
     pull_off_force : float
         Largest tension of all steps of the simulation [N].
     wanted : float
@@ -87,7 +88,7 @@ def let_go(
     ------
     ValueError
         If the protocol has moves or a spring, the controller was used before, or the contact does
-        not let go within three times the time of the table.
+        not let go within three times the time of the table or within the time limit.
     """
     test = problem.protocol
     if test.moves or test.stiffness is not None:
@@ -97,33 +98,41 @@ def let_go(
         )
     if release.ticks:
         raise InputError("the controller was used before; make a new one")
-    unit = problem.scales()
-    speed, period = unit.length / unit.time, release.period / unit.time
+    unit, settings = problem.scales(), Settings.for_accuracy(accuracy)
     longest = _LONGEST * float(release.table.travel[:, 2].max()) / release.speed
     fastest = release.fastest if release.fastest < inf else 100 * release.speed
     with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
-        contact = LiveContact(
-            problem.groups(),
-            release.stiffness * unit.length / unit.force,
-            fastest=fastest / speed,
-            period=period,
-            longest=longest / unit.time,
-            settings=Settings.for_accuracy(accuracy),
-        )
-        drive = contact.now.depth * unit.length + contact.now.force * unit.force / release.stiffness
-        rows = []
-        for tick in range(int(longest / release.period) + 1):
-            now = contact.now
-            force = now.force * unit.force
-            moves = release.drive_speed(drive, force)
-            rows.append((tick * release.period, drive, now.depth * unit.length, force, moves))
-            contact.move(moves / speed, period)
-            drive += moves * release.period
-            if contact.apart or (release.past and -force < _GONE * release.tension):
-                break
-        else:
-            raise InputError(f"the contact did not let go within {longest:.3g} s")
+        try:
+            posed = posed_contact(problem, settings)
+            first = settings.first_travel * posed.contact.travel * unit.length / fastest
+            least = min(first, release.period)
+            contact = LiveContact(
+                part_of(posed, settings, least, longest),
+                release.stiffness * unit.length / unit.force,
+                least_step=least / unit.time,
+                settings=settings,
+            )
+            rows = _driven(contact, release, unit, longest)
+        except TimeUp as limit:
+            raise InputError(f"{limit} before the contact let go; give more time") from None
     time, drives, depth, forces, moved = np.array(rows).T
     return Released(
         time, drives, depth, forces, moved, contact.tension * unit.force, release.wanted
     )
+
+
+def _driven(
+    contact: LiveContact, release: Release, unit: Scales, longest: float
+) -> list[tuple[float, ...]]:
+    """Return time, drive, depth, force and speed of the drive at every tick until it let go."""
+    rows, now = [], contact.now
+    drive = now.depth * unit.length + now.force * unit.force / release.stiffness
+    for tick in range(int(longest / release.period) + 1):
+        depth, force = contact.now.depth * unit.length, contact.now.force * unit.force
+        moves = release.drive_speed(drive, force)
+        rows.append((tick * release.period, drive, depth, force, moves))
+        contact.move(moves * unit.time / unit.length, release.period / unit.time)
+        drive += moves * release.period
+        if contact.apart or (release.past and -force < _GONE * release.tension):
+            return rows
+    raise InputError(f"the contact did not let go within {longest:.3g} s")
