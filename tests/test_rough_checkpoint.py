@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from test_rough_file import BUMPS, MAP, SMALL
 from viscotack.errors import InputError
 from viscotack.operations import ask
 from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
@@ -149,31 +150,7 @@ def test_a_checkpoint_of_something_else_is_refused(tmp_path):
 
 def test_the_command_keeps_its_run(tmp_path):
     file = tmp_path / "bumps.toml"
-    file.write_text(
-        """
-        [surface]
-        kind = "bumps"
-        pixels = 16
-        pixel = "10 um"
-        radius = "200 um"
-        spacing = "80 um"
-        height = "5 um"
-
-        [material]
-        model = "elastic"
-        rubbery_modulus = "0.75 MPa"
-        poisson_ratio = 0.5
-
-        [interface]
-        law = "lennard-jones"
-        work_of_adhesion = "100 mJ/m^2"
-        equilibrium_gap = "1.5 um"
-
-        [protocol]
-        preload_depth = "1 um"
-        speed = "20 um/s"
-        """
-    )
+    file.write_text(SMALL.replace(MAP, BUMPS))
     given = {"file": str(file), "accuracy": 0.02, "checkpoint": str(tmp_path / "run.npz")}
     first = ask("rough", **given).record()
     assert (tmp_path / "run.npz").exists()
