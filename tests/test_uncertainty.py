@@ -95,6 +95,18 @@ def test_a_wide_tier_is_an_input_of_its_own(monkeypatch, lens):
     assert variance > 0 and wide == pytest.approx(81 * variance, rel=0.03)
 
 
+def test_an_interval_down_to_zero_is_refused(monkeypatch):
+    from viscotack.forecast import uncertainty as module
+
+    def vague(problem, budget):
+        found = vt.predict(problem, budget=budget)
+        return replace(found, interval=(0.0, found.interval[1]))
+
+    monkeypatch.setattr(module, "predict", vague)
+    with pytest.raises(vt.OutOfRange, match="reaches down to 0, so that its width is unknown"):
+        vt.uncertainty(CASE, {RADIUS: 0.05}, samples=8)
+
+
 @pytest.mark.parametrize(
     "deviations, more, words",
     [

@@ -23,7 +23,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.campaign.columns import kind_of_problem
-from viscotack.errors import InputError
+from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Case
 
 from .answer import predict
@@ -134,7 +134,7 @@ def uncertainty(
     Raises
     ------
     OutOfRange
-        If no tier predicts the problem at a drawn point.
+        If no tier predicts the problem at a drawn point, or only with an interval down to zero.
     ValueError
         If a path is unknown, has no number, or a deviation is out of range; or for too few samples.
 
@@ -158,7 +158,7 @@ def uncertainty(
     pieces = []
     for done, row in enumerate(z):
         inputs = dict(zip(names, (means * np.exp(s * row)).tolist(), strict=True))
-        pieces.append(predict(kind.problem(inputs), budget=budget))
+        pieces.append(_bounded(predict(kind.problem(inputs), budget=budget)))
         progress((done + 1) / (samples + 1))
     logs = np.log([_in_unit(x) for x in pieces])
     deviate = NormalDist().inv_cdf(0.95)  # of intervals of the tiers, which hold nine of ten
@@ -221,6 +221,16 @@ def _normals(count: int, points: int, seed: int) -> Array:
     whole = 1 << (points - 1).bit_length()
     drawn = qmc.Sobol(count, rng=np.random.default_rng(seed)).random(whole)[:points]
     return truncnorm.ppf(drawn, -_CUT, _CUT)
+
+
+def _bounded(found: Prediction) -> Prediction:
+    """Return a prediction whose interval has logarithms; raise an error for another."""
+    if not 0 < found.interval[0] < np.inf:
+        raise OutOfRange(
+            f"the interval of the tier {found.method!r} reaches down to {found.interval[0]:g}, so "
+            "that its width is unknown; give more budget or smaller deviations"
+        )
+    return found
 
 
 def _in_unit(found: Prediction) -> float:
