@@ -1,8 +1,8 @@
-"""Numbers of a problem by name, and the problem with one of them changed.
+"""The problem with one of its numbers changed by a little, for derivatives.
 
-A number is named by its place: ``material.tau0``, ``protocol.start.force``,
-``material.branches.2.modulus``. In dimensionless groups the names are those of the groups:
-``rate``, ``start.depth``.
+A number is named by its path, as in campaigns: ``material.tau0``, ``protocol.start.force``, and
+``material.branches.2.0`` and ``.1`` for modulus and time of an arm. In dimensionless groups the
+names are those of the groups: ``rate``, ``start.depth``.
 """
 
 from __future__ import annotations
@@ -15,8 +15,6 @@ from typing import Any
 from viscotack.errors import InputError
 from viscotack.problem.problem import Case, Groups
 
-# Names of the two numbers of a pair, by the field that has a list of pairs.
-_PAIRS = {"branches": ("modulus", "time")}
 # Relative change of a number to both sides of its value. Dimensionless groups are checked to 1e-6,
 # so that a change by less would pass where no change is possible.
 _CHANGE = 1e-4
@@ -51,19 +49,6 @@ class Changed:
     def groups(self) -> tuple[Groups, Groups]:
         """The dimensionless problems with the smaller and the larger value."""
         return self.low.groups(), self.high.groups()
-
-
-def inputs_of(problem: Case) -> dict[str, float]:
-    """Return the numbers of a problem that are not zero, by name.
-
-    Examples
-    --------
-    >>> from viscotack import AtDepth, Groups, StandardSolid
-    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    >>> inputs_of(Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=3.0))["start.depth"]
-    10.0
-    """
-    return {_name(path): value for path, value in _numbers(problem, ()) if value}
 
 
 def changed(problem: Case, names: Iterable[str] | None = None) -> list[Changed]:
@@ -143,7 +128,4 @@ def _at(thing: Any, path: tuple[Any, ...]) -> float:
 
 
 def _name(path: tuple[Any, ...]) -> str:
-    words = [str(part) for part in path]
-    if len(path) > 2 and path[-3] in _PAIRS and isinstance(path[-1], int):
-        words[-1] = _PAIRS[path[-3]][path[-1]]
-    return ".".join(words)
+    return ".".join(map(str, path))
