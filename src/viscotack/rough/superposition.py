@@ -72,7 +72,7 @@ class Superposition:
     Attributes
     ----------
     curve : Curve
-        Tension by position of the plate; positions increase into the solid.
+        Force by position of the plate, positive in compression; positions increase into the solid.
     asperities : Asperities
         All summits.
     touching : int

@@ -89,7 +89,8 @@ def moved(surrogate: Surrogate, columns: Mapping[str, npt.ArrayLike], *, error: 
     for shift, smooth, length in itertools.product(_SHIFTS, _SMOOTH, _LENGTHS):
         covariance = shift**2 + smooth**2 * correlation(points, points, length)
         factor = np.linalg.cholesky(covariance + noise * np.eye(len(left)))
-        inverse = np.linalg.inv(factor).T @ np.linalg.inv(factor)
+        half = np.linalg.inv(factor)
+        inverse = half.T @ half
         likely = -0.5 * left @ inverse @ left - np.log(np.diag(factor)).sum()
         likely -= (shift + smooth) / _LITTLE
         if best is None or likely > best[0]:
