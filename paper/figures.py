@@ -24,7 +24,7 @@ STYLE = {
 SPEEDS = 10.0 ** np.arange(-3, 5.01, 0.1)
 # Speeds of the zones that are drawn, rates and Tabor numbers of contacts.
 ZONES = (0.0, 1.0, 100.0)
-TABOR, RATES = (10.0, 100.0, 1000.0), 10.0 ** np.arange(-3, 4.01, 0.25)
+TABOR, RATES = (10.0, 100.0, 1000.0), 10.0 ** np.arange(-3, 4.01, 0.5)
 CYCLE_RATES = 10.0 ** np.arange(-2.5, 3.01, 0.5)
 
 
@@ -163,12 +163,8 @@ def contacts():
     figure, axes = _panels(3, height=2.4)
     left, middle, right = axes
     for colour, tabor in zip(COLOURS, TABOR, strict=False):
-        several = [
-            vt.Groups(tabor=tabor, material=solid(0.1), start=vt.AtRadius(4.0), rate=r * tabor)
-            for r in RATES
-        ]
-        found = vt.methods.crack_contacts(several)
-        good = [(r, c.pull_off_force) for r, c in zip(RATES, found, strict=True) if _answered(c)]
+        found = [(rate, _from_rest(tabor, rate)) for rate in RATES]
+        good = [(rate, force) for rate, force in found if np.isfinite(force)]
         left.semilogx(*zip(*good, strict=True), color=colour, label=f"$\\mu$ = {tabor:g}")
     left.set(xlabel=r"rate $r\tau/(\mu h_0)$", ylabel=r"pull-off force / JKR's", ylim=(0, None))
     left.legend()
@@ -184,8 +180,15 @@ def contacts():
     return figure
 
 
-def _answered(found):
-    return isinstance(found, vt.CrackContact) and found.pull_off_force is not None
+def _from_rest(tabor, rate):
+    """Return the pull-off force from a relaxed start, nan where the theory does not hold."""
+    groups = vt.Groups(
+        tabor=tabor, material=solid(0.1), start=vt.AtRadius(4.0), rate=rate * tabor
+    )
+    try:
+        return vt.crack_contact(groups).pull_off_force
+    except vt.OutOfRange:
+        return np.nan
 
 
 def _cycle(rate, tabor=30.0):

@@ -24,7 +24,7 @@ ZONE = (1.1, 20.0)
 ELASTIC_TABOR = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
 # Tabor numbers and speeds of spheres whose edge moves, modulus ratio 0.1.
 MOVING = ((10.0, 1.0), (10.0, 10.0), (30.0, 10.0), (30.0, 100.0), (100.0, 100.0), (200.0, 10.0))
-_REFINED = (1.0, 1.5)
+_REFINED = (1.0, 2.0)
 
 
 def solids(modulus_ratio, exponent):

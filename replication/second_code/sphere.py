@@ -57,15 +57,18 @@ def operator(r):
     half = np.diff(r)[:, None] / 2
     s = (r[:-1, None] + half * (1 + points)).ravel()
     w = (half * weights).ravel()
-    t = np.maximum(r, s[:, None])
-    root = np.sqrt(t**2 - s[:, None] ** 2)
-    # moments of 1 and t over each element, beyond s
-    first = np.diff(root, axis=1)
-    second = np.diff((t * root + s[:, None] ** 2 * np.log(t + root)) / 2, axis=1)
-    dr = np.diff(r)
+    # over q = sqrt(t^2 - s^2), in which t is smooth; differences of radii without cancellation
+    dr, low = np.diff(r), np.maximum(r[:-1], s[:, None])
+    high = np.maximum(r[1:], s[:, None])
+    first, last = (np.sqrt((x - s[:, None]) * (x + s[:, None])) for x in (low, high))
     B = np.zeros((s.size, r.size))
-    B[:, 1:] += (second - r[:-1] * first) / dr
-    B[:, :-1] += (r[1:] * first - second) / dr
+    for point, weight in zip(points, weights, strict=True):
+        q = first + (last - first) / 2 * (1 + point)
+        t = np.sqrt(q**2 + s[:, None] ** 2)
+        beyond = (q - first) * (q + first) / (t + low) + (low - r[:-1])
+        part = weight * (last - first) / 2
+        B[:, 1:] += part * beyond / dr
+        B[:, :-1] += part * (1 - beyond / dr)
     mass = np.zeros(r.size)
     mass[1:] += dr * (r[:-1] + 2 * r[1:]) / 6
     mass[:-1] += dr * (2 * r[:-1] + r[1:]) / 6
