@@ -1,7 +1,7 @@
 """Build the manuscript: ``make paper``, or ``python -m paper.build``.
 
 Computes its numbers, tables and figures, compares kept numbers with quick recomputations, and runs
-Sphinx: HTML in out/paper/html, and out/paper/manuscript.pdf where latexmk and pdflatex are installed.
+Sphinx: HTML in out/paper/html, and out/paper/manuscript.pdf if latexmk and pdflatex are installed.
 """
 
 import argparse
@@ -51,7 +51,9 @@ def main():
     source(folder)
     sphinx("html", folder, OUT / "html")
     print(f"{OUT / 'html' / 'manuscript.html'}")
-    if asked.no_pdf or not (shutil.which("latexmk") and shutil.which("pdflatex")):
+    if asked.no_pdf:
+        return
+    if not (shutil.which("latexmk") and shutil.which("pdflatex")):
         print("no PDF: needs latexmk and pdflatex")
         return
     latex = OUT / "latex"

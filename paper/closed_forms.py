@@ -1,8 +1,8 @@
 r"""Closed forms for the energy of an opening crack, each with its length over the strength.
 
-All have the form :math:`1/\Gamma = c + \sum_j w_j \psi(t/\tau_j)`, with t the time in which a zone
-of length :math:`l \Gamma` passes, :math:`V = l \Gamma/t`; they differ in the response psi of a mode and
-in l. Units as in :mod:`viscotack.theory.crack.steady`.
+All have the form :math:`1/\Gamma = c + \sum_j w_j \psi(t/\tau_j)`, with t the time in which a
+zone of length :math:`l \Gamma` passes, :math:`V = l \Gamma/t`; they differ in the response psi of a
+mode and in l. Units as in :mod:`viscotack.theory.crack.steady`.
 """
 
 import numpy as np

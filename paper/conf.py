@@ -1,4 +1,4 @@
-"""Settings of Sphinx for the manuscript, which `paper.build` copies beside its numbers and figures."""
+"""Settings of Sphinx for the manuscript; `paper.build` copies them beside its numbers."""
 
 import json
 from pathlib import Path
@@ -15,5 +15,13 @@ math_number_all = False
 html_theme = "alabaster"
 html_theme_options = {"nosidebar": True, "page_width": "60em"}
 html_show_sourcelink = False
-latex_elements = {"papersize": "a4paper", "pointsize": "10pt", "extraclassoptions": "oneside,openany"}
+latex_elements = {
+    "papersize": "a4paper",
+    "pointsize": "10pt",
+    "preamble": r"""
+\DeclareUnicodeCharacter{2212}{\ensuremath{-}}
+\DeclareUnicodeCharacter{0393}{\ensuremath{\Gamma}}
+\DeclareUnicodeCharacter{00B5}{\ensuremath{\mu}}
+""",
+}
 latex_documents = [("manuscript", "manuscript.tex", project, author, "howto")]

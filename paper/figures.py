@@ -1,6 +1,7 @@
 """Figures of the manuscript, from its numbers."""
 
 import matplotlib as mpl
+import matplotlib.ticker
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -53,8 +54,8 @@ def energies():
         )
     left.axhline(1, color="0.7", lw=0.6)
     left.set_xlabel(r"speed $|V|$")
-    left.set_ylabel(r"energy $\Gamma$ (opening above 1, closing below)")
-    left.legend(title="lines: package, circles: second code", title_fontsize=7)
+    left.set_ylabel(r"energy $\Gamma$")
+    left.legend(loc="upper left")
     for colour, form in zip(COLOURS, closed_forms.FORMS, strict=False):
         length = closed_forms.length_of_strength(form, crack(0.1).traction.reduced().strength)
         off = closed_forms.deviations(form, SPEEDS, crack(0.1), length)
@@ -65,7 +66,8 @@ def energies():
     right.axhline(0, color="0.7", lw=0.6)
     right.set_xlabel(r"speed $V$")
     right.set_ylabel("deviation from the steady crack, %")
-    right.legend(title="solid: strength, dashed: best length", title_fontsize=7)
+    right.set_ylim(None, 42)
+    right.legend(loc="upper left")
     return figure
 
 
@@ -79,12 +81,14 @@ def zones():
         left.plot(profile.position / scale, profile.gap, color=colour, label=f"V = {speed:g}")
         right.plot(profile.middle / scale, profile.traction, color=colour)
         left.plot(own.position[::3] / scale, own.gap[::3], "o", ms=3, mfc="none", color=colour)
-        right.plot(own.position[::3] / scale, own.traction[::3], "o", ms=3, mfc="none", color=colour)
+        right.plot(
+            own.position[::3] / scale, own.traction[::3], "o", ms=3, mfc="none", color=colour
+        )
     left.set(xlim=(-1, 4), ylim=(0.9, 6), ylabel=r"gap $h/h_0$")
     right.set(xlim=(-1, 4), ylim=(-0.1, 1.1), ylabel=r"tension $\sigma h_0/\Delta\gamma$")
     for ax in (left, right):
         ax.set_xlabel(r"position $x/(\Gamma\lambda)$")
-    left.legend(title="lines: package, circles: second code", title_fontsize=7)
+    left.legend()
     return figure
 
 
@@ -97,7 +101,9 @@ def coefficients():
         for colour, k in zip(COLOURS, (0.1, 0.01), strict=False):
             own = [r for r in rows if r["k"] == k]
             speeds = [r["speed"] for r in own]
-            ax.semilogx(speeds, [r[name] for r in own], "o-", ms=3, color=colour, label=f"k = {k:g}")
+            ax.semilogx(
+                speeds, [r[name] for r in own], "o-", ms=3, color=colour, label=f"k = {k:g}"
+            )
         ax.set(xlabel=r"speed $V$", ylabel=label)
     axes[0].set_ylim(0, None)
     axes[0].legend()
@@ -129,7 +135,9 @@ def quasi_steady():
         ylabel=r"(factor − 1) $a/(\Gamma\lambda)$",
         ylim=(0, None),
     )
-    ax.legend(title="circles: second code, lines: derived", title_fontsize=7)
+    ax.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
+    ax.set_xticks([3, 5, 10, 20], ["3", "5", "10", "20"])
+    ax.legend()
     return figure
 
 
@@ -182,9 +190,7 @@ def contacts():
 
 def _from_rest(tabor, rate):
     """Return the pull-off force from a relaxed start, nan where the theory does not hold."""
-    groups = vt.Groups(
-        tabor=tabor, material=solid(0.1), start=vt.AtRadius(4.0), rate=rate * tabor
-    )
+    groups = vt.Groups(tabor=tabor, material=solid(0.1), start=vt.AtRadius(4.0), rate=rate * tabor)
     try:
         return vt.crack_contact(groups).pull_off_force
     except vt.OutOfRange:

@@ -1,6 +1,6 @@
 r"""Coefficients of the first-order correction of the steady crack in a round contact.
 
-Notation of section 4 of the manuscript: with x = r - a and the fields multiplied by sqrt(r/a) the
+Notation of section 5 of the manuscript: with x = r - a and the fields multiplied by sqrt(r/a) the
 round contact obeys the plane equations up to terms of order 1/a^2. The terms of order 1/a are
 
 * the factors (1 + x/2a) of tractions and (1 - x/2a) of openings;
@@ -93,6 +93,7 @@ def kept_rows():
 
 
 def main():
+    """Compute and keep all rows."""
     rows = [{key: float(f"{x:.6g}") for key, x in row.items()} for row in kept_rows()]
     KEPT.write_text(json.dumps({"rows": rows}, indent=1) + "\n")
 

@@ -151,7 +151,8 @@ def tables():
             lines.append(f"| {name}, {word} | " + " | ".join(f"{x:.4g}" for x in values) + " |")
     found["energies"] = lines
     lines = [
-        "| solid | form | length of the strength: deviation | best length over it | deviation left |",
+        "| solid | form | deviation with the length of the strength | best length over it "
+        "| deviation left |",
         "|---" * 5 + "|",
     ]
     for k, n in SOLIDS:

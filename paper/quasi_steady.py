@@ -1,10 +1,10 @@
-"""Pull-off of spheres whose edge has one speed: the derived coefficient beside a full solution.
+r"""Pull-off of spheres whose edge has one speed: the derived coefficient beside a full solution.
 
     python -m paper.quasi_steady
 
-The second code (:mod:`replication.second_code.sphere`) solves the round contact with the memory of an edge
-of a steady speed. Without changes of the speed and of the energy the derived factor is
-:math:`1 + T \\lambda/a`. Keeps `paper/kept/quasi_steady.json`.
+The second code (:mod:`replication.second_code.sphere`) solves the round contact with the memory of
+an edge of a steady speed. Without changes of the speed and of the energy the derived factor is
+:math:`1 + T \lambda/a`. Keeps `paper/kept/quasi_steady.json`.
 """
 
 import json
@@ -53,6 +53,7 @@ def rows_of(speed):
 
 
 def main():
+    """Compute and keep all rows."""
     rows = [
         {key: float(f"{x:.7g}") for key, x in row.items()} for v in SPEEDS for row in rows_of(v)
     ]

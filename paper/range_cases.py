@@ -2,10 +2,10 @@
 
     python -m paper.range_cases --count 80
 
-Draws spheres from rest whose zone is 1/64 to 1/4 of the contact radius (effective Tabor number of 2 to
-8) and whose edge travels many zones, simulates them with the boundary-element solver, and keeps in
-`paper/kept/range_cases.json` the simulated pull-off force with the problem. Rows that are kept are
-not simulated again. Half of the solids are standard, the other half power laws.
+Draws spheres from rest with effective Tabor numbers of 2 to 8 whose edge travels many zones,
+simulates them with the boundary-element solver, and keeps in `paper/kept/range_cases.json` the
+simulated pull-off force with the problem. Rows that are kept are not simulated again. Half of the
+solids are standard, the other half power laws.
 """
 
 import argparse
@@ -86,6 +86,7 @@ def simulated(row):
 
 
 def main():
+    """Simulate and keep all rows."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=80)
     count = parser.parse_args().count

@@ -2,14 +2,14 @@ r"""The range factor of the pull-off force: the rule of the package beside the d
 
     python -m paper.range_factor
 
-For each kept simulation of :mod:`.range_cases` computes the pull-off force of forces of no range, the
-factor f of the package at the effective Tabor number, and the first-order factor of section 4,
+For each kept simulation of :mod:`.range_cases` computes the pull-off force of forces of no range,
+the factor f of the package at the effective Tabor number, and the first-order factor of section 5,
 
 .. math:: 1 + (T + g T_g + n T_n) \frac{\lambda}{a}, \quad g = \frac{d \ln \Gamma}{d \ln a}, \quad
           n = \frac{d \ln V}{d \ln a},
 
-with coefficients of the steady crack at the speed of pull-off (:mod:`.line_tension`) and the slopes of
-the same theory. Keeps `paper/kept/range_factor.json`; rows that are kept are not computed again.
+with coefficients of the steady crack at the speed of pull-off (:mod:`.line_tension`) and the slopes
+of the same theory. Keeps `paper/kept/range_factor.json`; rows that are kept are not computed again.
 """
 
 import json
@@ -29,8 +29,8 @@ KEPT = Path(__file__).with_name("kept") / "range_factor.json"
 # Radii within which the coefficients are computed, over that of the zone [Gamma E0* h0^2/dg], and
 # elements.
 RADII, ELEMENTS = (8.0, 32.0), 60
-# Radius up to which the tail of the law counts, over that of the contact: elastic pull-off forces at
-# a Tabor number of 10 have the coefficient within this radius.
+# Radius up to which the tail of the law counts, over that of the contact: elastic pull-off forces
+# at a Tabor number of 10 have the coefficient within this radius.
 CUT = 0.075
 _AROUND = 4
 
@@ -89,6 +89,7 @@ def row_of(case):
 
 
 def main():
+    """Compute and keep all rows."""
     rows = json.loads(KEPT.read_text())["rows"] if KEPT.exists() else []
     known = {row["i"] for row in rows}
     for case in json.loads(CASES.read_text())["rows"]:

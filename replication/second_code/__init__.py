@@ -1,1 +1,1 @@
-"""Steady cracks and pull-offs by formulations that share nothing with the package but the statement."""
+"""Steady cracks and pull-offs by other formulations than those of the package."""

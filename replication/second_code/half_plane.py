@@ -13,7 +13,7 @@ The opening w of the viscoelastic solid lags behind e along the boundary, :math:
 w_j d_j`, :math:`l_j d_j' = e - d_j`. At the outer radius :math:`\phi = A \sqrt\rho
 \cos(\theta/2)`; the energy is :math:`\Gamma = \pi A^2/16`. Gaps are in h0, lengths in E0* h0^2/dg,
 stresses in dg/h0. A mesh from 1e-3 to 1e6 needs some hundred elements, because the radii are
-geometric; so a closing crack, whose memory comes from the open side, is solved by the same equations.
+geometric; so the same equations hold for a closing crack, whose memory comes from the open side.
 """
 
 from __future__ import annotations
@@ -96,7 +96,10 @@ def _lobatto(n):
     to_legendre = np.linalg.inv(vandermonde)
     at = np.polynomial.legendre.legvander(points, n - 1) @ to_legendre
     slopes = np.stack(
-        [np.polynomial.legendre.legval(points, np.polynomial.legendre.legder(c)) for c in np.eye(n)],
+        [
+            np.polynomial.legendre.legval(points, np.polynomial.legendre.legder(c))
+            for c in np.eye(n)
+        ],
         axis=1,
     )
     slope = slopes @ to_legendre

@@ -2,9 +2,10 @@ r"""Pull-off of a sphere by a Galerkin method in Abel's variable, with the law o
 
 A second formulation of the round contact: no elliptic integrals and nothing of the package. With
 :math:`b(s) = \int_s^\infty t \, \sigma(t) \, dt/\sqrt{t^2 - s^2}` the tensions raise the relaxed
-surface by :math:`u(r) = \frac4\pi \int_0^r b(s) \, ds/\sqrt{r^2 - s^2}` over E0*, so that the matrix of
-linear elements is :math:`\frac4\pi B^T W B`. The opening of the relaxed solid is :math:`e = r^2/2
-- D - u`, the gap :math:`h_0 + w`, and w lags behind e for an edge that recedes at a steady speed.
+surface by :math:`u(r) = \frac4\pi \int_0^r b(s) \, ds/\sqrt{r^2 - s^2}` over E0*, so that the
+matrix of linear elements is :math:`\frac4\pi B^T W B`. The opening of the relaxed solid is
+:math:`e = r^2/2 - D - u`, the gap :math:`h_0 + w`, and w lags behind e for an edge that recedes at
+a steady speed.
 
 The contact is sought for a given place of the edge, where half of the work of adhesion is done, so
 its unknowns are e and the depth D. The pull-off is the largest tension over all places: an elastic
@@ -21,7 +22,7 @@ import numpy as np
 
 from .half_plane import Solid, half_gap, lennard_jones, memory
 
-# Spacing at the edge over the zone, growth of the elements, largest radius over that of the contact.
+# Spacing at the edge over the zone, growth of the elements, largest radius over the contact's.
 SPACING, GROWTH, OUTER = 0.06, 0.07, 30.0
 _GAUSS, _ROUNDS, _CLOSE, _LEAST_GAP = 4, 80, 1e-10, 0.6
 # Places of the edge around the guess, for the parabola through the largest tension.
@@ -95,7 +96,7 @@ def pull_off(tabor, *, solid=None, speed=0.0, energy=1.0, refined=1.0):
 
 
 def _contact(tabor, edge, zone, solid, speed, energy, refined):
-    """Return tension, depth, radii, gaps [h0] and tractions of a contact with its edge at a place."""
+    """Return tension, depth, radii, gaps [h0] and tractions for a place of the edge."""
     r, middle = mesh(edge, zone, refined=refined)
     rise, mass = operator(r)
     solid = Solid(1.0, ()) if solid is None else solid
