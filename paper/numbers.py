@@ -11,7 +11,7 @@ import numpy as np
 
 import viscotack as vt
 from replication.second_code.compare import elastic, plane
-from viscotack.theory import SteadyCrack, jkr, lennard_jones
+from viscotack.theory import SteadyCrack, jkr, lennard_jones, maugis
 
 from . import closed_forms
 from .quasi_steady import CUT
@@ -114,6 +114,14 @@ def bounded(first):
     return 1 + first / (1 + 3 * first)
 
 
+def dugdale(strength):
+    """Return l/a and (f - 1) a/l of Maugis' solution at a strength, radius and energy being 1."""
+    case = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+    force = float(maugis.pull_off_force(**case, strength=strength)) / (1.5 * np.pi)
+    size = np.pi / (4 * strength**2) / (9 * np.pi / 8) ** (1 / 3)
+    return size, (force - 1) / size
+
+
 def factors():
     """Return arrays of the simulated spheres: effective Tabor number, size, factors, and mask."""
     rows = kept("range_factor")["rows"]
@@ -126,6 +134,8 @@ def factors():
         "simulated": np.array([row["simulated"] for row in rows]),
         "rule": np.array([row["package"] for row in rows]),
         "first": 1 + first,
+        "geometry": 1 + np.array([trajectory(row) * row["T"] * row["size"] for row in rows]),
+        "glassy": energy * k >= NOT_GLASSY,
         "bounded": bounded(first),
         "inside": (energy > MOVING) & (energy * k < NOT_GLASSY),
         "energy": energy,
@@ -227,6 +237,10 @@ def numbers():
     off = {name: abs(data[name] / data["simulated"] - 1)[inside] for name in ("rule", "bounded")}
     far = inside & (data["effective"] > 5)
     bound = kept("work-bound")["numbers"]
+    elastic_T = kept("line_tension")["elastic"]
+    slopes = np.diff([r["T"] for r in elastic_T]) / np.diff(
+        np.log([r["radius"] for r in elastic_T])
+    )
     form = {
         name: closed_forms.deviations(
             name,
@@ -266,6 +280,16 @@ def numbers():
         "derived_worst": _percent(off["bounded"].max(), 2),
         "rule_far": _signed((data["rule"] / data["simulated"] - 1)[far].mean(), 2),
         "derived_far": _signed((data["bounded"] / data["simulated"] - 1)[far].mean(), 2),
+        "geometry_far": _signed((data["geometry"] / data["simulated"] - 1)[far].mean(), 2),
+        "near_glassy": str(int(data["glassy"].sum())),
+        "glassy_rule": _percent(
+            np.max(np.abs(data["rule"] / data["simulated"] - 1)[data["glassy"]]), 2
+        ),
+        "dugdale_far": f"{dugdale(40.0)[1]:.5f}",
+        "dugdale_size": f"{dugdale(40.0)[0]:.4f}",
+        "dugdale_near": f"{dugdale(5.0)[1]:.4f}",
+        "dugdale_large": f"{dugdale(5.0)[0]:.3f}",
+        "log_slope": f"{min(slopes):.3f} to {max(slopes):.3f}",
         "first_far": _signed((data["first"] / data["simulated"] - 1)[far].mean(), 2),
         "cut": f"{CUT:g}",
         "accuracy": f"{kept('range_cases')['accuracy']:g}",
