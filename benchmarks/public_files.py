@@ -645,9 +645,9 @@ python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RH
 ```
 
 Files marked "asked" do not state a unit, or whether a modulus is tensile or shear. The refusal
-names the options; with them the numbers equal those of the independent parse. For a file without headings
-the refusal has an example of `--columns`. Of a workbook with several sheets of tests the first one
-is read, with a note.
+names the options; with them the numbers equal those of the independent parse. For a file without
+headings the refusal has an example of `--columns`. Of a workbook with several sheets of tests
+the first one is read, with a note.
 
 | repository | outcome | files |
 |---|---|---:|

@@ -43,7 +43,7 @@ def check_shape(shape: Any, *, size: float = 1e-4, thorough: bool = True) -> Rep
     """
     checks = (_profile, _units, _theory, _record, _case_file)
     more = (_campaign, _contact) if thorough else ()
-    return report(shape, checks + more, size)
+    return report(shape, checks + more, size, room="shapes")
 
 
 def _profile(shape: Any, size: float) -> Iterator[Finding]:
