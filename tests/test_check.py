@@ -317,7 +317,7 @@ def answers_or_refuses(row):
         return "refused"
     if isinstance(found, vt.Result):
         assert found.energy_residual is None or abs(found.energy_residual) < 0.05
-        # a flat end on springs lets go everywhere at once, and has no edge at its largest force
+        # a flat end on springs detaches everywhere at once, and has no edge at its largest force
         edgeless = isinstance(shape, vt.Disc) and body is FACTORS["body"]["foundation"]
         of_edge = observable is observables.contact_radius_at_pull_off
         assert np.isfinite(observable(found)) or (edgeless and of_edge)

@@ -22,11 +22,15 @@ TICS = {
     r"\bdoors?\b": "front end",
     r"\bonce more\b": "again",
     r"\bso many\b": "a number",
-    r"\bgoes? on\b": "continue",
+    r"\b(goes?|going) on\b": "continue",
+    r"\bstands? (for|on)\b": "represents, depends on",
+    r"\bat once\b": "at a time, in parallel, immediately",
+    r"\blet(s|ting)? go\b": "release, detach",
+    r"\b(comes?|came) off\b": "detach",
+    r"\b(is|are|be) asked for\b": "needed, requested",
     r"\bwhoever\b": "the user",
-    r"\blet(s)? go of\b": "release, detach",
     r"\bstands? twice\b": "duplicate",
-    r"\bsays (what|which|how|why|so|it|that)\b": "states, contains, determines",
+    r"\bsays\b": "states, contains, determines",
 }
 
 
@@ -47,7 +51,7 @@ def tics_in(path):
         f"{path.name}:{line}: {found[0]!r}; write {better}"
         for line, text in texts(path)
         for tic, better in TICS.items()
-        if (found := re.search(tic, text))
+        if (found := re.search(tic, " ".join(text.split())))
     ]
 
 
