@@ -122,7 +122,7 @@ def _by_part(kind: type[Operation]) -> tuple[list[Option], dict[type, list[Optio
 
 def _group(part: Any, found: list[Option], kind: type[Operation]) -> list[str]:
     words = cleandoc(part.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
-    where = f" In a study file they may stand in a table `[{part.table}]`." if part.table else ""
+    where = f" In a study file they may be in a table `[{part.table}]`." if part.table else ""
     rows = [_row(option, kind) for option in found]
     return [f"### Group {part.__name__}", "", f"{words}{where}", "", *_options(rows)]
 
