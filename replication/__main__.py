@@ -146,7 +146,8 @@ def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
     """Draw all there is, and measure all claims."""
     began = perf_counter()
     with Hands(workers) as hands:
-        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
+        made = out / "made" if afresh else None
+        maker = Maker(hands, afresh=afresh, archive=archive, progress=made, say=_progress)
         for each in figures():
             path = picture(each.name, maker.of(each.name), out)
             beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
@@ -154,7 +155,7 @@ def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
         text = page(maker.of)
         write_whole(out / "replication.md", text)
         typer.echo(f"{out / 'replication.md'}: every verdict stands")
-        spent = hands.seconds
+        spent = sum(maker.seconds.values()) if afresh else hands.seconds
     typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
 
 
