@@ -12,10 +12,11 @@ source of all numbers of the paragraph or table below it, which are lines of tex
     <!-- = speed.table -->
     | case | times faster |
 
-Sources are values of records; `kept.NAME.PATH` of replication/kept; and `viscotack.MODULE.NAME`,
-a constant of the package. `python benchmarks/docs_check.py` compares them, with `--write` renews
-the page, and with `--count` says how many numbers have a source. `--quote PAGE` puts marked blocks
-that no record has into a record, as the page states them: for what takes hours to measure anew.
+Sources are values of records; `computed.NAME`, what a function of `computed.py` computes now;
+`kept.NAME.PATH` of replication/kept; and `viscotack.MODULE.NAME`, a constant of the package.
+`python benchmarks/docs_check.py` compares them, with `--write` renews the page, and with `--count`
+says how many numbers have a source. `--quote PAGE` puts marked blocks that no record has into a
+record, as the page states them: for what takes hours to measure anew.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import date
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -90,18 +92,20 @@ class Quote:
 
 
 def write(name: str, values: dict[str, Any], *, command: str = "", origin: str = "") -> Path:
-    """Write a record, or the values given of one, with command, date, commit and processor."""
+    """Write a record with command, date, commit and processor, or add values to one.
+
+    Values of another origin are dropped.
+    """
     path = FOLDER / f"{name}.json"
-    before = _content(path)["values"] if path.exists() else {}
     script = Path(sys.argv[0])
     facts = {
         "command": command or " ".join(["python", f"benchmarks/{script.name}", *sys.argv[1:]]),
         "date": date.today().isoformat(),
-        "commit": commit(),
-        "processor": processor(),
     }
-    facts |= {"origin": origin} if origin else {}
-    content = facts | {"values": before | _plain(values)}
+    facts |= {"origin": origin} if origin else {"commit": commit(), "processor": processor()}
+    before = _content(path) if path.exists() else {}
+    kept = before["values"] if before.get("origin", "") == origin and before else {}
+    content = facts | {"values": kept | _plain(values)}
     FOLDER.mkdir(exist_ok=True)
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
     return path
@@ -118,6 +122,8 @@ def value(source: str) -> Any:
     first, *rest = source.split(".")
     if first == "viscotack":
         return _constant(source)
+    if first == "computed":
+        return _part(computed(rest[0]), rest[1:], source)
     path = FOLDER / f"{first}.json"
     key = "values"
     if first == "kept":
@@ -125,13 +131,17 @@ def value(source: str) -> Any:
         path, key = KEPT / f"{name}.json", "numbers"
     if not path.exists():
         raise LookupError(f"{source}: there is no record {path.name}")
-    found = _content(path)[key]
-    for part in rest:
-        try:
-            found = found[int(part) if isinstance(found, list) else part]
-        except (LookupError, ValueError, TypeError):
-            raise LookupError(f"{source}: {path.name} has no {part!r}") from None
-    return found
+    return _part(_content(path)[key], rest, source)
+
+
+@cache
+def computed(name: str) -> Any:
+    """Return what a function of `computed.py`, beside this file, computes."""
+    from computed import COMPUTED
+
+    if name not in COMPUTED:
+        raise LookupError(f"computed.{name}: computed.py has {', '.join(COMPUTED)}")
+    return COMPUTED[name]()
 
 
 def quotes(page: str, *, missing: bool = False) -> Iterator[Quote]:
@@ -160,7 +170,7 @@ def quotes(page: str, *, missing: bool = False) -> Iterator[Quote]:
 def renewed(page: str) -> str:
     """Return a page with the numbers of its sources, in the digits that it has."""
     for quote in reversed([*quotes(page)]):
-        if not quote.agrees:
+        if not (quote.agrees or quote.as_stated):
             page = page[: quote.place[0]] + quote.found + page[quote.place[1] :]
     return page
 
@@ -200,12 +210,15 @@ def quoted(page: Path) -> list[str]:
     for quote in quotes(page.read_text("utf-8"), missing=True):
         if not quote.found:
             name, _, key = quote.source.partition(".")
-            found.setdefault(name, {})[key] = quote.shown.rstrip("\n").split("\n")
+            lines = (" ".join(numbers(line)) for line in quote.shown.splitlines())
+            found.setdefault(name, {})[key] = [line for line in lines if line]
     for name, values in found.items():
         path = FOLDER / f"{name}.json"
         if path.exists() and _content(path).get("origin") != AS_STATED:
             raise LookupError(f"{path.name} was measured: a benchmark writes it")
-        write(name, values, command=f"named in {page.relative_to(ROOT)}", origin=AS_STATED)
+        script = ROOT / f"benchmarks/{name}.py"
+        words = script if script.exists() else page
+        write(name, values, command=str(words.relative_to(ROOT)), origin=AS_STATED)
     return [f"{name}.{key}" for name, values in found.items() for key in values]
 
 
@@ -242,6 +255,15 @@ def _constant(source: str) -> float:
         return float(getattr(import_module(module), name))
     except (ImportError, AttributeError) as error:
         raise LookupError(f"{source}: {error}") from None
+
+
+def _part(found: Any, names: list[str], source: str) -> Any:
+    for name in names:
+        try:
+            found = found[int(name) if isinstance(found, list) else name]
+        except (LookupError, ValueError, TypeError):
+            raise LookupError(f"{source}: its source has no {name!r}") from None
+    return found
 
 
 def _content(path: Path) -> dict[str, Any]:

@@ -219,10 +219,11 @@ def test_a_changed_digit_is_found_and_renewed(recorded, shown, wrong):
 
 def test_a_source_that_is_not_there_is_named(recorded):
     for page, words in (
-        ("7<!-- = speed.nothing -->", "speed.json has no 'nothing'"),
+        ("7<!-- = speed.nothing -->", "speed.nothing: its source has no 'nothing'"),
         ("7<!-- = haste.times -->", "there is no record"),
         ("seven<!-- = speed.times -->", "no number stands before"),
         ("<!-- = speed.times -->\n7\n", "a block needs lines of text"),
+        ("7<!-- = computed.nothing -->", "computed.nothing: computed.py has"),
         ("7<!-- = viscotack.bem.NOTHING -->", "NOTHING"),
     ):
         with pytest.raises(LookupError, match=words):
