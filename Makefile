@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz fuzz-files farm \
-	verification docs docs-check lock sbom release audit clean
+	verification history docs docs-check lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -132,6 +132,12 @@ docs-check: $(VENV)/.installed
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py
+
+# Appends ratios and counts of instructions to benchmarks/history.jsonl, draws them, and fails where one
+# has risen by more than its share. Two minutes of processor time.
+history: $(VENV)/.installed
+	$(BIN)/python benchmarks/history.py
+	$(BIN)/python benchmarks/history.py --check --figure
 
 verification: $(VENV)/.installed
 	$(BIN)/python benchmarks/verification.py --write

@@ -18,6 +18,8 @@ from viscotack.theory import SteadyCrack, punch
 from viscotack.theory.crack.steady import best_strength_ratio, compared
 
 ROOT = Path(__file__).resolve().parents[1]
+# Versions in the table of costs.
+LINES = 4
 
 
 def steady_crack() -> list[str]:
@@ -91,9 +93,22 @@ def replication() -> dict[str, float]:
     return {"parts": len(kept), "minutes": seconds / 60}
 
 
+def history() -> list[str]:
+    """Return a table of the last lines of the history of costs, a column each."""
+    lines = [json.loads(x) for x in (ROOT / "benchmarks/history.jsonl").read_text().splitlines()]
+    lines = lines[-LINES:]
+    rows = []
+    for kind, unit in (("times", ""), ("instructions", ", 1e9 instructions")):
+        for name in lines[-1][kind]:
+            found = (f"{x[kind][name]:.3g}" if name in x[kind] else "-" for x in lines)
+            rows.append(f"| {name}{unit} | {' | '.join(found)} |")
+    heads = " | ".join(f"`{line['commit']}`, {line['date']}" for line in lines)
+    return [f"| | {heads} |", "|---" + "|---:" * len(lines) + "|", *rows]
+
+
 COMPUTED: dict[str, Any] = {
     function.__name__: function
-    for function in (steady_crack, other_cracks, punch_envelope, published, replication)
+    for function in (steady_crack, other_cracks, punch_envelope, published, replication, history)
 }
 
 

@@ -132,13 +132,6 @@ def test_commands_of_the_pages_run(page, anywhere):
     run(short()[page])
 
 
-@pytest.mark.slow
-def test_studies_of_the_pages_run(anywhere):
-    assert studies()
-    for lines in studies():
-        run(lines)
-
-
 SHOWING = [page for page in docs_check.PAGES if [*docs_check.sessions(page.read_text())]]
 
 
@@ -148,10 +141,14 @@ def test_commands_print_what_the_pages_show(page, anywhere):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("page", SHOWING, ids=name)
-def test_slow_commands_print_what_the_pages_show(page, anywhere):
-    if any(s.command.startswith(STUDY) for s in docs_check.sessions(page.read_text())):
-        assert docs_check.stale(page) == {}
+def test_studies_of_the_pages_run_and_print_what_is_shown(anywhere):
+    shown = {x.command: x for page in SHOWING for x in docs_check.sessions(page.read_text())}
+    assert studies()
+    for line in (line for lines in studies() for line in lines):
+        if line in shown:
+            assert docs_check.difference(shown[line], docs_check.printed(line)) == ""
+        else:
+            run([line])
 
 
 @pytest.mark.parametrize(
