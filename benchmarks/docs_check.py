@@ -9,6 +9,7 @@ lines below it is only run, by tests/test_readme.py. How a number names its sour
 """
 
 import argparse
+import itertools
 import os
 import re
 import shlex
@@ -25,12 +26,13 @@ sys.path.insert(0, str(Path(__file__).parent))
 import records  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-# Written whole by a command; tests compare the first two, `make verification` writes the third.
+# Written whole by a command. Tests compare the first two, and this file the third.
 WHOLE = ("replication.md", "gallery.md", "verification.md", "public-files.md")
 # Half a minute each, and what needs their files.
 SLOW = ("viscotack identify rates", "viscotack forecast", "viscotack report")
 # What another processor may change, relative.
 PROCESSORS = 1e-5
+_SECONDS = re.compile(r" in \d+\.\d+ s\b")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -102,6 +104,12 @@ def _cut(shown: tuple[str, ...]) -> tuple[tuple[str, ...], bool, tuple[str, ...]
         return shown, False, ()
     place = shown.index("...")
     return shown[:place], True, shown[place + 1 :]
+
+
+def apart(shown: str, found: str) -> list[tuple[str, str]]:
+    """Return the lines in which two pages differ by more than the processor time of a run."""
+    pairs = itertools.zip_longest(shown.splitlines(), found.splitlines(), fillvalue="")
+    return [pair for pair in pairs if not agrees(*(_SECONDS.sub("", line) for line in pair))]
 
 
 def stale(page: Path, slow: bool = True) -> dict[Session, list[str]]:
@@ -182,6 +190,16 @@ def main() -> int:
         wrong += len(found)
         for session, lines in found.items():
             print(f"{page.name}: {session.command}\n  {difference(session, lines)}", flush=True)
+        if page.name == "verification.md":
+            from cases import SAMPLE
+            from verification import ROWS, measured_page
+
+            measured = measured_page(SAMPLE, ROWS)
+            lines = apart(page.read_text("utf-8"), measured)
+            wrong += len(lines)
+            print("\n".join(f"{page.name}:\n  {a}\n  {b}" for a, b in lines))
+            if given.write and lines:
+                page.write_text(measured, "utf-8")
         if given.write and found:
             page.write_text(renewed(page.read_text("utf-8"), found), "utf-8")
     print(f"{wrong} stale sessions and numbers")
