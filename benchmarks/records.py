@@ -32,6 +32,7 @@ from dataclasses import dataclass
 from datetime import date
 from functools import cache
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -249,12 +250,24 @@ def _lines(source: str, missing: bool) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _constant(source: str) -> float:
-    module, _, name = source.rpartition(".")
+def _constant(source: str) -> Any:
+    """Return a constant of a module of the package, or an element of one."""
+    module, names = source, list[str]()
+    while find_module(module) is None:
+        module, _, name = module.rpartition(".")
+        names.insert(0, name)
+    if not names or not hasattr(import_module(module), names[0]):
+        raise LookupError(f"{source}: {module} has no constant {'.'.join(names)}")
+    found = getattr(import_module(module), names[0])
+    return _part(list(found) if isinstance(found, tuple) else found, names[1:], source)
+
+
+def find_module(name: str) -> Any:
+    """Return the specification of a module, None if there is none."""
     try:
-        return float(getattr(import_module(module), name))
-    except (ImportError, AttributeError) as error:
-        raise LookupError(f"{source}: {error}") from None
+        return find_spec(name)
+    except ModuleNotFoundError:  # its parent is a module and no package
+        return None
 
 
 def _part(found: Any, names: list[str], source: str) -> Any:
