@@ -4,6 +4,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,7 @@ PAGES = [
 # docs/api.md are run by tests/test_app_command.py.
 NOT_AT_HAND = ("tcp://", "tls://", "viscotack app")
 ASKS_A_SERVER = ROOT / "docs/api.md"
+OWN = ROOT / "docs/own.md"
 # From rig files to a report takes half a minute, in the README and in docs/tack_tests.md alike.
 STUDY = docs_check.SLOW
 
@@ -44,6 +46,16 @@ def commands(page):
     """Return the lines of a page that are typed into a terminal."""
     lines = "".join(blocks(page, "console")).splitlines()
     return [line.removeprefix("$ ") for line in lines if line.strip()]
+
+
+def save_files_of(page, folder):
+    """Save the blocks whose first line names a file, as the page asks."""
+    found = re.findall(
+        r"```(?:python|toml)\n# (\w+\.(?:py|toml))\n(.*?)```", page.read_text(), re.S
+    )
+    for file, text in found:
+        (folder / file).write_text(text)
+    return [file for file, _ in found]
 
 
 def of_the_package(page):
@@ -74,6 +86,7 @@ def studies():
 def anywhere(tmp_path, monkeypatch):
     """Stand in a folder that looks like the checkout, and may be written to."""
     docs_check.stage(tmp_path)
+    save_files_of(OWN, tmp_path)
     monkeypatch.chdir(tmp_path)
 
 
@@ -91,8 +104,9 @@ def test_the_readme_fits_on_a_screen():
 
 
 def test_first_steps_have_an_example_in_python(anywhere, capsys):
-    example = blocks(ROOT / "docs/start.md", "python")[0]
-    exec(compile(example, "start.md", "exec"), {})
+    page = ROOT / "docs/first_hour.md"
+    (example,) = [block for block in blocks(page, "python") if "vt.Problem(" in block]
+    exec(compile(example, page.name, "exec"), {})
     printed = capsys.readouterr().out
     stated = re.search(r"# ([\d.]+) mN; slowly, it is ([\d.]+) mN", example)
     assert stated and printed.endswith(f"pull-off force {stated[1]} mN\n")
@@ -130,6 +144,18 @@ def run(lines):
 @pytest.mark.parametrize("page", short())
 def test_commands_of_the_pages_run(page, anywhere):
     run(short()[page])
+
+
+@pytest.mark.slow
+def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
+    files = save_files_of(OWN, tmp_path)
+    checked = [line.split()[1] for line in commands(OWN) if line.startswith("python my_")]
+    assert checked == [file for file in files if file.endswith(".py")]
+    assert len(checked) == 4
+    for file in checked:
+        done = subprocess.run([sys.executable, file], cwd=tmp_path, capture_output=True, text=True)
+        passed, of = re.search(r": (\d+) of (\d+) checks passed", done.stdout).groups()
+        assert passed == of, done.stdout
 
 
 SHOWING = [page for page in docs_check.PAGES if [*docs_check.sessions(page.read_text())]]

@@ -152,7 +152,7 @@ def _edge(problem: Problem, found: dict[str, Any]) -> None:
     """Add the curve of a moving edge on a relaxed bulk, and whether it applies."""
     try:
         curve = edge_curve(problem)
-    except InputError:  # of another test or shape, which the advisor says in words
+    except InputError:  # of another test or shape; the advisor gives the reason
         return
     if curve is None:
         return
