@@ -113,7 +113,7 @@ def coverage_of_spheres() -> list[str]:
 
 
 def coverage_of_punches() -> list[str]:
-    """Return least, median and largest value of each input and of the stress, a row for each set."""
+    """Return least, median and largest value of each input and of the stress, a row a set."""
     columns = ("size", "thickness", "cohesion", "modulus_ratio", "preload", "rate")
     names = ("punch", "punch_limits", "punch_starts")
     return _coverage(names, (*columns, "pull_off_stress"))
@@ -153,7 +153,17 @@ def history() -> list[str]:
 
 COMPUTED: dict[str, Any] = {
     function.__name__: function
-    for function in (steady_crack, other_cracks, punch_envelope, published, replication, datasets, coverage_of_spheres, coverage_of_punches, history)
+    for function in (
+        steady_crack,
+        other_cracks,
+        punch_envelope,
+        published,
+        replication,
+        datasets,
+        coverage_of_spheres,
+        coverage_of_punches,
+        history,
+    )
 }
 
 
