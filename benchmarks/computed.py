@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from steady_crack import LAWS, SPEEDS, standard
 
+from viscotack import datasets as sets
 from viscotack.theory import SteadyCrack, punch
 from viscotack.theory.crack.steady import best_strength_ratio, compared
 
@@ -93,6 +94,50 @@ def replication() -> dict[str, float]:
     return {"parts": len(kept), "minutes": seconds / 60}
 
 
+def datasets() -> dict[str, dict[str, float]]:
+    """Return rows and size of each published set."""
+    from pyarrow.parquet import read_metadata
+
+    found = {}
+    for name in sets.NAMES:
+        path = sets.path(name)
+        size = path.stat().st_size / 1e6
+        found[name] = {"rows": read_metadata(path).num_rows, "megabytes": size}
+    return found
+
+
+def coverage_of_spheres() -> list[str]:
+    """Return least, median and largest value of each input and of the force, a row for each set."""
+    columns = ("tabor", "modulus_ratio", "exponent", "preload", "rate", "pull_off_force")
+    return _coverage(("thesis", "broad", "chosen", "fast", "solids", "rough"), columns)
+
+
+def coverage_of_punches() -> list[str]:
+    """Return least, median and largest value of each input and of the stress, a row a set."""
+    columns = ("size", "thickness", "cohesion", "modulus_ratio", "preload", "rate")
+    names = ("punch", "punch_limits", "punch_starts")
+    return _coverage(names, (*columns, "pull_off_stress"))
+
+
+def _coverage(names: tuple[str, ...], columns: tuple[str, ...]) -> list[str]:
+    from pyarrow.parquet import read_table
+
+    rows = []
+    for name in names:
+        table, cells = read_table(sets.path(name)), []
+        for column in columns:
+            values = np.zeros(0)
+            if column in table.column_names:
+                values = table[column].to_numpy().astype(float)
+            values = values[np.isfinite(values)]
+            three = (values.min(), np.median(values), values.max()) if len(values) else ()
+            # one number where all rows have it
+            cells.append(", ".join(dict.fromkeys(f"{x:.3g}" for x in three)))
+        rows.append(f"| `{name}` | {' | '.join(cells)} |")
+    heads = " | ".join(f"`{column}`" for column in columns)
+    return [f"| set | {heads} |", "|---" * (len(columns) + 1) + "|", *rows]
+
+
 def history() -> list[str]:
     """Return a table of the last lines of the history of costs, a column each."""
     lines = [json.loads(x) for x in (ROOT / "benchmarks/history.jsonl").read_text().splitlines()]
@@ -108,7 +153,17 @@ def history() -> list[str]:
 
 COMPUTED: dict[str, Any] = {
     function.__name__: function
-    for function in (steady_crack, other_cracks, punch_envelope, published, replication, history)
+    for function in (
+        steady_crack,
+        other_cracks,
+        punch_envelope,
+        published,
+        replication,
+        datasets,
+        coverage_of_spheres,
+        coverage_of_punches,
+        history,
+    )
 }
 
 

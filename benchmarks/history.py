@@ -8,7 +8,7 @@ the one before and exits with 1 where a ratio rose by more than its share: 25 % 
 count. `--figure` draws `docs/history.png`.
 
 A count is that of a process that answers a problem, less that of one which only imports the same
-modules. It repeats to 1e-4 on one kind of processor; another takes other kernels of linear algebra.
+modules. It repeats to 1 % on one kind of processor; another takes other kernels of linear algebra.
 """
 
 from __future__ import annotations
