@@ -1,6 +1,6 @@
 """Rough surfaces in three dimensions, pulled off a soft body at a set rate."""
 
-from .criteria import Stickiness, stickiness
+from .criteria import LONGEST_RANGE, Stickiness, stickiness
 from .problem import RoughProblem, Zone
 from .pulling import pull
 from .result import RoughResult
@@ -8,6 +8,7 @@ from .rough_file import read_rough
 from .superposition import Superposition, superposed
 
 __all__ = [
+    "LONGEST_RANGE",
     "RoughProblem",
     "RoughResult",
     "Stickiness",
