@@ -138,8 +138,9 @@ class OfRough(Operation):
 
     def _superposed(self, caller: Caller) -> Answer:
         """Answer by superposition of asperities."""
+        from viscotack.pads import superposed
         from viscotack.pictures.rough import draw_superposition
-        from viscotack.rough import read_rough, superposed
+        from viscotack.rough import read_rough
 
         from .parts.tables import rows_as_csv
 
