@@ -124,6 +124,7 @@ audit: $(VENV)/.installed
 # The site in out/site, from every page and docstring; a warning is an error. Two minutes.
 docs: $(VENV)/.demo
 	$(INSTALL) --editable ".[docs]"
+	$(BIN)/python -m release.static_page out/extra/predict
 	$(BIN)/python -m sphinx -q -W --keep-going -b html -c docs -d out/site-cache . out/site
 
 # Runs the commands whose output the pages show, and compares; WRITE=1 renews the pages. Two minutes.

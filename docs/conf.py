@@ -55,7 +55,8 @@ napoleon_use_ivar = False
 
 html_theme = "pydata_sphinx_theme"
 html_title = "viscotack"
-html_extra_path = ["site"]
+# The page that predicts without Python, where `make docs` has written it.
+html_extra_path = ["site", *(str(p) for p in [ROOT / "out/extra"] if p.exists())]
 html_copy_source = False
 html_theme_options = {
     "header_links_before_dropdown": 7,
