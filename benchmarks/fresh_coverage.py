@@ -50,10 +50,19 @@ class Judged:
     joint: float
 
 
-def judged(case: Case, label: dict[str, Any]) -> Judged:
-    """Compare the prediction of a case with its label."""
+def answered(case: Case) -> bool:
+    """Whether the surrogates give a force of a case, so that its label is needed."""
     try:
-        said, joint = (predict(case.problem, budget=AT_ONCE, joint=x) for x in (False, True))
+        predict(case.problem, budget=AT_ONCE)
+    except OutOfRange:
+        return False
+    return True
+
+
+def judged(case: Case, label: dict[str, Any], budget: float = AT_ONCE) -> Judged:
+    """Compare the prediction of a case with its label, which may be empty if there is none."""
+    try:
+        said, joint = (predict(case.problem, budget=budget, joint=x) for x in (False, True))
     except OutOfRange as reason:
         none = np.full(len(OF), np.nan)
         return Judged(case, "", str(reason), none, none[:2], np.nan)
