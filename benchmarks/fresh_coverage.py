@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from training.fresh_cases import Case, add_draw, curve_error, drawn, labelled
+from training.fresh_cases import Case, add_draw, drawn, labelled
+from training.scores import curve_error
 from viscotack import OutOfRange, predict
 from viscotack.arrays import Array
 from viscotack.forecast.prediction import Prediction
@@ -59,10 +60,10 @@ def answered(case: Case) -> bool:
     return True
 
 
-def judged(case: Case, label: dict[str, Any], budget: float = AT_ONCE) -> Judged:
+def judged(case: Case, label: dict[str, Any]) -> Judged:
     """Compare the prediction of a case with its label, which may be empty if there is none."""
     try:
-        said, joint = (predict(case.problem, budget=budget, joint=x) for x in (False, True))
+        said, joint = (predict(case.problem, budget=AT_ONCE, joint=x) for x in (False, True))
     except OutOfRange as reason:
         none = np.full(len(OF), np.nan)
         return Judged(case, "", str(reason), none, none[:2], np.nan)

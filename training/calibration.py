@@ -24,8 +24,8 @@ from viscotack.surrogate.network import together
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 
 from .fitting import Fit, Fits, Task
-from .rows import Rows
-from .scores import curve_errors, travel_errors
+from .rows import LEARNED, Rows
+from .scores import errors, labels_of
 
 # The part of the errors that a network of their reach is to hold: that of the usual intervals, so
 # that one level serves wherever errors are alike, as where labels were biased, and wherever a few
@@ -73,14 +73,15 @@ def judged(surrogate: Surrogate, rows: Rows, given: Any = None) -> Apart:
     """
     tests = surrogate.tests(rows.groups if given is None else given)
     said = surrogate.evaluate(tests)
-    found = surrogate.curves(tests, said)
-    errors = (
-        np.log10(said.pull_off_force / rows.force),
-        np.log10(said.work_to_pull_off / rows.work),
-        np.nanmax(np.abs(curve_errors(found, rows)), axis=1),
-        travel_errors(found, rows),
-    )
-    return Apart(tests.told_of_errors(said), np.column_stack(errors))
+    found = errors(said, surrogate.curves(tests, said), labels_of(rows))
+    return Apart(tests.told_of_errors(said), found)
+
+
+def by_set(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
+    """Return :func:`worth` for spheres of all sets and of each."""
+    sets = {name: rows.chosen(rows.origin == i) for i, name in enumerate(LEARNED)}
+    some = {"all": rows, **sets}
+    return {n: worth(surrogate, judged(surrogate, x)) for n, x in some.items() if len(x)}
 
 
 def trusted(
@@ -221,6 +222,7 @@ def worth(surrogate: Surrogate, apart: Apart, *, confidence: float = 0.9) -> dic
             "median": float(np.median(part)),
             "90 %": float(np.quantile(part, 0.9)),
             "95 %": float(np.quantile(part, 0.95)),
+            "99 %": float(np.quantile(part, 0.99)),
             "largest": float(part.max()),
             "cover": float(np.mean(log <= width)),
             "half width": float(np.median(half)),

@@ -1,11 +1,13 @@
 """Contacts of engineers in SI: grippers, stamps, AFM tips and tack tests.
 
 Each family is even in the logarithms of its ranges. Spheres are pressed by a force over
-1.5 pi R dg0 and lie on a power law (three in five) or a standard solid; stamps are flat punches on a
-layer of a standard solid, pressed by a mean stress over dg0 and the range.
+1.5 pi R dg0 and lie on a power law (three in five) or a standard solid; stamps are flat punches on
+a layer of a standard solid, pressed by a mean stress over dg0 and the range.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
@@ -72,7 +74,7 @@ def problem(of: dict[str, float]) -> Problem:
         "poisson_ratio": 0.5,
     }
     law = LennardJones(work_of_adhesion=of["work"], equilibrium_gap=of["range"])
-    parts: dict = {"traction": law}
+    parts: dict[str, Any] = {"traction": law}
     if of["stamp"]:
         layer = Layer(of["thickness"] * of["radius"], Frictionless())
         parts |= {"geometry": FlatPunch(of["radius"]), "body": layer}

@@ -18,24 +18,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, solve, work_to_pull_off
 from viscotack.campaign.case import retraction
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.random_solids import STRETCHED, creep_spectrum
-from viscotack.arrays import Array
-from viscotack.result.trajectory import PRESSED
 from viscotack.surrogate import linear_solids, physics, punch_physics
 from viscotack.surrogate.alike import TIMES
-from viscotack.surrogate.answers import Answers
-from viscotack.surrogate.line import Curves
 from viscotack.surrogate.linear_solids import SolidContact
 from viscotack.surrogate.model import Surrogate
 
 from .calibration import Apart
 from .contacts import problem as contact_problem
 from .drawing import BOXES
+from .scores import errors
 
 ACCURACY = 5e-4
 # Numbers of random solids that no data set has; one in eight solids is a stretched exponential.
@@ -236,44 +232,11 @@ def _stored(path: Path) -> dict[str, Any]:
     return {entry["key"]: entry["label"] for entry in entries}
 
 
-def curve_error(curve: Curves, label: dict[str, Any]) -> float:
-    """Return the largest error of the tension of one curve at a simulated step.
-
-    At the same travel from zero force, or from a start in tension, by monotone cubics between the
-    points of the curve; steps beyond its end are compared with its last force.
-    """
-    first = PRESSED if curve.force[0] > 0 else 0
-    travel, tension = curve.depth[first] - curve.depth[first:], -curve.force[first:]
-    kept = np.append(True, np.diff(travel) > 0)
-    if kept.sum() == 1:
-        return float(np.max(np.abs(tension[0] - label["tension"])))
-    at = np.clip(label["travel"], 0.0, travel[-1])
-    read = PchipInterpolator(travel[kept], tension[kept])(at)
-    return float(np.max(np.abs(read - label["tension"])))
-
-
 def apart(made: Surrogate, given: Any, labels: list[dict[str, Any]]) -> Apart:
     """Return how far a surrogate is off; of a curve at any simulated step."""
     tests = made.tests(given)
     said = made.evaluate(tests)
     return Apart(tests.told_of_errors(said), errors(said, tests.curves(said), labels))
-
-
-def errors(said: Answers, curves: Curves, labels: list[dict[str, Any]]) -> Array:
-    """Return the errors of ``trust.OF``, shape (n, 4); of a start in tension no travel."""
-    force, work, to_zero = (np.array([x[n] for x in labels]) for n in ("force", "work", "to_zero"))
-    each = [
-        Curves(*one) for one in zip(curves.depth, curves.force, curves.contact_radius, strict=True)
-    ]
-    off = [
-        curve_error(curve, label) / label["force"]
-        for curve, label in zip(each, labels, strict=True)
-    ]
-    travel = curves.depth[:, 0] - curves.depth[:, PRESSED]
-    pressed = (curves.force[:, 0] > 0) & (to_zero > 0)
-    travel = np.where(pressed, np.log10(travel / np.where(pressed, to_zero, 1.0)), np.nan)
-    of_numbers = np.log10(said.pull_off_force / force), np.log10(said.work_to_pull_off / work)
-    return np.column_stack([*of_numbers, off, travel])
 
 
 def given_of(made: Surrogate, cases: list[Case]) -> Any:

@@ -30,10 +30,10 @@ from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks
 from viscotack.version import __version__
 
-from . import fresh_cases, make, scores
+from . import fresh_cases, make
 from . import train_punch as punches
 from . import train_solids as solids
-from .calibration import Apart, judged, levelled, trusted, untested
+from .calibration import Apart, by_set, judged, levelled, trusted, untested
 from .fitting import Fit, fit_all
 from .recipe import scaled_task
 from .rows import FAR_OFF, LEARNED, Rows, certain, joined, read
@@ -112,7 +112,7 @@ def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
     """Return the scores of a surrogate, in the form of its file, from those before."""
     match made.contact.name:
         case "sphere":
-            return before | {"kept apart at random": scores.scores(made, make.parted()[1])}
+            return before | {"kept apart at random": by_set(made, make.parted()[1])}
         case "punch":
             return punches.scores(made)
     return solids.scores(made, solids.parted(solids.tables(None, rows=None)))

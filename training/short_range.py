@@ -25,7 +25,7 @@ from scipy.stats import qmc
 from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import CrackContact, crack_contacts, unloading
-from viscotack.result.trajectory import POINTS, PRESSED
+from viscotack.result.trajectory import POINTS
 from viscotack.surrogate import short_range, store
 from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
@@ -36,9 +36,9 @@ from viscotack.surrogate.trust import OF
 from viscotack.version import __version__
 
 from .fitting import Fit, Task, fit
-from .fresh_cases import errors
 from .recipe import scaled_task
 from .rows import Rows, of_arrays
+from .scores import errors, labels_of
 
 # Solids, cases of each, and the part of the solids that no network learns from.
 SOLIDS, CASES, _KEPT = 128, 48, 0.125
@@ -171,15 +171,12 @@ def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict
     """
     tests = made.tests(rows.groups)
     said = made.evaluate(tests)
-    to_zero = np.where(rows.start_force > 0, np.ptp(rows.trajectory_left[:, : PRESSED + 1], 1), 0.0)
-    labels = [
-        {"force": force, "work": work, "to_zero": zero, "travel": travel, "tension": tension}
-        for force, work, zero, (travel, tension) in zip(
-            rows.force, rows.work, to_zero, steps, strict=True
-        )
+    at_steps = [
+        label | {"travel": travel, "tension": tension}
+        for label, (travel, tension) in zip(labels_of(rows), steps, strict=True)
     ]
     within = tests.inside().all(axis=1) & tests.holds(said)
-    log = np.abs(errors(said, tests.curves(said), labels)[within])
+    log = np.abs(errors(said, tests.curves(said), at_steps)[within])
     # work and curve are given only where the networks agree
     log[~tests.agree(said)[within], 1:] = np.nan
     # of a curve over the pull-off force, the others of log10
@@ -188,7 +185,11 @@ def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict
     found = np.nanquantile(off, list(shares.values()), axis=0).T
     scores = {n: dict(zip(shares, x.tolist(), strict=True)) for n, x in zip(OF, found, strict=True)}
     given = float(np.mean(np.isfinite(log[:, 1])))
-    cases = {"cases": int(within.sum()), "with work": given, "mse_log10": float(np.mean(log[:, 0] ** 2))}
+    cases = {
+        "cases": int(within.sum()),
+        "with work": given,
+        "mse_log10": float(np.mean(log[:, 0] ** 2)),
+    }
     return replace(made, constants={"error": found[:, 1:3]}), cases | scores
 
 

@@ -233,7 +233,9 @@ def unloading(found: CrackContact) -> tuple[Array, Array]:
     kept, travel = np.append(np.diff(depth) < 0, True), depth[0] - depth[-1]
     x, force, radius = (depth[0] - depth[kept]) / travel, force[kept], radius[kept]
     along, pressed = scipy.interpolate.PchipInterpolator(x, force), np.flatnonzero(force > 0)
-    zero = float(scipy.optimize.brentq(along, *x[pressed[-1] + np.arange(2)])) if len(pressed) else 0
+    zero = (
+        float(scipy.optimize.brentq(along, *x[pressed[-1] + np.arange(2)])) if len(pressed) else 0
+    )
     part, tense = shares(zero), np.append(zero, x[x > zero])
     points = np.stack([(1 - part) * travel, along(part), np.interp(part, x, radius)])
     return points, np.stack([(tense - zero) * travel, -along(tense)])
