@@ -2,7 +2,7 @@
 
 from .contact_time import DwellFit, identify_dwell
 from .forecasting import RateForecast, forecast_rates, interfaces
-from .next_tests import NextTests, RankedTest, Trial, next_tests
+from .ranked_tests import NextTests, RankedTest, Trial, next_tests
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff, pull_offs
 from .rate_series import RateSeriesFit, identify_rates
