@@ -106,13 +106,13 @@ def trajectory(row):
     return 2 / (2 + g + (1 - g) * g / n)
 
 
-def coefficient(row, cut=1.0):
+def coefficient(row, cut=1.0, terms="gn"):
     """Return the derived first-order coefficient of a row, over its size Gamma lambda/a.
 
-    ``cut`` multiplies the radius up to which the tail counts.
+    ``cut`` multiplies the radius up to which the tail counts; ``terms`` are those beside geometry.
     """
     T = row["T"] + row["growth"] * np.log(cut)
-    return trajectory(row) * (T + row["g"] * row["T_g"] + row["n"] * row["T_n"])
+    return trajectory(row) * (T + sum(row[x] * row[f"T_{x}"] for x in terms))
 
 
 def bounded(first):
@@ -239,6 +239,19 @@ def tables():
         median, worst = _percent(np.median(off), 2), _percent(off.max(), 2)
         lines.append(f"| {part * CUT:g} | {median} | {worst} |")
     found["cuts"] = lines
+    lines = ["| coefficients | mean error | median | worst |", "|---" * 4 + "|"]
+    rows, inside = kept("range_factor")["rows"], data["inside"]
+    for name, terms in (
+        ("geometry alone", ""),
+        ("with the change of the energy", "g"),
+        ("with the change of the speed", "n"),
+        ("all three", "gn"),
+    ):
+        first = np.array([coefficient(row, terms=terms) * row["size"] for row in rows])
+        off = (bounded(first) / data["simulated"] - 1)[inside]
+        parts = _signed(off.mean(), 2), _percent(np.median(abs(off)), 2)
+        lines.append(f"| {name} | {parts[0]} | {parts[1]} | {_percent(abs(off).max(), 2)} |")
+    found["terms"] = lines
     lines = [
         "| rate | Γ | finest mesh | order | extrapolated | simulated | difference | contact |",
         "|---" * 8 + "|",
