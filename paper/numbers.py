@@ -326,6 +326,7 @@ def numbers():
         "fresh_words": (
             f", and {data['fresh'].sum()} cases were drawn after it" if any(data["fresh"]) else ""
         ),
+        "marched_best": _percent(min(abs(r["off"]) for r in agreement["marched"]), 3),
         "marched_off": _percent(max(abs(r["off"]) for r in agreement["marched"]), 2),
         "marched_contact": " and ".join(_signed(r["contact_off"], 2) for r in agreement["marched"]),
         "near_glassy": str(int(data["glassy"].sum())),
