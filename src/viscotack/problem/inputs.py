@@ -12,6 +12,8 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from viscotack.errors import InputError
 from viscotack.problem.problem import Case, Groups
 
@@ -45,6 +47,11 @@ class Changed:
     up: float
     base: Groups
 
+    @property
+    def step(self) -> float:
+        """The difference of the logarithms of the number in the two problems."""
+        return float(np.log1p(self.up) - np.log1p(self.down))
+
     @cached_property
     def groups(self) -> tuple[Groups, Groups]:
         """The dimensionless problems with the smaller and the larger value."""
@@ -72,6 +79,16 @@ def changed(problem: Case, names: Iterable[str] | None = None) -> list[Changed]:
         elif names is not None:
             known = ", ".join(each.name for each in changed(problem))
             raise InputError(f"{name!r} is not an input that can change; the inputs are {known}")
+    return found
+
+
+def moved(problem: Case, name: str, factor: float) -> Case:
+    """Return the problem with a number multiplied by a factor; InputError if it cannot be."""
+    paths = {_name(path): path for path, value in _numbers(problem, ()) if value}
+    path = paths[name]
+    found = _moved(problem, path, _at(problem, path) * factor)
+    if found is None:
+        raise InputError(f"{name} cannot be multiplied by {factor:g}")
     return found
 
 
