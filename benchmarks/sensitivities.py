@@ -35,7 +35,7 @@ from viscotack import (
 )
 from viscotack.errors import InputError
 from viscotack.geometry import Layer
-from viscotack.problem import inputs
+from viscotack.problem.changed import changed, moved
 from viscotack.protocol import Approach
 from viscotack.result.observables import work_to
 from viscotack.result.opening import around
@@ -115,11 +115,11 @@ def reference(seed: int, number: int) -> dict:
         record["seconds"] = process_time() - began
         if record["seconds"] > LONGEST:
             return record | {"failed": "too long"}
-        names = [each.name for each in inputs.changed(problem)]
+        names = [each.name for each in changed(problem)]
         names = [names[i] for i in sorted(rng.permutation(len(names))[:INPUTS])]
         record["inputs"] = {
             name: [
-                [float(np.log1p(by)), outputs(inputs.moved(problem, name, 1 + by))]
+                [float(np.log1p(by)), outputs(_moved(problem, name, 1 + by))]
                 for change in CHANGES
                 for by in (-change, change)
             ]
@@ -128,6 +128,13 @@ def reference(seed: int, number: int) -> dict:
     except (InputError, RuntimeError) as error:
         record["failed"] = str(error)
     return record
+
+
+def _moved(problem: Groups, name: str, factor: float) -> Groups:
+    found = moved(problem, name, factor)
+    if not isinstance(found, Groups):
+        raise InputError(f"{name} cannot be multiplied by {factor:g}")
+    return found
 
 
 def slope(middle: list[float], points: list) -> tuple[np.ndarray, np.ndarray]:

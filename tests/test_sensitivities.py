@@ -1,5 +1,6 @@
 """Derivatives of a simulation: exact relations between them, differences, and refusals."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +14,10 @@ from viscotack.bem.machine import Hold
 from viscotack.bem.memory import step
 from viscotack.bem.origin import ByNodes, ByStep
 from viscotack.bem.tangent import Tangents
+from viscotack.cards import cards
 from viscotack.materials import Modes
-from viscotack.problem.inputs import changed
+from viscotack.problem.changed import changed
+from viscotack.problem.nouns import own_nouns
 from viscotack.protocol import Approach, LoadTo
 from viscotack.traction.growing import Eyring
 
@@ -40,6 +43,13 @@ def test_inputs_have_the_paths_of_campaigns(pulled):
     assert set(pulled.sensitivities.elasticities[FORCE]) <= set(vt.campaign.inputs_of(PULL))
 
 
+def test_inputs_of_a_user_defined_law_can_change():
+    (morse,) = own_nouns([Path(__file__).parents[1] / "examples" / "own" / "morse.py"])
+    law = morse(**{name: 1.0 for name in cards(morse)})
+    names = {one.name for one in changed(replace(PULL, traction=law))}
+    assert any(name.startswith("traction.") for name in names)
+
+
 @pytest.mark.parametrize("output", [FORCE, WORK, "depth_at_pull_off"])
 def test_only_the_product_of_rate_and_times_matters(pulled, output):
     by = pulled.sensitivities.elasticities[output]
@@ -49,7 +59,7 @@ def test_only_the_product_of_rate_and_times_matters(pulled, output):
 
 @pytest.mark.parametrize("name", ["tabor", "material.branches.0.0", "rate", "start.depth"])
 def test_derivatives_are_those_of_simulations_with_changed_inputs(pulled, name, monkeypatch):
-    monkeypatch.setattr("viscotack.problem.inputs._CHANGE", 0.04)
+    monkeypatch.setattr("viscotack.problem.changed._CHANGE", 0.04)
     (one,) = changed(PULL, [name])
     ends = [vt.summary(solved(x, accuracy=5e-4)) for x in (one.low, one.high)]
     for output in (FORCE, WORK):
@@ -68,7 +78,7 @@ def test_derivatives_follow_a_move_that_ends_at_a_force_and_a_dwell(monkeypatch)
     assert found["rate"] + found["moves.0.speed"] == pytest.approx(
         found["material.tau0"] + found["moves.1.duration"], rel=2e-3
     )
-    monkeypatch.setattr("viscotack.problem.inputs._CHANGE", 0.05)
+    monkeypatch.setattr("viscotack.problem.changed._CHANGE", 0.05)
     for name in ("moves.0.to.force", "moves.0.speed"):
         (one,) = changed(test, [name])
         ends = [vt.summary(solved(x, accuracy=5e-4))[FORCE] for x in (one.low, one.high)]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from numpy.polynomial.polynomial import polyder, polyval
 
 from viscotack.errors import InputError
-from viscotack.problem.inputs import Changed
+from viscotack.problem.changed import Changed
 from viscotack.result.observables import equal_peak, number_of, pull_off
 from viscotack.result.opening import PullOff, around, curve_through, is_smooth, tension_parts
 from viscotack.result.parts import spans
