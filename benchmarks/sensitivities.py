@@ -117,24 +117,16 @@ def reference(seed: int, number: int) -> dict:
             return record | {"failed": "too long"}
         names = [each.name for each in changed(problem)]
         names = [names[i] for i in sorted(rng.permutation(len(names))[:INPUTS])]
-        record["inputs"] = {
-            name: [
-                [float(np.log1p(by)), outputs(_moved(problem, name, 1 + by))]
-                for change in CHANGES
-                for by in (-change, change)
-            ]
-            for name in names
-        }
+        record["inputs"] = {}
+        for name in names:
+            ways = [way for change in CHANGES for way in (-change, change)]
+            cases = [moved(problem, name, 1 + way) for way in ways]
+            if all(isinstance(each, Groups) for each in cases):  # not at the end of its range
+                points = zip(ways, cases, strict=True)
+                record["inputs"][name] = [[float(np.log1p(x)), outputs(each)] for x, each in points]
     except (InputError, RuntimeError) as error:
         record["failed"] = str(error)
     return record
-
-
-def _moved(problem: Groups, name: str, factor: float) -> Groups:
-    found = moved(problem, name, factor)
-    if not isinstance(found, Groups):
-        raise InputError(f"{name} cannot be multiplied by {factor:g}")
-    return found
 
 
 def slope(middle: list[float], points: list) -> tuple[np.ndarray, np.ndarray]:

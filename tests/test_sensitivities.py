@@ -132,6 +132,18 @@ def test_an_edge_that_the_nodes_hold_has_no_derivative():
     assert WORK not in found.elasticities
 
 
+def test_an_elastic_contact_forgets_its_start_and_knows_no_rate():
+    solid = vt.Elastic(rubbery_modulus=1, poisson_ratio=0)
+    test = vt.Groups(tabor=10.0, material=solid, start=vt.AtDepth(10.0), rate=5.0)
+    by = solved(test, accuracy=5e-4, sensitivities=["start.depth", "rate"])
+    by = by.sensitivities.elasticities
+    for output in (FORCE, "depth_at_pull_off", "contact_radius_at_pull_off"):
+        # with the edge moving past frozen nodes the depth would have 0.04
+        assert abs(by[output]["start.depth"]) < 2e-3
+        assert abs(by[output]["rate"]) < 1e-6
+    assert abs(by[WORK]["rate"]) < 1e-6
+
+
 def test_growing_interfaces_and_punches_are_refused():
     rest = vt.LennardJones(1.0, 1.0)
     growing = Eyring.of(rest, reference_speed=1.0, sensitivity=0.1)

@@ -30,8 +30,9 @@ _KINDS = dict(zip(_OUTPUTS, ("force", "force", "work", "depth", "edge", "edge"),
 _AFTER = 3
 # Steps on each side of the pull-off in local fits, and the largest degree of these.
 _BESIDE, _DEGREE = 5, 4
-# Largest change of an elasticity by the pull of the nodes, beside the largest elasticity.
-_NOISE = 0.3
+# Largest change of an elasticity by the pull of the nodes, beside the largest elasticity, and
+# the change that is always accepted.
+_NOISE, _LITTLE = 0.3, 0.02
 # Motion of an edge that counts as rest, relative to the fastest.
 _STILL = 0.005
 
@@ -84,7 +85,7 @@ def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
                     elasticities[name][change.name] = dy / abs(y)
                     errors[name][change.name] = float(error[i]) / abs(value)
         largest = max(map(abs, elasticities[name].values()), default=0.0)
-        if (worst := max(errors[name].values(), default=0.0)) > _NOISE * largest:
+        if (worst := max(errors[name].values(), default=0.0)) > max(_NOISE * largest, _LITTLE):
             refused[name] = (
                 "the nodes hold the edge: their pull on it changes an elasticity by "
                 f"{worst:.2g}, beside {largest:.2g} of the largest; a smaller accuracy helps"
