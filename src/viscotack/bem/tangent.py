@@ -107,7 +107,8 @@ def null_direction(
     nodes, between which the edge moves, and of the time steps.
     """
     none = np.zeros(len(modes.times))
-    return Direction(1.0, (contact,) * 2, (legs,) * 2, (start,) * 2, 0.0, none, none, null=True)
+    pairs = (contact, contact), (legs, legs), (start, start)
+    return Direction(1.0, *pairs, 0.0, none, none, null=True)
 
 
 def mode_slopes(

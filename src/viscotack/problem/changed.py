@@ -89,11 +89,11 @@ def changed(problem: Case, names: Iterable[str] | None = None) -> list[Changed]:
 def moved(problem: Case, name: str, factor: float) -> Case | None:
     """Return the problem with an input multiplied by a factor, None if that is not possible."""
     entries = inputs_of(problem)
-    if name not in entries or not entries[name].value:
+    if name not in entries or not (value := entries[name].value):
         return None
-    value = entries[name].value * factor
+    own = tuple(set(_own(problem)))
     try:
-        return made(to_dict(problem), entries, tuple(set(_own(problem))), {name: value})
+        return made(to_dict(problem), entries, own, {name: value * factor})
     except InputError:
         return None
 

@@ -16,16 +16,15 @@ from viscotack.result.opening import PullOff, around, curve_through, is_smooth, 
 from viscotack.result.parts import spans
 from viscotack.result.result import Result, Sensitivities
 
-# What has derivatives, of the observables of a kind of problem.
-_OUTPUTS = (
-    "pull_off_force",
-    "pull_off_stress",
-    "work_to_pull_off",
-    "depth_at_pull_off",
-    "contact_radius_at_pull_off",
-    "ligament_at_pull_off",
-)
-_KINDS = dict(zip(_OUTPUTS, ("force", "force", "work", "depth", "edge", "edge"), strict=True))
+# What has derivatives, of the observables of a kind of problem, and what it is.
+_OUTPUTS: dict[str, str] = {
+    "pull_off_force": "force",
+    "pull_off_stress": "force",
+    "work_to_pull_off": "work",
+    "depth_at_pull_off": "depth",
+    "contact_radius_at_pull_off": "edge",
+    "ligament_at_pull_off": "edge",
+}
 # Steps after the pull-off that its interpolation may use.
 _AFTER = 3
 # Steps on each side of the pull-off in local fits, and the largest degree of these.
@@ -74,7 +73,7 @@ def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
     errors: dict[str, dict[str, float]] = {name: {} for name in given}
     for name in given:
         value, scale = values[name][0], units[name].scale
-        slope, error = found[_KINDS[name]]
+        slope, error = found[_OUTPUTS[name]]
         for i, change in enumerate(slopes.changes):
             y, dy = value, float(slope[i])
             if scale:
@@ -186,7 +185,12 @@ def with_errors(found: Sensitivities, coarse: Sensitivities) -> Sensitivities:
 
 def _value(name: str, result: Result) -> tuple[float, str]:
     """Return an output without dimensions, and why it is not defined, empty if it is."""
-    value, note = number_of(name, result)
+    kind, note = _OUTPUTS[name], None
+    if kind == "work":
+        value, note = number_of(name, result)
+    else:
+        at = pull_off(result)
+        value = {"force": at.force, "depth": at.depth, "edge": at.contact_radius}[kind]
     if value is None or not np.isfinite(value):
         return np.nan, note or "it is not defined"
     return value, ""
