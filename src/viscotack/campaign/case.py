@@ -32,7 +32,7 @@ from .identity import OwnChanged, identity, nouns_of, words
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
-# What the summary says for a reader or of a history, not for a table of pull-offs.
+# Entries of the summary for readers or of histories, left out of tables of pull-offs.
 _LEFT_OUT = (
     "problem versions run_id events statistics error_estimate accuracy accuracy_met shallow_start "
     "cycles time_to_detachment time_to_detachment_s"

@@ -14,7 +14,7 @@ from .declare.cards import Choice, File, FileOfNames, Placed, Switch, Whole, num
 from .declare.options import Operation
 from .simulate import Accuracy
 
-# Frames of a film, if nothing else is asked for.
+# Frames of a film, by default.
 _FRAMES = 60
 
 

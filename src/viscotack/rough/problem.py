@@ -36,7 +36,7 @@ _EVEN = 1e-6
 # Most pixels: 512 x 512 take 0.5 GB and two minutes (benchmarks/grid.py size).
 _MOST = 2048 * 2048
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
-# warning, the third is asked for.
+# warning, the third is recommended.
 COARSEST, COARSE, FINE = 1.0, 1.5, 2.0
 
 
