@@ -49,7 +49,7 @@ WRITTEN = re.compile(r"(?s)<!-- (?!= )[^>]+ -->\n.*?<!-- end[^>]*-->")
 _CODE = re.compile(r"(?ms)^ *(```|~~~).*?^ *\1 *$")
 # Code, targets of links, comments and names of files are no prose.
 _NO_PROSE = re.compile(r"(?s)`[^`\n]*`|\]\([^)\n]*\)|<!--.*?-->|<[^>\n]*>|https?://\S+")
-AS_STATED = "as the page stated it on that day; not measured anew"
+AS_STATED = "as the page stated it on that day; not measured again"
 
 
 @dataclass(frozen=True)
