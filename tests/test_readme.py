@@ -266,9 +266,14 @@ def test_what_no_benchmark_measured_is_recorded_as_stated(tmp_path, monkeypatch)
     page = tmp_path / "page.md"
     page.write_text("<!-- = long.held -->\n93 of 95 held.\n")
     assert records.quoted(page) == ["long.held"] and records.quoted(page) == []
+    assert (tmp_path / "stated/long.json").is_file()
     assert records.count(page.read_text())["as stated"] == 2
     (quote,) = records.quotes("<!-- = long.held -->\n94 of 95 held.\n")
     assert quote.difference == "shown: 94, recorded: 93"
+    # what a benchmark measures later comes before
+    records.write("long", {"held": ["94 of 95"]})
+    (quote,) = records.quotes("<!-- = long.held -->\n94 of 95 held.\n")
+    assert quote.agrees and not quote.as_stated
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
