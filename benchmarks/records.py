@@ -203,7 +203,7 @@ def numbers(text: str) -> list[str]:
 
 def count(page: str) -> dict[str, int]:
     """Return how many numbers the prose of a page has, and of them those with a source, by kind."""
-    found = dict.fromkeys(("all", "written", "measured", "as stated"), 0)
+    found: dict[str, int] = dict.fromkeys(("all", "written", "measured", "as stated"), 0)
     found["all"] = len(numbers(page))
     found["written"] = found["all"] - len(numbers(WRITTEN.sub("", page)))
     for quote in quotes(page):
