@@ -134,12 +134,25 @@ export class Operations {
         parts.push(picture);
       } else row.append(button(`Save ${name}`, () => save(`${this.operation.path.replaceAll("/", "-")}-${name}${/FILE(\.\w+)/.exec(of)?.[1] || (name === "csv" ? ".csv" : "")}`, new Blob([kind === "binary" ? Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0)) : files[name]]))));
     }
-    const lines = element("pre", "", words || text);
-    lines.tabIndex = 0;
-    lines.setAttribute("aria-label", "Answer in words");
-    parts.splice(1, 0, lines);
+    parts.splice(1, 0, ...inBlocks(words || text));
     this.said.replaceChildren(...parts);
   }
+}
+
+// Lines as they are printed: sentences are wrapped, rows of a table are not.
+function inBlocks(words) {
+  const blocks = [], isRow = (line) => / {2,}\S+.* {2,}\S/.test(line);
+  for (const line of words.split("\n")) {
+    const row = isRow(line), last = blocks[blocks.length - 1];
+    if (last?.row === row) last.lines.push(line);
+    else blocks.push({ row, lines: [line] });
+  }
+  return blocks.map(({ row, lines }) => {
+    const block = element("pre", row ? "rows" : "", lines.join("\n"));
+    block.tabIndex = 0;
+    block.setAttribute("aria-label", row ? "Answer, rows" : "Answer in words");
+    return block;
+  });
 }
 
 // A view of some operations alone.
