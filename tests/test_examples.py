@@ -36,6 +36,7 @@ def test_every_example_is_run_here():
         "array",  # test_array_file.py
         "rough",  # test_rough_file.py
         "design",  # test_design_file.py
+        "afm",
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",
@@ -158,6 +159,15 @@ def test_an_interface_that_grows_is_found_again(tmp_path, capsys):
     assert "the interface grows with speed" in printed
     low, _, high, _, _, true, _ = printed.splitlines()[-2].split()[3:]
     assert float(low) < float(true) < float(high)
+
+
+def test_a_probe_on_a_gel_snaps_in_and_lets_go():
+    gel = vt.read_case(EXAMPLES / "afm" / "gel.toml")
+    found = vt.solve(gel, accuracy=0.02, estimate_error=False)
+    force = vt.summary(found)["pull_off_force_N"]
+    # between the elastic forces of relaxed and instantaneous moduli: 1.5 to 2 pi R dg, over k
+    unit = 1.5 * np.pi * 10e-6 * 30e-6
+    assert unit < force < 4 / 3 * unit * 2
 
 
 def test_every_example_has_a_title_for_its_page_of_the_site():

@@ -153,7 +153,7 @@ def _edge(problem: Problem, found: dict[str, Any]) -> None:
     question = Question(problem)
     try:
         curve = question.once(forms_of).curve
-    except InputError:  # of another test or shape, which the advisor says in words
+    except InputError:  # of another test or shape; the advisor gives the reason
         return
     if curve is None:
         return

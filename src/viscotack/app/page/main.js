@@ -14,7 +14,7 @@ import { theme } from "./theme.js";
 import { element } from "./plot.js";
 
 // A view more is a line more: its class draws into an element, and listens to the store.
-const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["design", "Design", some("design", "design")], ["window", "Pick and print", some("window", "window")], ["array", "Arrays", some("array", "array", "theory rectangle")], ["rough", "Rough surfaces", some("rough", "rough")], ["report", "Reports", some("report", "report", "forecast")], ["operations", "All operations", Operations]];
+const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["design", "Design", some("design", "design", "uncertainty")], ["window", "Pick and print", some("window", "window")], ["array", "Arrays", some("array", "array", "theory rectangle")], ["rough", "Rough surfaces", some("rough", "rough")], ["report", "Reports", some("report", "report", "forecast", "next-test")], ["operations", "All operations", Operations]];
 
 async function begin() {
   theme();
