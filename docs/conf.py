@@ -35,6 +35,8 @@ include_patterns = [
     "CODE_OF_CONDUCT.md",
     "SECURITY.md",
     "replication/**.md",
+    "paper/README.md",
+    "paper/REVIEW.md",
     "examples/**/README.md",
     "tests/data/README.md",
     "data/viscotack_data/README.md",
