@@ -435,7 +435,10 @@ def refused(problem, **options):
     [
         ({"moves": (vt.Dwell(3.0),)}, "Dwell(duration=3.0"),
         ({"stiffness": 2.0}, "a stiffness of 2 x 1.5 pi R dg0/h0"),
-        ({"start": vt.Apart(9.0)}, "Apart(gap=9.0)"),
+        (
+            {"start": vt.Apart(9.0)},
+            "begins with apart 9; verified only for depth, force",
+        ),
     ],
 )
 def test_other_tests_are_refused(changed, words):
@@ -462,7 +465,7 @@ def test_where_no_method_applies_the_error_names_the_quantity_out_of_range():
 
 
 def test_impossible_questions_are_refused():
-    assert "no relaxed one exists at AtDepth(depth=-50.0)" in refused(sphere(preload=-50.0))
+    assert "no relaxed one exists at depth -50" in refused(sphere(preload=-50.0))
     assert "evaluated up to 300" in refused(sphere(start=vt.AtForce(1e9)))
     for rate in (1.0, 1e17):
         for confidence in (0.85, 90, np.nan):
