@@ -17,6 +17,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.surrogate.model import Surrogate
@@ -174,7 +175,7 @@ def scored(trust: Trust, apart: Apart) -> Array:
     return np.where(given_of(trust, apart), np.abs(apart.error) / size, np.nan)
 
 
-def given_of(trust: Trust, apart: Apart) -> Array:
+def given_of(trust: Trust, apart: Apart) -> npt.NDArray[np.bool_]:
     """Return a mask of the numbers of ``OF`` that are given, shape (n, 4)."""
     return ~trust.doubtful(apart.told)[:, [0, 1, 1, 1]]
 
