@@ -83,6 +83,8 @@ def judge(labels: Path) -> dict[str, Any]:
     if "table" in record:
         raise SystemExit(f"{path.name} was judged on {record['judged']}")
     pairs = list(known(record, labels, missing=False))
+    # labels are made in order; what follows the last one was not reached
+    pairs = pairs[: max(i for i, (_, label) in enumerate(pairs, 1) if label)]
     found = [judged(case, label) for case, label in pairs if "failed" not in label]
     _write_cases(path.with_suffix(".csv"), found)
     record |= {
