@@ -49,8 +49,8 @@ from .space import (
 )
 from .yields import Slopes, allowances, gain, share_of
 
-# Sizes of searches: of all targets together, of one alone, and of each end of a front.
-_EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 1.2)
+# Sizes of searches: of all targets together, of one alone, and of all ends of a front.
+_EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 2.4)
 # Bonus on the margin of all other targets, ln 2, in a search towards the end of a front.
 _BONUS = log(2.0)
 # Further simulations of designs by corrected predictions.
@@ -202,7 +202,7 @@ def find_design(
         limits += _reached(fast, space, judge, seed)
     progress(0.6)
     with limited(time_limit):
-        tested = _simulated(candidates, seen, fast, judge, confirm, accuracy, progress)
+        tested = _simulated(candidates, seen, fast, judge, needed, confirm, accuracy, progress)
     yields = [_yield(one, run, fast, judge) for one, run in tested]
     order = sorted(range(len(tested)), key=lambda i: _rank(*tested[i], yields[i]))
     best, run = tested[order[0]]
@@ -296,10 +296,11 @@ def _ends(
     fast: FastTier, space: DesignSpace, judge: Judge, material: str, seed: int
 ) -> dict[Choice, Candidate]:
     """Return designs of shorter searches towards each end of the front."""
+    effort = replace(_END, generations=_END.generations / len(judge.targets.stated))
     seen: dict[Choice, Candidate] = {}
     for number, target in enumerate(judge.targets.stated):
         needed = {name: -_BONUS * (name != target) for name in judge.targets.stated}
-        seen |= _searched(fast, space, judge, needed, material, seed + number + 1, effort=_END)
+        seen |= _searched(fast, space, judge, needed, material, seed + number + 1, effort=effort)
     return seen
 
 
@@ -346,7 +347,11 @@ def _apart(
     """Return up to three of the best candidates that differ in a variable or in the material."""
     ends = np.array(space.ends()).reshape(-1, 2)
     found: list[Candidate] = []
-    for each in sorted(seen.values(), key=lambda one: -rated(one.margins, needed)):
+    # a wide interval may hide a design that meets the targets behind one that surely does not
+    order = sorted(
+        seen.values(), key=lambda one: (not one.is_possible, -rated(one.margins, needed))
+    )
+    for each in order:
         near = any(
             each.choice.material == other.choice.material
             and np.all(
@@ -371,6 +376,7 @@ def _simulated(
     seen: Mapping[Choice, Candidate],
     fast: FastTier,
     judge: Judge,
+    needed: Mapping[str, float],
     confirm: int,
     accuracy: float,
     progress: Callable[[float], None],
@@ -382,11 +388,13 @@ def _simulated(
     tested: list[tuple[Candidate, Simulated]] = []
     waiting = [each for each in candidates[:confirm] if each.is_possible]
     most = len(waiting) + _CORRECTED if waiting else 0
-    while len(tested) < most and not any(run.meets for _, run in tested):
+    while len(tested) < most and not any(
+        _meets(one, run, _yield(one, run, fast, judge), judge) for one, run in tested[-1:]
+    ):
         known = [(one, run) for one, run in tested if run.margins]
         done = {one.choice for one, _ in tested}
         waiting = [each for each in waiting if each.choice not in done]
-        likely = _likely(seen, known, judge)
+        likely = _likely(seen, known, judge, needed)
         fresh = [each for each in (*likely, *waiting) if each.choice not in done]
         if not fresh:
             break
@@ -397,16 +405,21 @@ def _simulated(
 
 
 def _likely(
-    seen: Mapping[Choice, Candidate], known: list[tuple[Candidate, Simulated]], judge: Judge
+    seen: Mapping[Choice, Candidate],
+    known: list[tuple[Candidate, Simulated]],
+    judge: Judge,
+    needed: Mapping[str, float],
 ) -> list[Candidate]:
     """Return the best design by corrected predictions; none without a simulation."""
     if not known:
         return []
-    return [max(seen.values(), key=lambda one: _corrected(one, known, judge))]
+    return [max(seen.values(), key=lambda one: rated(_corrected(one, known, judge), needed))]
 
 
-def _corrected(one: Candidate, known: list[tuple[Candidate, Simulated]], judge: Judge) -> float:
-    """Return the smallest margin with predictions times the ratio of the nearest simulation."""
+def _corrected(
+    one: Candidate, known: list[tuple[Candidate, Simulated]], judge: Judge
+) -> dict[str, float]:
+    """Return the margins by predictions times the ratio of the nearest simulation to its own."""
 
     def distance(other: Candidate) -> float:
         return sum(
@@ -417,7 +430,7 @@ def _corrected(one: Candidate, known: list[tuple[Candidate, Simulated]], judge: 
     forces = {
         name: x.value * run.forces[name] / near.forces[name].value for name, x in one.forces.items()
     }
-    return min(judge.margins(one.choice, forces).values())
+    return judge.margins(one.choice, forces)
 
 
 def _rank(one: Candidate, run: Simulated | None, part: float | None) -> tuple[float, float]:
