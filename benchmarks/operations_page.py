@@ -1,6 +1,7 @@
 """Write the table and the reference of docs/operations.md from the declarations, with --write."""
 
 import argparse
+from collections import Counter
 from inspect import cleandoc
 from pathlib import Path
 from typing import Any, get_type_hints
@@ -18,7 +19,6 @@ from viscotack.operations.declare.cards import (
     Two,
     Whole,
 )
-from viscotack.operations.declare.description import path
 from viscotack.operations.declare.options import Option, options, spelled, summary
 from viscotack.operations.declare.statement import Stated
 
@@ -46,45 +46,73 @@ def generated() -> str:
 
 
 def table() -> str:
-    """Return the table operation x interface: where each is, or why it is refused."""
-    lines = ["| operation | Python, study | command line | HTTP | page |", "|---|---|---|---|---|"]
+    """Table of the operations that HTTP and the page refuse, with the reasons."""
+    lines = ["| operation | refused over HTTP and on the page |", "|---|---|"]
     for word, kind in operations().items():
-        lines.append(f"| {' | '.join(_row(word, kind))} |")
+        if refused := kind.refused.get("http", ""):
+            lines.append(f"| [{word}]({_place(word)}) | {refused} |")
     return "\n".join(lines) + "\n"
 
 
-def _row(word: str, kind: type[Operation]) -> tuple[str, ...]:
-    link = f"[{word}](#{word.replace(' ', '-')})"
-    commands = [f"`viscotack {word}`"]
+def _place(word: str) -> str:
+    return f"#{word.replace(' ', '-')}"
+
+
+def _commands(word: str, kind: type[Operation]) -> str:
+    """Commands of an operation, where its word alone is none."""
     for card in (o.card for o in options(kind)):
         if isinstance(card, Stated) and card.spelling == "commands":
-            commands = [f"`viscotack {word} {each}`" for each in (*card.indenters, "case")]
-    refused = kind.refused.get("http", "")
-    http = f"refused: {refused}" if refused else f"`/api/{path(word)}`"
-    page = "refused, as over HTTP" if refused else "All operations"
-    return link, f'`"{word}"`', ", ".join(commands), http, page
+            each = (f"`viscotack {word} {name}`" for name in (*card.indenters, "case"))
+            return f" Commands: {', '.join(each)}."
+    return ""
+
+
+def common() -> list[tuple[str, ...]]:
+    """Name, meaning and value of options that three or more operations have."""
+    rows = Counter(
+        _row(option, kind)[:3] for kind in operations().values() for option in _by_part(kind)[0]
+    )
+    return [row for row, number in rows.items() if number >= 3]
 
 
 def reference() -> str:
-    """Return every operation with its options, and the groups of options that several have."""
+    """Every operation with its options, and the groups of options that several have."""
     groups: dict[type, list[str]] = {}
     sections = []
+    shared = common()
     for word, kind in operations().items():
         own, parts = _by_part(kind)
         groups |= {part: _group(part, found, kind) for part, found in parts.items()}
-        links = " and ".join(f"[group {part.__name__}]({_anchor(part)})" for part in parts)
-        lines = [f"### {word}", "", _cell(spelled(summary(kind), kind)), ""]
-        lines += _options(own, kind) if own else [] if parts else ["No options.", ""]
-        lines += [f"{'Also the' if own else 'The'} options of {links}.", ""] if parts else []
+        rows = [_row(option, kind) for option in own]
+        links = [f"[group {part.__name__}]({_anchor(part)})" for part in parts]
+        if also := [_with_default(row) for row in rows if row[:3] in shared]:
+            links = [f"{', '.join(also)} ([common options](#common-options))", *links]
+        rows = [row for row in rows if row[:3] not in shared]
+        lines = [f"### {word}", "", _cell(spelled(summary(kind), kind)) + _commands(word, kind), ""]
+        lines += _options(rows) if rows else [] if links else ["No options.", ""]
+        lines += [f"{'Also' if rows else 'Options'}: {'; '.join(links)}.", ""] if links else []
         if kind.outputs:
-            files = (f"`{o.name}` ({spelled(o.words, kind).rstrip('.')})" for o in kind.outputs)
+            files = (f"`{o.name}` ({_output(spelled(o.words, kind))})" for o in kind.outputs)
             lines += [f"Outputs: {'; '.join(files)}.", ""]
         sections.append("\n".join(lines))
-    return "\n".join([*sections, *("\n".join(lines) for lines in groups.values())])
+    head = ["### Common options", "", "| option | meaning | value |", "|---|---|---|"]
+    head += [*(f"| {' | '.join(row)} |" for row in shared), ""]
+    return "\n".join([*head, *sections, *("\n".join(lines) for lines in groups.values())])
+
+
+def _with_default(row: tuple[str, ...]) -> str:
+    name, _, _, default = row
+    value = " (must be given)" if default == "must be given" else f" = {default}" if default else ""
+    return name + value
+
+
+def _output(words: str) -> str:
+    """Describe an output without the words that all outputs share."""
+    return words.removesuffix("; - is standard output").removesuffix(".")
 
 
 def _by_part(kind: type[Operation]) -> tuple[list[Option], dict[type, list[Option]]]:
-    """Return the options of an operation itself, and those of each of its parts."""
+    """Return the options of an operation itself and the options of its parts."""
     hints = get_type_hints(kind)
     own, parts = [], {}
     for option in options(kind):
@@ -93,21 +121,24 @@ def _by_part(kind: type[Operation]) -> tuple[list[Option], dict[type, list[Optio
 
 
 def _group(part: Any, found: list[Option], kind: type[Operation]) -> list[str]:
-    told = cleandoc(part.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
-    where = f" In a study file they may stand in a table `[{part.table}]`." if part.table else ""
-    return [f"### Group {part.__name__}", "", f"{told}{where}", "", *_options(found, kind)]
+    words = cleandoc(part.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
+    where = f" In a study file they may be in a table `[{part.table}]`." if part.table else ""
+    rows = [_row(option, kind) for option in found]
+    return [f"### Group {part.__name__}", "", f"{words}{where}", "", *_options(rows)]
 
 
 def _anchor(part: type) -> str:
     return f"#group-{part.__name__.lower()}"
 
 
-def _options(found: list[Option], kind: type[Operation]) -> list[str]:
+def _row(option: Option, kind: type[Operation]) -> tuple[str, ...]:
+    words = _cell(spelled(option.words, kind))
+    return f"`{option.name}`", words, _value(option), _default(option)
+
+
+def _options(rows: list[tuple[str, ...]]) -> list[str]:
     lines = ["| option | meaning | value | default |", "|---|---|---|---|"]
-    for option in found:
-        words = _cell(spelled(option.words, kind))
-        lines.append(f"| `{option.name}` | {words} | {_value(option)} | {_default(option)} |")
-    return [*lines, ""]
+    return [*lines, *(f"| {' | '.join(row)} |" for row in rows), ""]
 
 
 def _value(option: Option) -> str:
@@ -136,7 +167,7 @@ def _cell(words: str) -> str:
 
 
 def page() -> str:
-    """Return the page with what is generated made anew."""
+    """Return the page with its generated part renewed."""
     text = PAGE.read_text(encoding="utf-8")
     before, _, rest = text.partition(BEGIN)
     _, _, after = rest.partition(END)

@@ -11,7 +11,8 @@ data file in them as it is, and prints how many
   not say what their columns are,
 - are misread, or refused for any other reason. These are listed, and the exit status is then 1.
 
-``--page FILE`` writes the list of all names with their outcome, ``--fuzz N`` reads N mutated copies
+``--page FILE`` writes the numbers by repository, ``--names FILE`` the outcome of every file,
+and ``--fuzz N`` reads N mutated copies
 of the files, each as what it is and as something else, and counts tracebacks. A minute, and
 three minutes for 5,000 copies.
 """
@@ -583,7 +584,8 @@ def files_of(folders):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folders", nargs="+", metavar="FOLDER")
-    parser.add_argument("--page", type=Path, help="write the list of names and outcomes here")
+    parser.add_argument("--page", type=Path, help="write the page with the numbers of files here")
+    parser.add_argument("--names", type=Path, help="write a CSV row for each file here")
     parser.add_argument("--fuzz", type=int, default=0, help="mutated copies to read")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -595,6 +597,10 @@ def main():
         print(f"{kind} {name}: {why}")
     if arguments.page is not None:
         arguments.page.write_text(page(results, counts), encoding="utf-8")
+    if arguments.names is not None:
+        with arguments.names.open("w", encoding="utf-8", newline="") as file:
+            rows = [(name, kind, why) for name, (kind, why) in results.items()]
+            csv.writer(file).writerows([("file", "outcome", "reason"), *rows])
     broken = fuzz(arguments.folders, arguments.fuzz) if arguments.fuzz else 0
     sys.exit(bool(wrong or broken or not results))
 
@@ -603,7 +609,7 @@ def words_of(counts, total):
     lines = {
         "read": "read as they are, with the numbers of an independent parse",
         "asked": "read with the flags that the refusal names, with those numbers",
-        "refused": "refused for a reason that stands in the list",
+        "refused": "refused for a reason in the list",
         "MISREAD": "misread",
         "UNEXPECTED": "refused for another reason",
     }
@@ -611,24 +617,21 @@ def words_of(counts, total):
 
 
 def page(results, counts):
-    """Return the page of names and outcomes: files of one folder and outcome in one row."""
-    groups = {}
-    for name, (kind, why) in results.items():
-        folder, _, file = name.rpartition("/")
-        why = "" if kind == "read" else f": {why}"
-        groups.setdefault((folder, kind + why), []).append(file)
-    rows = [
-        f"| {folder} | {kind} | {len(files)} | {', '.join(files)} |"
-        for (folder, kind), files in groups.items()
-    ]
+    """Page with the number of files by repository and outcome."""
+    groups = Counter(
+        (name.partition("/")[0], kind if kind == "read" else f"{kind}: {why}")
+        for name, (kind, why) in results.items()
+    )
+    rows = [f"| {folder} | {kind} | {number} |" for (folder, kind), number in groups.items()]
     return PAGE.format(counts=words_of(counts, len(results)), rows="\n".join(rows))
 
 
 PAGE = """# Public files, and how they are read
 
 Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco, RHEOS and of thirteen smaller
-repositories, read by `viscotack.lab` as it is and compared with an independent parse. The files
-themselves stay where they are; this list is written by
+repositories was read by `viscotack.lab` and compared with an independent parse. This command, given
+checkouts of the repositories, measures and writes the page; `--names FILE` writes the outcome of
+each file as CSV:
 
 ```console
 python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
@@ -641,25 +644,24 @@ python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RH
 {counts}
 ```
 
-"asked" files do not state a unit, or whether a modulus is tensile or shear: the refusal names the
-options, and with them the numbers are those of the independent parse. Of files without headings no
-reader can know what their columns are; the refusal has an example of `--columns`. Measured on
-RepTate 4aeb671, RheoJAX b79e79e (without two owchirp files of `examples/data/laos` and the workbook
-of `examples/data/ikh`, which were not at hand), pyRheo 9435084, mastercurves cb2cc35,
-pyvisco 252a4b8, RHEOS a4e6de8,
-lemellenthin/Rheology 95e052e (folder Thin-Rheology: text, and workbooks below 150 kB),
-desdelgado/rheology-data-toolkit 054b165, PetrusKirsten/RheometerPlots 91690c4,
-MarcusNi96/dma-prony-validation 068d213, k100kan35-dotcom/perssonmodelling d98978b,
+Files marked "asked" do not state a unit, or whether a modulus is tensile or shear. The refusal
+names the options; with them the numbers equal those of the independent parse. For a file without
+headings the refusal has an example of `--columns`. Of a workbook with several sheets of tests
+the first one is read, with a note.
+
+| repository | outcome | files |
+|---|---|---:|
+{rows}
+
+Versions: RepTate 4aeb671, RheoJAX b79e79e (without two owchirp files of `examples/data/laos` and
+the workbook of `examples/data/ikh`, which were not at hand), pyRheo 9435084, mastercurves cb2cc35,
+pyvisco 252a4b8, RHEOS a4e6de8, lemellenthin/Rheology 95e052e (folder Thin-Rheology: text, and
+workbooks below 150 kB), desdelgado/rheology-data-toolkit 054b165, PetrusKirsten/RheometerPlots
+91690c4, MarcusNi96/dma-prony-validation 068d213, k100kan35-dotcom/perssonmodelling d98978b,
 tbgitoo/rheologyEvaluation ee0a07a, bibekanandadatta/MATLAB-DMA2Prony 012fd36,
 KarlClinckspoor/Rheology 9dbdbea (folder Clinckspoor-Rheology), JoelJank/RheometerData 8d8ec95,
 karenkhachatryan-lab/rheology-fit 76d230c, krlennon/rheology-health-monitoring 685b4b6,
 Chongran-Zhao/Viscoelastic-fitting 77f7312 and KamalenduGhosh/Viscoelastic_Fit 3095eac.
-
-Of a workbook with several sheets that have tests the first one is read, with a note.
-
-| folder | outcome | files | names |
-|---|---|---|---|
-{rows}
 """
 
 

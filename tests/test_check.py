@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import date
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -317,7 +317,7 @@ def answers_or_refuses(row):
         return "refused"
     if isinstance(found, vt.Result):
         assert found.energy_residual is None or abs(found.energy_residual) < 0.05
-        # a flat end on springs lets go everywhere at once, and has no edge at its largest force
+        # a flat end on springs detaches everywhere at once, and has no edge at its largest force
         edgeless = isinstance(shape, vt.Disc) and body is FACTORS["body"]["foundation"]
         of_edge = observable is observables.contact_radius_at_pull_off
         assert np.isfinite(observable(found)) or (edgeless and of_edge)
@@ -614,3 +614,17 @@ def test_an_exception_in_a_noun_is_a_finding_and_ends_no_other_check():
     found = check.check_material(Broken(**SOLID), thorough=False)
     assert "ZeroDivisionError: of my own" in str(found)
     assert sum(finding.passed for finding in found.findings) > 20
+
+
+def test_a_member_that_is_missing_is_the_only_finding():
+    @dataclass(frozen=True)
+    class Flat:
+        word: ClassVar[str] = "flat"
+        symmetry: ClassVar[str] = "revolution"
+
+        def gap(self, position):
+            return 0 * position
+
+    (finding,) = check.check_shape(Flat(), size=1e-4).findings
+    assert not finding.passed
+    assert finding.found == "no flank, reduced"

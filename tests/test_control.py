@@ -200,7 +200,7 @@ def test_a_punch_and_a_pull_from_its_largest_tension_are_refused():
 
 def test_a_release_that_takes_too_long_is_refused(table):
     for limit in (1e-6, 0.05):
-        with pytest.raises(InputError, match="time limit of .* before the contact let go"):
+        with pytest.raises(InputError, match="time limit of .* before the contact detached"):
             let_go(PAD, Release(table, 4e-3, 100.0, 1e-4), time_limit=limit)
 
 

@@ -283,7 +283,7 @@ def test_travels_of_a_cycle_are_those_of_the_curve_it_was_made_from():
 
 @pytest.mark.slow
 def test_the_stiffness_of_a_rig_moves_the_range_of_the_example_series():
-    # as docs/migration.md states
+    # bending of the cantilever is subtracted from the depth and slows the edge
     speeds = ("1_um_s", "30_um_s", "1000_um_s")
     found = survey([RIG / f"lens_{speed}.csv" for speed in speeds])
     gaps = [

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).parents[1] / "src/viscotack"
+ROOT = Path(__file__).parents[1]
+PACKAGE = ROOT / "src/viscotack"
 # Rooms left out of the check.
 OPEN: set[str] = set()
 ROOMS = sorted({path.stem for path in PACKAGE.iterdir() if path.suffix in ("", ".py")} - OPEN)
@@ -22,12 +23,25 @@ TICS = {
     r"\bdoors?\b": "front end",
     r"\bonce more\b": "again",
     r"\bso many\b": "a number",
-    r"\bgoes? on\b": "continue",
+    r"\b(goes?|going) on\b": "continue",
+    r"\bstands? (for|on)\b": "represents, depends on",
+    r"\bat once\b": "at a time, in parallel, immediately",
+    r"\blet(s|ting)? go\b": "release, detach",
+    r"\b(comes?|came) off\b": "detach",
+    r"\b(is|are|be) asked for\b": "needed, requested",
     r"\bwhoever\b": "the user",
-    r"\blet(s)? go of\b": "release, detach",
     r"\bstands? twice\b": "duplicate",
-    r"\bsays (what|which|how|why|so|it|that)\b": "states, contains, determines",
+    r"\bsays\b": "states, contains, determines",
 }
+# Pages that still have idioms.
+OPEN_PAGES = {
+    "app", "design", "gallery", "materials", "performance", "predict", "punch", "replication",
+    "rough_surfaces", "solver", "steady_crack", "surrogate", "tack_tests", "theory", "verification",
+}  # fmt: skip
+PAGES = [
+    *(ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT")),
+    *(path for path in sorted(ROOT.glob("docs/*.md")) if path.stem not in OPEN_PAGES),
+]
 
 
 def texts(path):
@@ -47,7 +61,7 @@ def tics_in(path):
         f"{path.name}:{line}: {found[0]!r}; write {better}"
         for line, text in texts(path)
         for tic, better in TICS.items()
-        if (found := re.search(tic, text))
+        if (found := re.search(tic, " ".join(text.split())))
     ]
 
 
@@ -56,6 +70,14 @@ def test_text_is_free_of_idioms(room):
     home = PACKAGE / room
     paths = sorted(home.rglob("*.py")) if home.is_dir() else [home.with_suffix(".py")]
     assert [tic for path in paths for tic in tics_in(path)] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_pages_are_free_of_idioms(page):
+    text = " ".join(page.read_text(encoding="utf-8").split())
+    # "of your own" is plain to a reader who is addressed
+    found = {tic: re.search(tic, text) for tic in TICS if "own" not in tic}
+    assert {tic: match[0] for tic, match in found.items() if match} == {}
 
 
 def test_the_check_finds_idioms_in_comments_and_strings(tmp_path):

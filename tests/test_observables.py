@@ -194,7 +194,7 @@ def test_a_far_step_does_not_bend_the_minimum():
 
 
 def test_a_force_that_breaks_off_is_no_deeper_than_its_steps():
-    # of an elastic punch with Dugdale's law that lets go within a thousandth of h0
+    # of an elastic punch with Dugdale's law that detaches within a thousandth of h0
     x = np.array([2.2665, 2.2736, 2.2841, 2.29995, 2.3009, 2.3024])
     force = np.array([-0.8611, -0.8635, -0.8668, -0.8686, -0.2763, -0.2072])
     result = plain(-x, force)

@@ -323,7 +323,7 @@ def test_a_dwell_at_a_start_beyond_the_force_minimum_changes_no_pull_off():
 
 
 def test_the_stated_error_of_the_work_holds_under_a_growing_load():
-    """Companions may let go at the same depth by chance, and finer runs elsewhere."""
+    """Companions may detach at the same depth by chance, and finer runs elsewhere."""
     solid = RelaxationPowerLaw(
         rubbery_modulus=1.0, glassy_modulus=5.0, exponent=1.0, tau0=1.0, poisson_ratio=0.0
     )

@@ -52,7 +52,7 @@ def test_a_force_ten_times_less_accurate_than_asked_is_not_given():
     result = pulled(asked=1e-6, throw=False)
     assert result.outcome == "stopped" and result.error_estimate is not None
     assert "the pull-off force is not resolved: its error is estimated at" in result.status
-    assert "beside 0.0001 % that were asked for; ask for a better accuracy" in result.status
+    assert "beside 0.0001 % requested; ask for a better accuracy" in result.status
     assert summary(result)["pull_off_force"] is None
     with pytest.raises(SimulationError, match="not resolved"):
         pulled(asked=1e-6)

@@ -54,5 +54,5 @@ class Foundation:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the body."""
+        """Numbers of the body for summaries of dimensionless problems."""
         return {"thickness": self.thickness}

@@ -58,7 +58,7 @@ class RoundedCone:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the shape."""
+        """Numbers of the shape for summaries of dimensionless problems."""
         return {"rounding": self.rounding}
 
 

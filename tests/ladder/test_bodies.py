@@ -57,7 +57,7 @@ def test_the_gap_around_a_contact_on_the_half_space_is_that_of_jkr():
 
 
 def test_jkr_on_a_foundation_is_each_spring_for_itself():
-    # a spring lets go when it holds the work of adhesion: b w = (E*/2) drawn^2
+    # a spring detaches when it holds the work of adhesion: b w = (E*/2) drawn^2
     b, theory = 0.3, {"shape": Sphere(1.0), "body": FOUNDATION(0.3), **SOLID}
     drawn = np.sqrt(2 * b)
     depth = RADII**2 / 2 - drawn
@@ -85,7 +85,7 @@ def pulled(tabor, thickness):
         return 1.0
     last = brentq(opening, gap[falls[0] - 1], gap[falls[0]])
     place = last + give * LAW.traction(last)
-    # the gap at which the spring, having let go, comes to rest
+    # the gap at which the spring, having detached, comes to rest
     free = brentq(lambda g: g + give * LAW.traction(g) - place, gap[falls[-1]] + 1e-3, 1e3)
     energy = [LAW.energy(g) + give * LAW.traction(g) ** 2 / 2 for g in (last, free)]
     return 1.0 + float(energy[0] - energy[1])

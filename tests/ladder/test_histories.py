@@ -110,7 +110,7 @@ def test_a_soft_spring_is_load_control_to_first_order_in_its_stiffness():
 
 def test_a_spring_stores_what_the_drive_gives_and_the_contact_does_not_take():
     result = run(sphere(AtDepth(5.0), rate=1.0, stiffness=0.1))
-    # behind so soft a spring the contact lets go at the elastic force minimum, at a bound in time
+    # behind so soft a spring the contact detaches at the elastic force minimum, at a bound in time
     assert kinds(result) == ["jump out of contact"]
     assert result.force[-1] > -0.1  # and the spring springs back
 
@@ -618,5 +618,7 @@ def test_nothing_jumps_where_a_deep_elastic_contact_waits():
 
 
 def test_a_start_that_its_spring_does_not_hold_is_refused():
-    with pytest.raises(ValueError, match="no spring of stiffness 0.01 holds .* lets go at once"):
+    with pytest.raises(
+        ValueError, match="no spring of stiffness 0.01 holds .* detaches immediately"
+    ):
         solve(sphere(AtDepth(-4.0), rate=1.0, material=ELASTIC, tabor=3.0, stiffness=0.01))

@@ -106,8 +106,8 @@ def check_held(start: Relaxed, contact: Contact, leg: Leg) -> None:
         return
     raise InputError(
         f"no spring of stiffness {leg.stiffness:g} holds the relaxed contact at a depth of "
-        f"{start.depth:.4g} h0, where the force is {start.force:.4g}: it lets go at once; start "
-        "deeper, or with a stiffer machine"
+        f"{start.depth:.4g} h0, where the force is {start.force:.4g}: it detaches immediately; "
+        "start deeper, or with a stiffer machine"
     )
 
 

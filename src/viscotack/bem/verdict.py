@@ -44,7 +44,7 @@ def _unresolved(result: Result) -> str:
         return ""
     return (
         f"the pull-off force is not resolved: its error is estimated at {100 * error:.2g} %, "
-        f"beside {100 * asked:.2g} % that were asked for"
+        f"beside {100 * asked:.2g} % requested"
     )
 
 

@@ -36,7 +36,7 @@ class Case:
 
 
 class Cases(Sequence[Case]):
-    """Cases as columns of numbers; each is made when it is asked for.
+    """Cases as columns of numbers; each is made when it is needed.
 
     Parameters
     ----------

@@ -126,7 +126,7 @@ class DaskCrew:
         return found
 
     def workers(self) -> int:
-        """Return the number of cases that the cluster does at once; at least one."""
+        """Return the number of cases that the cluster runs in parallel; at least one."""
         return max(1, sum(m.threads for m in self._machines.values() if m.fit))
 
     def _free(self, machine: _Machine) -> int:
@@ -169,7 +169,7 @@ class DaskCrew:
             return
         found = _fetched(future)
         if found is None:
-            del self._machines[address]  # if it is there still it is asked again
+            del self._machines[address]  # if it is still there it is queried again
         elif isinstance(found, Exception):
             self._dismiss(address, f"it cannot begin: {type(found).__name__}: {found}")
         elif words := difference(found, identity()):

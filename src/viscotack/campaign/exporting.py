@@ -19,7 +19,7 @@ from .parts import write_parquet
 
 # What a MATLAB file may have [bytes]: it is made in memory, and its format ends at twice as much.
 _MOST_MAT = 1e9
-# Rows of a CSV file that are made at once.
+# Rows of a CSV file that are made at a time.
 _ROWS = 1000
 
 

@@ -1,7 +1,7 @@
 """The numbers of a problem that a plan may set, each named by its path in the record.
 
 What a number is, what it is measured in and where it ends is said by its card; what the machine
-does is measured in what the geometry says, a force in N or a stress in Pa.
+does has the unit of the geometry's outputs, a force in N or a stress in Pa.
 """
 
 import copy
@@ -12,11 +12,11 @@ from typing import Any
 from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, PowerLawProfile
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups, Problem, RoughCase
 from viscotack.problem.older import upgraded_paths
 from viscotack.problem.record import from_dict, to_dict
 
-# A tip z = A r^q by the height that it has at a radius: A is measured in what q says.
+# A tip z = A r^q by the height that it has at a radius: the unit of A depends on q.
 _HEIGHT, _AT_RADIUS = "geometry.height", "geometry.at_radius"
 _EXPONENT, _COEFFICIENT = "geometry.exponent", "geometry.coefficient"
 _TIP = {
@@ -53,7 +53,7 @@ def inputs_of(problem: Any) -> dict[str, Input]:
 
     Parameters
     ----------
-    problem : Problem or Groups
+    problem : Problem, Groups or RoughCase
         The problem.
 
     Returns
@@ -72,6 +72,8 @@ def inputs_of(problem: Any) -> dict[str, Input]:
     'h0'
     """
     found = {entry.path: entry for entry in _numbers(problem, problem.units, "")}
+    if isinstance(problem, RoughCase):
+        return {path: entry for path, entry in found.items() if path not in problem.unused}
     if not isinstance(problem, Problem):
         # the parts of a dimensionless problem have the cards of those in SI
         own = set(problem.units.values())

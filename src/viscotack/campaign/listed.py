@@ -1,4 +1,4 @@
-"""Cases that are listed one by one: the rows of a CSV file, read as they are asked for."""
+"""Cases that are listed one by one: the rows of a CSV file, read when they are needed."""
 
 import csv
 import re
@@ -20,7 +20,7 @@ def read_words(
 ) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
     """Return the names in the first row of a CSV file, and the other rows with their lines.
 
-    Rows are read as they are asked for, of the text of the file where it was read before; one that
+    Rows are read when they are needed, of the text of the file where it was read before; one that
     is wrong is refused then.
     """
     rows = _filled(path, read_text(path) if text is None else text)

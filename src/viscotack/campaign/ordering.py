@@ -19,7 +19,7 @@ from viscotack.files.arrow import arrow
 
 from .cases import Cases, Names, packed
 
-# Rows that are held at once: of a campaign 15 MB.
+# Rows in memory at a time: 15 MB of a campaign.
 _HELD = 10_000
 # A column beside those of the rows.
 _RANK = " rank"

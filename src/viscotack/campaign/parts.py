@@ -284,7 +284,7 @@ def adopted(folder: Path) -> Ledger:
 def parquet(tables: Callable[[], Iterable[Any]]) -> Any:
     """Return tables as the bytes of one Parquet file, with a checksum of every page.
 
-    They are asked for twice, and only one of them is held at a time: columns may differ.
+    They are read twice, and only one of them is held at a time: columns may differ.
     """
     pa = arrow()
     schema = pa.unify_schemas([table.schema for table in tables()], promote_options="permissive")

@@ -213,7 +213,7 @@ class Crew(Protocol):
         ...
 
     def workers(self) -> int:
-        """Return how many cases are done at once."""
+        """Return the number of cases run in parallel."""
         ...
 
 

@@ -3,7 +3,7 @@
 ::
 
     plan.toml or plan.csv     the plan as it was given
-    cases.parquet             what it stands for: name and inputs of every case
+    cases.parquet             name and inputs of every case
     provenance.json           kind, settings, and who ran it when with which versions; the hashes
                               of all files, under a seal of its own
     results/*.parquet         a row per solved case
@@ -89,8 +89,8 @@ class Store:
         Raises
         ------
         ValueError
-            If the folder holds cases of another kind, accuracy or shard, or of files of the user's
-            own that have been edited since.
+            If the folder holds cases of another kind, accuracy or shard, or of user-defined files
+            that have been edited since.
         """
         stated = {
             "kind": plan.kind.name,
@@ -390,7 +390,7 @@ def table_of_cases(cases: Cases) -> Any:
 
 
 def _tables_of_cases(cases: Cases) -> Iterator[Any]:
-    """Yield cases as tables of some of them: a million at once take 100 MB more."""
+    """Yield cases as tables of some of them: a million in one table take 100 MB more."""
     for begin in range(0, max(1, len(cases)), _WRITTEN):
         yield table_of_cases(cases[begin : begin + _WRITTEN])
 

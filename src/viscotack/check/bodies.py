@@ -59,7 +59,7 @@ def check_body(body: Any, *, size: float = 1e-4, thorough: bool = True) -> Repor
     """
     checks = (_symmetries, _compliance, _units, _theory, _transfer, _record, _case_file, _tiers)
     more = (_campaign, _contact) if thorough else ()
-    return report(body, checks + more, size)
+    return report(body, checks + more, size, room="bodies")
 
 
 def _symmetries(body: Any, size: float) -> Iterator[Finding]:

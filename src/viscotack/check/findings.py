@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.problem.nouns import MEMBERS, missing_members
 
 
 class CheckFailed(InputError):
@@ -85,8 +86,16 @@ class Report:
 Check = Callable[..., Iterator[Finding]]
 
 
-def report(noun: Any, checks: tuple[Check, ...], *arguments: Any) -> Report:
-    """Run checks on an object; an exception becomes a failed finding and ends that check only."""
+def report(
+    noun: Any, checks: tuple[Check, ...], *arguments: Any, room: str | None = None
+) -> Report:
+    """Run checks on an object; an exception becomes a failed finding and ends that check only.
+
+    With a room, an object without all members of its kind has this as its only finding.
+    """
+    if room and (missing := missing_members(noun, room)):
+        lack = f"no {', '.join(missing)}"
+        return Report(repr(noun), (Finding("members", ", ".join(MEMBERS[room]), lack, False),))
     found: list[Finding] = []
     for check in checks:
         try:

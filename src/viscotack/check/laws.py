@@ -60,7 +60,7 @@ def check_law(law: Any, *, thorough: bool = True) -> Report:
         _case_file,
         _flag,
     )
-    return report(law, checks + ((_campaign, _contacts) if thorough else ()))
+    return report(law, checks + ((_campaign, _contacts) if thorough else ()), room="laws")
 
 
 def _gaps(law: Any) -> npt.NDArray[np.float64]:

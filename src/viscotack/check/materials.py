@@ -62,7 +62,8 @@ def check_material(material: Any, *, thorough: bool = True) -> Report:
         _finest_modes, _transforms, _reduced, _units, round_trips.through_record, _case_file,
         _flags, _campaign, _passport,
     )  # fmt: skip
-    return report(material, checks + ((_contacts, _theories) if thorough else ()))
+    checks += (_contacts, _theories) if thorough else ()
+    return report(material, checks, room="materials")
 
 
 def _times(m: Any, decades: float = 12) -> Any:

@@ -43,7 +43,7 @@ def check_shape(shape: Any, *, size: float = 1e-4, thorough: bool = True) -> Rep
     """
     checks = (_profile, _units, _theory, _record, _case_file)
     more = (_campaign, _contact) if thorough else ()
-    return report(shape, checks + more, size)
+    return report(shape, checks + more, size, room="shapes")
 
 
 def _profile(shape: Any, size: float) -> Iterator[Finding]:
@@ -66,7 +66,7 @@ def _profile(shape: Any, size: float) -> Iterator[Finding]:
     climbed = half * (np.asarray(shape.flank(middle[:, None] + half[:, None] * nodes)) @ weights)
     name = "flank is the derivative of the gap"
     largest = float(np.max(np.abs(shape.gap(r))))
-    # a slope may change its own slope at once
+    # a slope may have a kink
     atol = (1e-9 if np.isinf(detail(shape)) else 1e-8) * largest
     yield same(name, climbed, np.diff(shape.gap(r)), rtol=1e-4, atol=atol)
     found = np.shape(shape.gap(np.full((2, 3), size)))

@@ -35,7 +35,7 @@ CATCH_UP = 0.03
 
 @dataclass
 class Release:
-    """A controller that moves a drive so that a contact lets go at a wanted force.
+    """A controller that moves a drive so that a contact detaches at a wanted force.
 
     Parameters
     ----------

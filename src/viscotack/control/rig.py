@@ -21,7 +21,7 @@ from .release import Release
 
 # A test ends after this multiple of the time of its retraction in the table.
 _LONGEST = 3.0
-# Tension, over the largest one, below which the contact has let go.
+# Tension, over the largest one, below which the contact has detached.
 _GONE = 0.05
 
 
@@ -82,13 +82,13 @@ def let_go(
     Returns
     -------
     Released
-        What the rig did until it let go.
+        What the rig did until it detached.
 
     Raises
     ------
     ValueError
         If the protocol has moves or a spring, the controller was used before, or the contact does
-        not let go within three times the time of the table or within the time limit.
+        not detach within three times the time of the table or within the time limit.
     """
     test = problem.protocol
     if test.moves or test.stiffness is not None:
@@ -114,7 +114,7 @@ def let_go(
             )
             rows = _driven(contact, release, unit, longest)
         except TimeUp as limit:
-            raise InputError(f"{limit} before the contact let go; give more time") from None
+            raise InputError(f"{limit} before the contact detached; give more time") from None
     time, drives, depth, forces, moved = np.array(rows).T
     return Released(
         time, drives, depth, forces, moved, contact.tension * unit.force, release.wanted
@@ -124,7 +124,7 @@ def let_go(
 def _driven(
     contact: LiveContact, release: Release, unit: Scales, longest: float
 ) -> list[tuple[float, ...]]:
-    """Return time, drive, depth, force and speed of the drive at every tick until it let go."""
+    """Return time, drive, depth, force and speed of the drive at every tick until it detached."""
     rows, now = [], contact.now
     drive = now.depth * unit.length + now.force * unit.force / release.stiffness
     for tick in range(int(longest / release.period) + 1):
@@ -135,4 +135,4 @@ def _driven(
         drive += moves * release.period
         if contact.apart or (release.past and -force < _GONE * release.tension):
             return rows
-    raise InputError(f"the contact did not let go within {longest:.3g} s")
+    raise InputError(f"the contact did not detach within {longest:.3g} s")

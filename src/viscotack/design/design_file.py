@@ -60,7 +60,7 @@ _NEEDED = ("radius", "preload")
 _ALONG = ("shear", "peel", "tilt")
 _TO = ".."
 _MOST_MATERIALS = 10
-# Indenter and test that stand for those of a design while material and interface are read.
+# Indenter and test used in place of those of a design while material and interface are read.
 _POSED = {
     "sphere": {"radius": "1 m"},
     "protocol": {"preload_depth": "0 m", "speed": "1 um/s"},

@@ -62,7 +62,7 @@ class OtherContact:
         Pull-off force of the relaxed solid and of the fastest retraction, for forces of short
         range [1.5 pi R dg0].
     strength_force : float or None
-        Force at which a disc comes off everywhere at the strength of the interface; the two limits
+        Force at which a disc detaches everywhere at the strength of the interface; the two limits
         are not above it.
     over_half_space : float or None
         Slow force of a film over that of a half-space.
@@ -235,7 +235,7 @@ def _case(groups: Groups, radius: float | None) -> str:
     if groups.modulus_ratio >= 1:
         return "an elastic solid has no rate"
     if isinstance(groups.geometry, Disc):
-        return "a disc comes off as a whole: no edge recedes"
+        return "a disc detaches as a whole: no edge recedes"
     if np.isfinite(detail(groups.geometry)):
         return "the profile may have several edges"
     if radius is None:

@@ -2,7 +2,7 @@
 
 A mesh of a surface of revolution goes from the axis, r = 0, outwards, and its pressures are linear
 in r^2; one in plane strain goes from the middle, x = 0, to the end of the punch, and each node
-stands for the two hats at x and -x. The last hat is half a hat: pressure ends at the last node.
+represents the two hats at x and -x. The last hat is half a hat: pressure ends at the last node.
 """
 
 import numpy as np

@@ -24,7 +24,7 @@ The half-plane is not included: with growing b the layer sinks deeper as a whole
 (a/b)^2.
 
 Pressure is symmetric in x. Nodes go from the middle, x = 0, to the end of the punch, x = a, where
-the pressure ends with half a hat; node j stands for the two hats at x_j and -x_j.
+the pressure ends with half a hat; node j represents the two hats at x_j and -x_j.
 
 As for the half-space, the compliance B = G/length of a unit *force* on node j is to be replaced by
 its symmetric part. That was positive definite in all that was tried: b/a from 0.005 to 100, every

@@ -41,7 +41,7 @@ _WIDE, _LARGEST = 1.0, 300.0
 _LAST = 16.0
 # Gauss panels in t: phase of each panel and number of points.
 _PHASE, _POINTS = 12.0, 16
-# Tables grow by this factor, so that meshes share them; values of t that are summed at once.
+# Tables grow by this factor, so that meshes share them; values of t that are summed at a time.
 _GROWTH, _BLOCK = 1.25, 2048
 _GAUSS_4 = np.polynomial.legendre.leggauss(4)
 

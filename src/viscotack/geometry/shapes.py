@@ -55,7 +55,7 @@ class Sphere:
 
     Notes
     -----
-    The paraboloid stands for the sphere while the contact radius is small beside R: at 0.5 R the
+    The paraboloid approximates the sphere while the contact radius is small beside R: at 0.5 R the
     true gap is 7 % larger. A problem in SI refuses larger contacts.
 
     Examples
@@ -91,7 +91,7 @@ class Sphere:
 
 
 def effective_sphere(first: Sphere, second: Sphere) -> Sphere:
-    r"""Return the sphere on a flat body that stands for a sphere on a sphere.
+    r"""Return the sphere on a flat body equivalent to a sphere on a sphere.
 
     .. math:: \frac{1}{R} = \frac{1}{R_1} + \frac{1}{R_2}
 
@@ -145,7 +145,7 @@ class FlatPunch:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the shape."""
+        """Numbers of the shape for summaries of dimensionless problems."""
         return {"size": self.half_width}
 
 
@@ -211,7 +211,7 @@ class PowerLawProfile:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the shape."""
+        """Numbers of the shape for summaries of dimensionless problems."""
         return {"profile_exponent": self.exponent}
 
 
@@ -269,7 +269,7 @@ class Cone:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What a dimensionless problem says of the shape."""
+        """Numbers of the shape for summaries of dimensionless problems."""
         return {"profile_exponent": 1.0}
 
 

@@ -38,7 +38,7 @@ _UNKNOWN = 0.15  # relative error of the theory where it does not hold
 _LIKELY = 10.0  # misfit above the least of the interfaces at which simulations are
 _ROUNDS = 6
 # Distance between interfaces, factor by which it falls while the error is above the wanted one, and
-# most interfaces at once.
+# most interfaces at a time.
 _APART, _CLOSER, _WANTED, _MOST_POINTS = 0.6, 0.6, 0.01, 10
 _RADII = 40  # points of a curve for Tabor numbers
 _NAMED = 4  # largest number of speeds named one by one

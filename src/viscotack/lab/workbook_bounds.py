@@ -16,7 +16,7 @@ MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
 # Of one text, where spreadsheets allow 32,767; and of a part, per element
 # [characters].
 _LONGEST_TEXT, _MOST_TEXT, _ELEMENT = 40_000, 30_000_000, 16
-# Read at once, and most between two elements [bytes].
+# Read at a time, and most between two elements [bytes].
 _CHUNK, _LONGEST_ELEMENT = 1 << 16, 1 << 20
 # A small workbook, packed and unpacked [bytes].
 _SMALL, _SMALL_UNPACKED = 50_000, 1_000_000

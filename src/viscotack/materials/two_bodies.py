@@ -28,7 +28,7 @@ _SAME = 1e-12
 def effective_solid(
     first: Elastic | Prony | StandardSolid, second: Elastic | Prony | StandardSolid
 ) -> Elastic | Prony:
-    """Return the solid of the half-space that stands for two.
+    """Return the solid of a half-space equivalent to two bodies.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ class OfArray(Operation):
     """Pull an array of pads off: force, order of detachment, load sharing, payload and yield.
 
     Each pad follows the force-depth curve of one pad at the speed of the pull; heights, works,
-    tilt, curvature and springs of the backing determine which lets go first. docs/arrays.md
+    tilt, curvature and springs of the backing determine which detaches first. docs/arrays.md
     describes the file and the theory.
 
     Example: viscotack array gripper_finger.toml --plot array.png
@@ -36,7 +36,7 @@ class OfArray(Operation):
     file: Annotated[
         Placed,
         FileOfNames(
-            "One [pad], the places of all in [array], the [pull]; perhaps [backing] and [hold].",
+            "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
             metavar="ARRAY.toml",
             argument=True,
         ),
@@ -167,7 +167,7 @@ def _words(array: Any, found: Any, held: Any, part: Any) -> str:
             f"{word[held.holds]}; payload {held.payload * 1e3:.4g} g"
         )
         after = f"after {readable(held.time, 's')}" if isfinite(held.time) else "not within a day"
-        lines.append(f"at rest under its weight the load comes off {after} ({held.why})")
+        lines.append(f"at rest under its weight the load detaches {after} ({held.why})")
         lines.append(f"release takes {readable(held.release_time, 's')} at this speed")
     if part is not None:
         low, high = part.interval

@@ -44,7 +44,12 @@ class Inputs(Operation):
 
     problem: Annotated[
         Statement,
-        Stated("A problem in SI.", indenters=INDENTERS, spelling="case"),
+        Stated(
+            "A problem in SI, or a rough surface.",
+            indenters=INDENTERS,
+            spelling="case",
+            rough=True,
+        ),
     ]
 
     def answer(self, caller: Caller) -> Answer:
@@ -185,8 +190,8 @@ class Run(Operation):
     """Run the cases of a plan that have no result in the folder yet.
 
     An interrupted run resumes when called again. The first ctrl-C lets running cases finish, a
-    second one stops at once. Exit status 0: all cases have a result; 1: interrupted; 4: all cases
-    were run and some failed; viscotack campaign status lists the reasons.
+    second one stops immediately. Exit status 0: all cases have a result; 1: interrupted; 4: all
+    cases were run and some failed; viscotack campaign status lists the reasons.
 
     Example: viscotack campaign run cases.csv --out study --workers 2
     """

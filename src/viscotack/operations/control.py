@@ -24,11 +24,11 @@ _TABLE = 0.7
 
 @dataclass(frozen=True, kw_only=True)
 class Control(Operation):
-    """Tabulate the force by depth and speed for a controller, and let go at a wanted force.
+    """Tabulate the force by depth and speed for a controller, and release at a wanted force.
 
     Simulates the retraction at as many speeds as the interpolation needs, and writes the table as
     C, as a function of Octave and MATLAB, or as an FMU. With --wanted a controller that reads force
-    and drive moves the drive of a simulated rig, behind its spring, so that the contact lets go at
+    and drive moves the drive of a simulated rig, behind its spring, so that the contact detaches at
     this force.
 
     Example: viscotack control lens.toml --slowest "1 um/s" --fastest "1 mm/s" --c contact.h
@@ -103,7 +103,7 @@ class Control(Operation):
             raise InputError("the stiffness is that of the rig of a release; give wanted too")
 
     def answer(self, caller: Caller) -> Answer:
-        """Tabulate, telling ``share``; let go on the simulated rig if a force is wanted."""
+        """Tabulate, telling ``share``; release on the simulated rig if a force is wanted."""
         from viscotack.control import Release, c_header, fmu, force_table, let_go, octave_function
         from viscotack.files.whole import write_whole
         from viscotack.pictures.control import draw_control
@@ -212,7 +212,7 @@ def _words(table: "ForceTable", released: "Released | None", speed: float | None
         lines += [
             f"release at {readable(released.wanted, 'N')}: the contact keeps "
             f"{readable(speed, 'm/s')}",
-            f"simulated rig: lets go at {readable(released.pull_off_force, 'N')}, "
+            f"simulated rig: detaches at {readable(released.pull_off_force, 'N')}, "
             f"{released.miss:+.2%}, after {readable(float(released.time[-1]), 's')}",
         ]
     return "\n".join(lines)

@@ -156,7 +156,7 @@ class FitMaterial(Operation):
             reference=self.source,
             made_by=f"viscotack {__version__}",
         )
-        # bare names: a path says nothing elsewhere
+        # bare names: a path is valid on this machine only
         names = ", ".join(file.name for file in self.files)
         return replace(passport, origin=replace(passport.origin, file=names))
 

@@ -23,7 +23,9 @@ _MOST = 50  # speeds between two ends
 StudyFile = Annotated[
     Placed,
     FileOfNames(
-        "As `viscotack identify rates ... -o study.toml` writes it.", metavar="STUDY", argument=True
+        "Study written by `viscotack identify rates ... -o study.toml`.",
+        metavar="STUDY",
+        argument=True,
     ),
 ]
 

@@ -191,7 +191,7 @@ class Advise(Operation):
     """Determine the regime of a contact and the reliability of each method.
 
     The problem is stated as for simulate sphere, by flags or by a file in SI with any indenter of
-    revolution. For a film (--thickness) the answer says when it is a half-space, how much more it
+    revolution. For a film (--thickness) the answer states when it is a half-space, how much more it
     holds, and at which speed the gain saturates; for discs and profiles it has the two limits.
 
     Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73

@@ -123,9 +123,9 @@ class OfPad(Operation):
     theory: Annotated[
         str, Choice("Theory of the moving crack.", choices=("greenwood", "persson-brener"))
     ] = "greenwood"
-    map: Annotated[
-        bool, Switch("Add to the JSON how the pad comes off by thickness and speed.")
-    ] = False
+    map: Annotated[bool, Switch("Add to the JSON how the pad detaches by thickness and speed.")] = (
+        False
+    )
 
     def __post_init__(self) -> None:
         if self.thickness is not None and self.stress is not None:

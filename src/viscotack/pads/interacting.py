@@ -77,7 +77,7 @@ def interactions(places: Array, modulus: float, *, radius: float) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Coupled:
-    """Curve of the plate, and its positions at which each pad has let go [m]."""
+    """Curve of the plate, and its positions at which each pad has detached [m]."""
 
     plate: Curve
     ends: Array
@@ -114,7 +114,7 @@ def coupled(curves: Sequence[Curve], heights: Array, c: Array) -> Coupled:
         positions.append(z)
         forces.append(float(pads.at(x, held)[0].sum()))
         if len(positions) > _MOST_STEPS:
-            raise InputError("the pads of this array do not let go; their base is too soft")
+            raise InputError("the pads of this array do not detach; their base is too soft")
     total = sum(each.lost for each in curves) + max(lost, 0.0)
     return Coupled(Curve(np.array(positions), np.array(forces), total), ends)
 
@@ -179,6 +179,6 @@ def _flowed(pads: _Pads, c: Array, x: Array, goal: Array, held: Any) -> tuple[Ar
         if np.max(np.abs(off)[held], initial=0.0) < _SETTLED * scale:
             break
         at = at - _SLOW / (1 + np.abs(slope) * largest) * off
-        # a pad that has let go stays apart
+        # a pad that has detached stays apart
         held = held & (at > pads.ends)
     return at, held

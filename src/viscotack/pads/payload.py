@@ -86,10 +86,10 @@ class Holding:
         Largest mass with the same acceleration and safety factor, by the lower end of the interval
         of the pull-off force [kg].
     time : float
-        Time under the weight at rest until the array comes off [s]; inf if it never does or lasts
+        Time under the weight at rest until the array detaches [s]; inf if it never does or lasts
         longer than a day.
     release_time : float
-        Time from the start of the pull until the last pad has let go [s].
+        Time from the start of the pull until the last pad has detached [s].
     why : str
         Where the time comes from.
     """
@@ -199,7 +199,7 @@ def _time(
     accuracy: float,
     time_limit: float | None,
 ) -> tuple[float, str]:
-    """Return the time until a pad comes off under a tension [s], and its tier."""
+    """Return the time until a pad detaches under a tension [s], and its tier."""
     si = pad.scales()
     # the pad is loaded as fast as the pull unloads it
     loading = si.length * max(pad.groups().tabor or 1.0, 1.0) / speed

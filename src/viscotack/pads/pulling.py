@@ -47,7 +47,7 @@ MOST_PADS, MOST_COUPLED = 2000, 200
 # Part of the difference between shared and separate speeds that belongs to the interval, and the
 # largest such part that was compared with simulations.
 _OF_SHARE, _LARGEST_SHARE = 0.3, 0.1
-# Pads whose drives at detachment differ by less than this fraction of the travel let go together.
+# Pads whose drives at detachment differ by less than this fraction of the travel detach together.
 _TOGETHER = 1e-9
 # Tolerance of a start over the travel of a pad, and most rounds to reach the deepest one.
 _TOLERANCE = 1e-12
@@ -199,7 +199,7 @@ def grid(rows: int, columns: int, spacing: float) -> tuple[tuple[float, float], 
 
 @dataclass(frozen=True, eq=False)
 class ArrayPull:
-    """How an array comes off, in SI.
+    """How an array detaches, in SI.
 
     Attributes
     ----------
@@ -217,11 +217,11 @@ class ArrayPull:
     load_sharing : float
         Pull-off force over that of as many pads, each alone under the mean preload.
     released : ndarray
-        Travel of the drive at which each pad has let go [m]; nan for a pad that never touched.
+        Travel of the drive at which each pad has detached [m]; nan for a pad that never touched.
     order : tuple of int
-        Numbers of the pads in the order in which they let go, also within a jump.
+        Numbers of the pads in the order in which they detach, also within a jump.
     jumps : tuple of (float, int)
-        Travel of the drive [m] and number of pads, for every instant at which pads let go.
+        Travel of the drive [m] and number of pads, for every instant at which pads detach.
     start_force : ndarray
         Force of each pad at the start [N].
     method : str
@@ -246,7 +246,7 @@ class ArrayPull:
 
     @property
     def largest_jump(self) -> int:
-        """Largest number of pads that let go at one instant."""
+        """Largest number of pads that detach at one instant."""
         return max((count for _, count in self.jumps), default=0)
 
 
@@ -345,7 +345,7 @@ def _pull(array: PadArray, speed: float, accuracy: float, time_limit: float | No
 
 @dataclass(frozen=True, eq=False)
 class _Pulled:
-    """Curve of the drive, travels and order in which pads let go, and forces at the start."""
+    """Curve of the drive, travels and order in which pads detach, and forces at the start."""
 
     curve: Curve
     released: Array
@@ -497,7 +497,7 @@ def _drive_at(plate: Curve, stiffness: float | None, ends: Array) -> Array:
 
 
 def _jumps(released: Array, travel: float) -> tuple[tuple[float, int], ...]:
-    """Group pads that let go at the same travel of the drive."""
+    """Group pads that detach at the same travel of the drive."""
     known = np.sort(released[np.isfinite(released)])
     parts = np.split(known, np.flatnonzero(np.diff(known) > _TOGETHER * travel) + 1)
     return tuple((float(part[0]), int(part.size)) for part in parts if part.size)

@@ -19,7 +19,7 @@ _NUMBERED = 60
 
 
 def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -> "Figure":
-    """Draw the force of an array by travel of the drive, and which pad lets go when.
+    """Draw the force of an array by travel of the drive, and which pad detaches when.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
     -------
     matplotlib.figure.Figure
         Left the tension, with the pull-off force and its interval; right the pads at their places,
-        numbered by their turn. Pads that let go at one instant have the same number.
+        numbered by their turn. Pads that detach at one instant have the same number.
 
     Examples
     --------
@@ -101,5 +101,5 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
         right.grid(False)
         right.set_xlabel(f"x [{place_unit}]")
         right.set_ylabel(f"y [{place_unit}]")
-        right.set_title("order in which the pads let go")
+        right.set_title("order in which the pads detach")
     return figure

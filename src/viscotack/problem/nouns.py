@@ -7,7 +7,7 @@ files and options.
 import importlib.util
 import sys
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
@@ -21,9 +21,11 @@ from viscotack.geometry import BODIES, SHAPES
 from viscotack.materials.words import MODELS
 from viscotack.traction import LAWS
 
-# Attributes that identify a kind of class, and its room.
-_SIGNS = {
+# What a class of each kind must have: fields, methods and properties.
+MEMBERS = {
     "laws": (
+        "work_of_adhesion",
+        "equilibrium_gap",
         "traction",
         "energy",
         "energy_beyond",
@@ -33,16 +35,23 @@ _SIGNS = {
         "reduced",
     ),
     "materials": (
-        "retardation_modes",
-        "creep",
+        "rubbery_modulus",
+        "glassy_modulus",
+        "poisson_ratio",
         "modulus_ratio",
         "contact_modulus",
         "time_unit",
+        "relaxation",
+        "creep",
+        "complex_modulus",
+        "complex_compliance",
+        "retardation_modes",
         "reduced",
     ),
-    "shapes": ("gap", "flank", "symmetry", "reduced"),
-    "bodies": ("influence", "decay_length", "symmetries", "reduced"),
+    "shapes": ("symmetry", "gap", "flank", "reduced"),
+    "bodies": ("symmetries", "influence", "decay_length", "reduced"),
 }
+_SINGULAR = {"laws": "law", "materials": "material", "shapes": "shape", "bodies": "body"}
 _ROOMS = (materials, geometry, protocol, problem)
 
 
@@ -145,20 +154,27 @@ def _is_own(thing: Any, module: str) -> bool:
     return is_dataclass(thing) and hasattr(thing, "function") and hasattr(thing, "words")
 
 
+def missing_members(noun: Any, room: str) -> list[str]:
+    """Return the members of a kind that a class or an object lacks."""
+    named = {field.name for field in fields(noun)} if is_dataclass(noun) else set()
+    return [name for name in MEMBERS[room] if not hasattr(noun, name) and name not in named]
+
+
 def _room(noun: Any) -> str:
-    if (
-        isinstance(noun, type)
-        and is_dataclass(noun)
-        and isinstance(getattr(noun, "word", None), str)
-    ):
-        for room, signs in _SIGNS.items():
-            if all(hasattr(noun, sign) for sign in signs):
-                return room
-    wanted = "; ".join(f"{room}: {', '.join(signs)}" for room, signs in _SIGNS.items())
-    raise InputError(
-        f"{getattr(noun, '__name__', noun)!r} is not a law, material, shape or body: these are "
-        f"frozen dataclasses with a `word` and ({wanted}); nor is it an Observable"
-    )
+    name = getattr(noun, "__name__", noun)
+    wrong = f"{name!r} is not a law, material, shape or body"
+    if not (isinstance(noun, type) and is_dataclass(noun)):
+        raise InputError(f"{wrong}, which are frozen dataclasses; nor is it an Observable")
+    if not isinstance(getattr(noun, "word", None), str):
+        raise InputError(f'{wrong}: it has no word; write word: ClassVar[str] = "a-name"')
+    missing = {room: missing_members(noun, room) for room in MEMBERS}
+    room = min(MEMBERS, key=lambda each: len(missing[each]) / len(MEMBERS[each]))
+    if missing[room]:
+        raise InputError(
+            f"{wrong}: as a {_SINGULAR[room]} it lacks {', '.join(missing[room])}; "
+            "docs/own.md describes each"
+        )
+    return room
 
 
 @lru_cache(maxsize=1)

@@ -67,7 +67,9 @@ def words(also: Iterable[Any] = ()) -> str:
             "| word | symbol | unit | meaning | of |",
             "|---|---|---|---|---|",
         ]
-        lines += [f"| {' | '.join(row)} | {', '.join(of)} |" for row, of in rows.items()]
+        every = len(kinds) if len(kinds) > 1 else 0
+        classes = {row: "all" if len(of) == every else ", ".join(of) for row, of in rows.items()}
+        lines += [f"| {' | '.join(row)} | {of} |" for row, of in classes.items()]
         lines.append("")
     if nouns.observables:
         lines += ["### Observables", "", "| name | measures | meaning |", "|---|---|---|"]

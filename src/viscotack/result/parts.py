@@ -52,12 +52,12 @@ class Span:
 
 
 def moves_of(result: Result) -> tuple[Move | None, ...]:
-    """Return the moves of a test; None stands for the final retraction."""
+    """Return the moves of a test; None is the final retraction."""
     return all_moves(result.groups)
 
 
 def all_moves(groups: Groups) -> tuple[Move | None, ...]:
-    """Return the moves of a problem; None stands for the final retraction."""
+    """Return the moves of a problem; None is the final retraction."""
     return (*groups.moves, *((None,) if groups.rate is not None else ()))
 
 

@@ -36,7 +36,7 @@ _EVEN = 1e-6
 # Most pixels: 512 x 512 take 0.5 GB and two minutes (benchmarks/grid.py size).
 _MOST = 2048 * 2048
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
-# warning, the third is asked for.
+# warning, the third is recommended.
 COARSEST, COARSE, FINE = 1.0, 1.5, 2.0
 
 
@@ -111,7 +111,8 @@ class RoughProblem:
                 "at rest"
             )
         if not isinstance(self.body, HalfSpace | Layer):
-            raise InputError(f"a map of heights lies on a half-space or a layer, not {self.body}")
+            body = getattr(self.body, "word", type(self.body).__name__)
+            raise InputError(f"a map of heights lies on a half-space or a layer, got {body}")
         if (slope := self.roughness.rms_slope) > _STEEPEST:
             raise InputError(
                 f"the rms slope of the map is {slope:.3g}, and small strain holds up to "

@@ -249,7 +249,7 @@ def window_yield(
 def drawn_openings(
     first: Problem, second: Problem, scatter: ContactScatter, *, draws: int = 100, seed: int = 0
 ) -> float:
-    """Return the share of drawn pairs of which the first contact opens, by steady cracks.
+    """Return the share of drawn pairs whose first contact opens, by steady cracks.
 
     Parameters
     ----------

@@ -97,7 +97,7 @@ def _array(path: Path) -> npt.NDArray:
             )
         there = os.fstat(file.fileno()).st_size - file.tell()
         if there != math.prod(shape) * kind.itemsize:
-            raise InputError("the file is cut off, or longer than its header says")
+            raise InputError("the file is cut off, or longer than its header states")
         file.seek(0)
         return np.load(file, allow_pickle=False).astype(float)
 

@@ -113,7 +113,7 @@ class GentSchultz(_Growing):
 
     Gent and Schultz found the power law for the energy of a crack against ITS speed. Here it
     relates to the local opening speed of the gap, from which the crack's energy follows: for an
-    elastic bulk the power is the same, but the reference speed differs (docs/growing_interface.md).
+    elastic bulk the power is the same, but the reference speed differs (docs/traction-laws.md).
 
     References
     ----------

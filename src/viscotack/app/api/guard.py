@@ -42,7 +42,7 @@ class Rules:
     together : int
         Largest size of all requests that are being answered [bytes].
     requests : int
-        Largest number of requests that are answered at once.
+        Largest number of simultaneous requests.
     patience : float
         Longest time within which a request must arrive [s].
     """

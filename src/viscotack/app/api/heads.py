@@ -4,7 +4,7 @@ from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-# Longest time in which the head of a request must arrive [s], and most connections at once.
+# Longest time in which the head of a request must arrive [s], and most simultaneous connections.
 PATIENCE, MOST_CONNECTIONS = 10.0, 1000
 
 

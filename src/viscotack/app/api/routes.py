@@ -230,7 +230,7 @@ def _page(router: APIRouter, engine: Engine) -> None:
         return _file(name)
 
 
-# What the page is made of: the names that are asked for are looked up here, and not in a folder.
+# What the page is made of: the requested names are looked up here, and not in a folder.
 _PARTS = {
     part.name: part
     for part in files_of("viscotack.app.page").iterdir()

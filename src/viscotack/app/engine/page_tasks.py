@@ -84,7 +84,7 @@ def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
 
 
 def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the prediction of :func:`viscotack.predict` for a state, and what every tier says.
+    """Return the prediction of :func:`viscotack.predict` for a state, and that of every tier.
 
     ``numbers`` are those of the prediction, or ``refused`` is the reason why there is none.
     ``words`` describe the regime, for the retraction of a relaxed contact of revolution;

@@ -129,7 +129,7 @@ class PunchContact:
             found = self._at_depth(depth, settings)
             if found.edge < resolved:
                 # under a given force such a long crack is unstable; only coarse nodes would pin it
-                raise InputError("the punch has let go")
+                raise InputError("the punch has detached")
             return found.force - start.force
 
         tolerance, wanted = (
@@ -139,7 +139,7 @@ class PunchContact:
         depth = depth_where(excess, 0.0, self.travel, tolerance, wanted)
         if depth is None:
             raise InputError(
-                f"no relaxed contact bears {wanted}: the punch lets go before; start with more"
+                f"no relaxed contact bears {wanted}: the punch detaches before; start with more"
             )
         return self._at_depth(depth, settings)
 
@@ -173,7 +173,7 @@ class PunchContact:
         if not balance.stable or np.isnan(edge) != apart:
             raise InputError(
                 f"no relaxed contact exists at a depth of {depth:g} h0 (thickness "
-                f"{self.thickness:g} a0): the punch has let go there; start deeper"
+                f"{self.thickness:g} a0): the punch has detached there; start deeper"
                 if not apart
                 else f"surfaces {1 - depth:g} h0 apart (thickness {self.thickness:g} a0) jump "
                 "into contact at rest; start farther away"

@@ -311,7 +311,7 @@ def _contact(force: Array, depth: Array, time: Array, noise: float, share: float
     )
     logs, variance = _contact_evidence(part, begins, widths[likely.any(axis=0)])
     weights = np.exp(logs - logs.max()).sum(axis=1)
-    # a candidate stands for the points around it
+    # a candidate represents the points around it
     weights *= np.gradient(part.first[begins].astype(float)) if begins.size > 1 else 1.0
     weights /= weights.sum()
     outer = min(max(_FEW, force.size // 8), 16)

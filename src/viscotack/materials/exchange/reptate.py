@@ -22,7 +22,7 @@ from viscotack.materials.exchange.units import (
 )
 
 _SLOWER = 1e4
-_PLATEAU = "the last mode stands for the rubbery modulus, which modes have not; Poisson ratio"
+_PLATEAU = "the last mode replaces the rubbery modulus, which modes do not have; Poisson ratio"
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:

@@ -466,14 +466,14 @@ def _refuse_missing(
 
 
 def _solid_of(given: Mapping[str, Any], nouns: Nouns) -> Material:
-    """Return the material of a passport, at the temperature asked for."""
+    """Return the material of a passport, at the requested temperature."""
     passport = passport_in(given["material"], nouns.materials.values())
     temperature = temperature_of(given)
     return passport.material if temperature is None else passport.at_temperature(temperature)
 
 
 def temperature_of(answers: Mapping[str, Any]) -> float | None:
-    """Return the temperature [K] that is asked for, None where none is."""
+    """Return the requested temperature [K], or None."""
     given = given_of(answers)
     if "temperature" not in given:
         return None
@@ -484,7 +484,7 @@ def temperature_of(answers: Mapping[str, Any]) -> float | None:
 
 
 def shift_deviation_of(answers: Mapping[str, Any], also: Iterable[Any] = ()) -> float:
-    """Return the standard deviation of log10 a_T of a passport at the temperature asked for."""
+    """Return the standard deviation of log10 a_T of a passport at the requested temperature."""
     given = given_of(answers)
     temperature = temperature_of(given)
     if temperature is None or not is_passport(given.get("material", "")):

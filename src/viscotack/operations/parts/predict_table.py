@@ -23,7 +23,7 @@ from ..declare.cards import is_number
 from .tables import Writer
 from .workbook import write_workbook
 
-# Rows that are held at once.
+# Rows in memory at a time.
 _BLOCK = 50_000
 _SHEET = 2**20 - 1  # rows of a sheet below its headings
 

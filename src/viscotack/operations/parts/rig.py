@@ -17,7 +17,7 @@ Files = Annotated[
     File(
         "Files of the rig: CSV or other text with units, a testXpert workbook, a Nanosurf .nid, "
         "a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals of one "
-        "test; a folder stands for the files in it.",
+        "test; a folder means all files in it.",
         metavar="FILE...",
         argument=True,
     ),

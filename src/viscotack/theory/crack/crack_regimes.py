@@ -7,7 +7,7 @@ as a power of it that depends on the breadth of the spectrum (:func:`local_expon
 
 Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123; Maghami, PhD thesis (2025),
 Fig. 4.6 and appendix IV, published as doi:10.1016/j.jmps.2024.105844, whose fit
-q1 = -0.0125 + 3.136 n stands for the exact coefficient below at k = 0.
+q1 = -0.0125 + 3.136 n approximates the exact coefficient below at k = 0.
 """
 
 from __future__ import annotations

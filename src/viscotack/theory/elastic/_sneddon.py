@@ -17,7 +17,7 @@ from viscotack.theory._checks import Values
 _NODES = 64
 # Details of a profile per Gauss panel, and largest number of panels.
 _DETAILS, _MOST_PANELS = 1.0, 64
-# Slopes that are looked up at once.
+# Slopes that are looked up at a time.
 _AT_ONCE = 1_000_000
 
 

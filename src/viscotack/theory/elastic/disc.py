@@ -1,6 +1,6 @@
 r"""A rigid disc, the flat end of a cylinder, on a half-space or a layer: Kendall, and his limit.
 
-A disc comes off all at once, as a crack runs in from its edge (Kendall) or, where it is small
+A disc detaches abruptly, as a crack runs in from its edge (Kendall) or, where it is small
 beside the crack's own length, at the strength of the interface everywhere:
 
 .. math:: P_K = \sqrt{8 \pi E^* a^3 \Delta\gamma_0}, \quad P_\sigma = \pi a^2 \sigma_0, \quad
@@ -28,7 +28,7 @@ _HALF_SPACE = HalfSpace()
 
 
 def strength_limit(*, contact_radius: Values, strength: Values) -> Number:
-    r"""Return the force [N] at which a small disc comes off everywhere, a positive number.
+    r"""Return the force [N] at which a small disc detaches everywhere, a positive number.
 
     Examples
     --------

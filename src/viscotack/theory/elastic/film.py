@@ -55,7 +55,7 @@ def pull_off(
     Parameters
     ----------
     shape : shape of revolution
-        Rigid indenter, e.g. :class:`viscotack.geometry.Sphere`. A disc comes off as a whole
+        Rigid indenter, e.g. :class:`viscotack.geometry.Sphere`. A disc detaches as a whole
         (:mod:`.disc`).
     body : Layer or HalfSpace
         The film, with its thickness [m] and its base.
