@@ -10,8 +10,8 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz fuzz-files farm \
-	verification docs docs-check lock sbom release audit clean
+.PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz \
+	fuzz-files farm verification history docs docs-check lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -34,7 +34,7 @@ demo: $(VENV)/.demo
 # Four minutes at most on two quiet cores, the install excluded. Prints the 15 slowest and the total: what
 # takes seconds again and again is shared in a fixture, made coarser, or marked slow.
 test: $(VENV)/.installed
-	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 -q --durations=15
+	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 --dist worksteal -q --durations=15
 
 # TABLE is the table of detachments that replication/README.md says where to get, TACK the folder of
 # public tack tests that docs/tack_tests.md names.
@@ -121,10 +121,13 @@ audit: $(VENV)/.installed
 	$(INSTALL) "pip-audit>=2.7"
 	$(BIN)/pip-audit --disable-pip --no-deps --require-hashes --requirement requirements/dev.txt
 
-# The site in out/site, from every page and docstring; a warning is an error. Two minutes.
+# The site in out/site, from every page, docstring and example, with the page that predicts without Python, whose
+# runtime npm fetches; a warning and a broken link are errors. Four minutes.
 docs: $(VENV)/.demo
 	$(INSTALL) --editable ".[docs]"
+	$(BIN)/python -m release.static_page out/extra/predict
 	$(BIN)/python -m sphinx -q -W --keep-going -b html -c docs -d out/site-cache . out/site
+	$(BIN)/python -m release.links out/site
 
 # Runs the commands whose output the pages show, and compares; WRITE=1 renews the pages. Two minutes.
 docs-check: $(VENV)/.installed
@@ -132,6 +135,12 @@ docs-check: $(VENV)/.installed
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py
+
+# Appends ratios and counts of instructions to benchmarks/history.jsonl, draws them, and fails where one
+# has risen by more than its share. Two minutes of processor time.
+history: $(VENV)/.installed
+	$(BIN)/python benchmarks/history.py
+	$(BIN)/python benchmarks/history.py --check --figure
 
 verification: $(VENV)/.installed
 	$(BIN)/python benchmarks/verification.py --write

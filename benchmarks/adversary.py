@@ -7,6 +7,11 @@ varies those that were worst, simulates the new ones at an accuracy of 2e-4, and
 worse, in half widths of the 90 % interval of force or work, whichever is larger. A simulation
 counts as far as it knows itself: its stated error is taken off. One or two seconds a case; with
 --out it goes on where it was stopped.
+
+`python -m benchmarks.adversary --by disagreement --labels FOLDER [--cases 40] [--seed 1]`: of
+4,000 drawn cases of each design of `training/fresh_cases.py`, it simulates those that surrogates
+answer and in which the second networks differ most, in half widths of the interval of force or
+work.
 """
 
 from __future__ import annotations
@@ -18,15 +23,21 @@ from pathlib import Path
 import numpy as np
 
 from training import train_punch as punches
+from training.fresh_cases import DESIGNS, Case, drawn, given_of, labelled
 from training.rows import LEARNED, Rows, joined, read
 from viscotack import Groups, solve, summary
 from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import physics, punch_physics, store
 from viscotack.surrogate.model import Surrogate
 
+from .fresh_coverage import judged
+from .judging import words, worst
+
 # Cases that are varied at a time, how far the first variations reach in halves of the range, and by
 # what they shrink each round.
 _KEPT, _REACH, _SHRINK = 6, 0.15, 0.9
+# Cases of each design among which those with the largest disagreement are sought.
+_DRAWN = 4000
 
 
 class OfSphere:
@@ -144,6 +155,50 @@ def worst_known(of: Of, count: int) -> list[list[float]]:
     return rows.groups[np.argsort(-off)[:count]].tolist()
 
 
+def suspects(design: int, count: int, seed: int) -> list[Case]:
+    """Return the answered cases of a design in which the second networks differ most."""
+    counts = tuple(_DRAWN * (i == design) for i in range(design + 1))
+    found: list[tuple[float, Case]] = []
+    for contact, kind in (("sphere", "sphere"), ("solids", "solid"), ("punch", "punch")):
+        cases = [case for case in drawn(seed, counts) if case.kind == kind]
+        if not cases:
+            continue
+        made = store.shipped(contact)
+        tests = made.tests(given_of(made, cases))
+        said = made.evaluate(tests)
+        held = made.intervals(tests, said)
+        apart = []
+        for value, pair, other in zip(
+            (said.pull_off_force, said.work_to_pull_off),
+            (held.pull_off_force, held.work_to_pull_off),
+            tests.second,
+            strict=True,
+        ):
+            apart.append(np.abs(other - np.log10(value)) / np.log10(pair[:, 1] / value))
+        given = ~made.doubtful(tests, said) & tests.inside().all(axis=1)[:, None]
+        worst = np.where(given, np.array(apart).T, 0.0).max(axis=1)
+        found += zip(worst.tolist(), cases, strict=True)
+    return [case for _, case in sorted(found, key=lambda pair: -pair[0])[:count]]
+
+
+def by_disagreement(labels: Path, count: int, seed: int) -> None:
+    """Simulate the suspects of each design and print the worst."""
+    found = []
+    for number in range(len(DESIGNS)):
+        cases = suspects(number, count, seed)
+        known = labelled(cases, labels, 2e-4)
+        some = [judged(case, label) for case, label in known if "failed" not in label]
+        found += some
+        off = np.array([np.nanmax(one.ratio[:2], initial=0.0) for one in some])
+        print(
+            f"{cases[0].design}: {len(some)} simulated; {np.mean(off > 1):.0%} beyond their "
+            f"interval; worst {off.max():.1f} half widths",
+            flush=True,
+        )
+    for one in worst(found):
+        print(words(one))
+
+
 def main() -> None:
     """Search and print what was found."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -151,7 +206,13 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path)
     parser.add_argument("--punch", action="store_true", help="of a punch on a layer")
+    parser.add_argument("--by", choices=("evolution", "disagreement"), default="evolution")
+    parser.add_argument("--labels", type=Path, help="folder of the labels of disagreement")
     given = parser.parse_args()
+    if given.by == "disagreement":
+        if given.labels is None:
+            parser.error("--by disagreement needs --labels")
+        return by_disagreement(given.labels, given.cases, given.seed)
     of: Of = OfPunch if given.punch else OfSphere
     random = np.random.default_rng(given.seed)
     done: list[tuple[float, list[float]]] = []

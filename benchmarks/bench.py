@@ -20,6 +20,8 @@ PARTS = [
     ("Tests with a history, and other traction laws", ["histories.py"]),
     ("From the rate to the state at pull-off", ["rate_law.py"]),
     ("Tabor numbers of 100", ["large_tabor.py"]),
+    ("Beside the version before", ["history.py"]),
+    ("What has risen", ["history.py", "--check"]),
     ("Campaigns: speed, overhead, kills, a cluster, a full disk", ["campaign.py"]),
 ]
 

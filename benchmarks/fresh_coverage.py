@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from training.fresh_cases import Case, add_draw, curve_error, drawn, labelled
+from training.fresh_cases import Case, add_draw, drawn, labelled
+from training.scores import curve_error
 from viscotack import OutOfRange, predict
 from viscotack.arrays import Array
 from viscotack.forecast.prediction import Prediction
@@ -50,8 +51,17 @@ class Judged:
     joint: float
 
 
+def answered(case: Case) -> bool:
+    """Whether the surrogates give a force of a case, so that its label is needed."""
+    try:
+        predict(case.problem, budget=AT_ONCE)
+    except OutOfRange:
+        return False
+    return True
+
+
 def judged(case: Case, label: dict[str, Any]) -> Judged:
-    """Compare the prediction of a case with its label."""
+    """Compare the prediction of a case with its label, which may be empty if there is none."""
     try:
         said, joint = (predict(case.problem, budget=AT_ONCE, joint=x) for x in (False, True))
     except OutOfRange as reason:

@@ -28,7 +28,7 @@ import numpy as np
 from training.fresh_cases import DESIGNS, Case, drawn, labelled
 from viscotack.surrogate import physics, store
 
-from .fresh_coverage import OF, Judged, judged, table
+from .fresh_coverage import OF, Judged, answered, judged, table
 from .surrogate_page import PAGE, replaced
 
 FOLDER = Path(__file__).with_name("judging")
@@ -73,7 +73,7 @@ def known(
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
     """Iterate over cases of a record with labels; missing ones are simulated, or left out."""
     cases = drawn(record["seed"], tuple(record["counts"]))
-    return labelled(cases, labels, record["accuracy"], missing=missing)
+    return labelled(cases, labels, record["accuracy"], missing=missing, needed=answered)
 
 
 def judge(labels: Path) -> dict[str, Any]:

@@ -39,7 +39,7 @@ from judges import Judges
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = Path("src/viscotack")
-ROOMS = ("bem", "methods", "theory", "problem", "result", "pool", "campaign")
+ROOMS = ("bem", "methods", "theory", "materials", "problem", "result", "pool", "campaign")
 NOT_COPIED = (".git", ".venv", "out", "build", "dist", "__pycache__")
 # Test files that judge a module.
 NEAREST = 12

@@ -10,8 +10,12 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
+from docutils.nodes import math_block
+
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "src"))
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "docs")]
+
+import example_pages  # noqa: E402
 
 from viscotack.version import __version__  # noqa: E402
 
@@ -22,6 +26,7 @@ version = release = __version__
 root_doc = "docs/index"
 include_patterns = [
     "docs/*.md",
+    "docs/examples/*.rst",
     "docs/reference/**.rst",
     "CONTRIBUTING.md",
     "CHANGELOG.md",
@@ -32,12 +37,13 @@ include_patterns = [
     "tests/data/README.md",
     "data/viscotack_data/README.md",
 ]
-exclude_patterns = ["**/node_modules", ".*", "out", "build"]
+exclude_patterns = ["**/node_modules", ".*", "out", "build", "**/sg_execution_times.rst"]
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
 ]
 
 myst_enable_extensions = ["deflist"]
@@ -53,10 +59,28 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = False
 
+sphinx_gallery_conf = {
+    "examples_dirs": str(example_pages.STAGE.relative_to(ROOT)),
+    "gallery_dirs": str(example_pages.PAGES.relative_to(ROOT)),
+    "filename_pattern": r"\.py$",
+    "image_scrapers": ("example_pages.pictures",),
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "show_signature": False,
+    "write_computation_times": False,
+    "capture_repr": (),
+}
+example_pages.stage()
+
+html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
 html_title = "viscotack"
-html_extra_path = ["site"]
+# The page that predicts without Python, where `make docs` has written it.
+html_extra_path = ["site", *(str(p) for p in [ROOT / "out/extra"] if p.exists())]
 html_copy_source = False
+html_static_path = ["style"]
+html_css_files = ["site.css"]
 html_theme_options = {
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
@@ -113,6 +137,19 @@ def _listed(title, module, names):
     )
 
 
+def math_in_page(writer, node):
+    """Write a formula as MathML, so that pages need no script from another place."""
+    from docutils.nodes import SkipNode
+    from docutils.utils.math.latex2mathml import tex2mathml
+
+    block = isinstance(node, math_block)
+    # brackets of MathML grow with what they hold
+    text = node.astext().replace(r"\Big", "").replace(r"\dots", r"\ldots")
+    formula = tex2mathml(text, as_block=block)
+    writer.body.append(f'<div class="math">{formula}</div>' if block else formula)
+    raise SkipNode
+
+
 def leave_out(app, kind, name, member, skip, options):
     """Whether to leave out a field of a named tuple: the docstring of its class has it."""
     return True if type(member).__name__ == "_tuplegetter" else None
@@ -121,6 +158,7 @@ def leave_out(app, kind, name, member, skip, options):
 def setup(app):
     """Have the reference written before Sphinx looks for pages."""
     app.connect("config-inited", write_reference)
+    app.add_html_math_renderer("mathml", (math_in_page, None), (math_in_page, None))
     app.connect("autodoc-skip-member", leave_out)
     # the buttons of the theme's menu have no name for screen readers
     label = (

@@ -20,7 +20,7 @@ RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, 
 RADIUS, WORK, GAP = 5e-3, 0.15, 1e-6  # m, J/m^2, m
 LOADS = np.array([1.1, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0, 4.0])  # elastic pull-off forces
 LONGEST = 1e4  # s
-PICTURE = Path(__file__).parents[1] / "out" / "dead_load.png"
+PICTURE = Path("out/dead_load.png")
 
 
 def hanging(load: float) -> vt.Problem:

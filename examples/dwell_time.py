@@ -19,7 +19,7 @@ RUBBER = vt.RetardationPowerLaw(
 )
 DWELLS = np.geomspace(1e-3, 1e3, 13)  # s
 DEPTH, TOUCH, SPEED = 5e-6, 10e-3, 100e-6  # m, s, m/s
-PICTURE = Path(__file__).parents[1] / "out" / "dwell_time.png"
+PICTURE = Path("out/dwell_time.png")
 
 
 def bead(*moves, start: float = 0.0) -> vt.Problem:

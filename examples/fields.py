@@ -13,7 +13,7 @@ import viscotack as vt
 MATERIAL = vt.RetardationPowerLaw(
     rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.8, tau0=1.0, poisson_ratio=0.0
 )
-PICTURE = Path(__file__).parents[1] / "out" / "fields.png"
+PICTURE = Path("out/fields.png")
 
 
 def run(rate: float = 316.23, accuracy: float = 2e-3) -> vt.Result:

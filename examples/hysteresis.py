@@ -17,7 +17,7 @@ from viscotack.protocol import Apart, Approach
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 SPEEDS = (0.1e-6, 10e-6, 1e-3)  # m/s
 DEPTH, GAP = 5e-6, 12e-6  # m
-PICTURE = Path(__file__).parents[1] / "out" / "hysteresis.png"
+PICTURE = Path("out/hysteresis.png")
 
 
 def loop(speed: float) -> vt.Problem:

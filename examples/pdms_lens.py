@@ -37,7 +37,7 @@ PUBLISHED = {
 RUBBER = {"rubbery_modulus": 1.458e6, "poisson_ratio": 0.5}
 PDMS = vt.RetardationPowerLaw(**RUBBER, glassy_modulus=3089e6, exponent=0.2207, tau0=0.01876)
 RELAXED = vt.Elastic(**RUBBER)  # the same rubber given all the time it wants
-PICTURE = Path(__file__).parents[1] / "out" / "pdms_lens.png"
+PICTURE = Path("out/pdms_lens.png")
 REMARK = "Glass lens on PDMS 10:1, R = 5.19 mm, preload 1.5 mN."
 
 

@@ -23,14 +23,14 @@ DIGITS = 5
 _SMALL = 1e-6
 
 
-def path_of(name: str) -> Path:
-    """Return the file of a figure's numbers."""
-    return FOLDER / f"{name.replace('.', '_')}.json"
+def path_of(name: str, folder: Path | None = None) -> Path:
+    """Return the file of a figure's numbers, of those that are kept unless a folder is given."""
+    return (folder or FOLDER) / f"{name.replace('.', '_')}.json"
 
 
-def keep(name: str, numbers: Numbers, *, seconds: float) -> Path:
+def keep(name: str, numbers: Numbers, *, seconds: float, folder: Path | None = None) -> Path:
     """Write the numbers of a figure, with the processor time [s] that they took."""
-    path = path_of(name)
+    path = path_of(name, folder)
     content = {"figure": name, "processor_seconds": round(seconds, 1), "numbers": _plain(numbers)}
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     # a line for each quantity: changes can be read
@@ -39,20 +39,22 @@ def keep(name: str, numbers: Numbers, *, seconds: float) -> Path:
     return path
 
 
-def kept(name: str) -> Numbers:
-    """Return the kept numbers of a figure.
+def kept(name: str, folder: Path | None = None) -> Numbers:
+    """Return the kept numbers of a figure, or those in a folder.
 
     Raises
     ------
     ValueError
         If there are none.
     """
-    return _arrays(_content(name)["numbers"])
+    return _arrays(_content(name, folder)["numbers"])
 
 
-def cost(name: str) -> float | None:
+def cost(name: str, folder: Path | None = None) -> float | None:
     """Return the processor time [s] that the kept numbers took; None where none are kept."""
-    return _content(name)["processor_seconds"] if path_of(name).exists() else None
+    if not path_of(name, folder).exists():
+        return None
+    return _content(name, folder)["processor_seconds"]
 
 
 def rounded(numbers: Numbers) -> Numbers:
@@ -94,8 +96,8 @@ def difference(one: Any, other: Any) -> float:
     return float(np.round(np.max(np.abs(a - b) / np.where(scale > 0, scale, 1.0)), 12))
 
 
-def _content(name: str) -> Any:
-    path = path_of(name)
+def _content(name: str, folder: Path | None = None) -> Any:
+    path = path_of(name, folder)
     if not path.exists():
         raise InputError(
             f"no numbers of {name} are kept; make them with python -m replication figure {name} "

@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
 
 import pytest
@@ -43,3 +44,11 @@ def browsing():
         browser = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
         yield browser
         browser.close()
+
+
+def until(page, expression, seconds=60.0):
+    """Wait for a truth; the page itself evaluates no text as a program."""
+    end = time.perf_counter() + seconds
+    while not page.evaluate(expression):
+        assert time.perf_counter() < end, f"{expression} is not so after {seconds} s"
+        page.wait_for_timeout(20)

@@ -12,7 +12,7 @@ from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_state
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict
-from viscotack.forecast.closed_forms import closed_forms, edge_curve
+from viscotack.forecast.closed_forms import closed_forms
 from viscotack.forecast.tiers import AT_ONCE
 from viscotack.operations.declare.options import Here
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
@@ -266,15 +266,17 @@ def test_the_surrogate_says_at_once_where_it_has_no_answer():
 
 def test_the_curve_of_a_moving_edge_ends_at_the_force_that_advice_has():
     problem = State(FIRST).problem
-    curve = edge_curve(problem)
-    (tier,) = (x for x in closed_forms(problem.groups()).estimates if x.tier == "unloading")
+    found = closed_forms(problem.groups())
+    curve = found.curve
+    (tier,) = (x for x in found.estimates if x.tier == "unloading")
     slow = float(lennard_jones.pull_off_ratio(problem.groups().tabor))
     assert slow * curve.pull_off_force == pytest.approx(tier.pull_off_force, rel=1e-12)
     assert curve.depth[0] * problem.scales().length == pytest.approx(8.12e-6, rel=0.01)
     elastic = FIRST["material"] | {"model": "elastic"}
     for gone in ("glassy_modulus", "exponent", "tau0"):
         del elastic[gone]
-    assert edge_curve(State(FIRST | {"material": elastic}).problem) is None
+    groups = State(FIRST | {"material": elastic}).problem.groups()
+    assert closed_forms(groups).curve is None
 
 
 def test_numbers_on_their_way_out_are_plain():

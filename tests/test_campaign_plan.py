@@ -406,9 +406,14 @@ def test_numbers_by_the_names_of_version_0_1_are_those_of_today(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "name, word", [("window/kinetic_stamp", "window"), ("array/wafer_pad", "array")]
+    "name, word",
+    [
+        ("window/kinetic_stamp", "window"),
+        ("array/wafer_pad", "array"),
+        ("design/finger_pads", "design"),
+    ],
 )
-def test_windows_and_arrays_are_no_cases_of_a_campaign(name, word, tmp_path):
+def test_windows_arrays_and_designs_are_no_cases_of_a_campaign(name, word, tmp_path):
     file = Path(__file__).parents[1] / "examples" / f"{name}.toml"
     plan = tmp_path / "plan.toml"
     plan.write_text(f'problem = "{file}"\n[[grid]]\nprotocol.speed = [1e-5]\n')

@@ -21,7 +21,7 @@ from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, FastTier, Force, Pad
 from viscotack.design.interpolating import interpolation
 from viscotack.design.limits import solid_limits
-from viscotack.design.margins import judged, margins_of
+from viscotack.design.margins import Judge
 from viscotack.pads import grid
 
 RUBBER = RetardationPowerLaw(
@@ -51,14 +51,14 @@ def found():
 
 @pytest.fixture(scope="module")
 def run(found):
-    return simulate(found.best, found.fast, TARGETS, accuracy=0.01)
+    return simulate(found.best, found.fast, Judge(TARGETS), accuracy=0.01)
 
 
 def grid_of_margins(fast):
     """Return the largest margin of the worst target on a fine grid of radii, at the best speeds."""
     best = -inf
     for radius in np.geomspace(1e-3, 4e-3, 100).tolist():
-        one = judged(Choice("rubber", radius, 4e-3, 2, 1e-3, 1e-6), fast, TARGETS)
+        one = Judge(TARGETS).judged(Choice("rubber", radius, 4e-3, 2, 1e-3, 1e-6), fast)
         best = max(best, one.margin if not isinstance(one, str) else -inf)
     return best
 
@@ -85,7 +85,8 @@ def test_margins_count_the_less_favourable_ends(found):
     assert best.margins["hold"] == pytest.approx(log(best.hold.low / 5e-3), rel=1e-12)
     assert best.margins["release"] == pytest.approx(log(2.5e-3 / best.release.high), rel=1e-12)
     assert best.best_margins["hold"] == pytest.approx(log(best.hold.high / 5e-3), rel=1e-12)
-    assert margins_of(Targets(ratio=2.0), 0.0, 1.0)["ratio"] == -inf
+    ratio = Judge(Targets(ratio=2.0)).margins(best.choice, {"hold": 0.0, "release": 1.0})
+    assert ratio["ratio"] == -inf
 
 
 def test_two_pads_on_a_rigid_plate_hold_what_the_array_holds(found, run):

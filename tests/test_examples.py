@@ -36,6 +36,7 @@ def test_every_example_is_run_here():
         "array",  # test_array_file.py
         "rough",  # test_rough_file.py
         "design",  # test_design_file.py
+        "afm",
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",
@@ -72,8 +73,10 @@ def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys):
     assert str(picture) in printed and "1000.0" in printed
 
 
-def test_bead_comes_off(capsys):
+def test_bead_comes_off(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
     load("detach_once")
+    assert (tmp_path / "detach_once.png").stat().st_size > 10_000
     printed = capsys.readouterr().out
     assert "pull-off force" in printed and printed.split()[-1] == "mN"
     # above the elastic limit, below the glassy one
@@ -147,10 +150,33 @@ def test_the_files_of_the_rig_are_those_that_their_script_makes():
 
 
 @pytest.mark.slow
-def test_an_interface_that_grows_is_found_again(capsys):
-    fit = load("growing_interface").main(ranges=(25e-9, 100e-9))
+def test_an_interface_that_grows_is_found_again(tmp_path, capsys):
+    picture = tmp_path / "growing.png"
+    fit = load("growing_interface").main(ranges=(25e-9, 100e-9), picture=picture)
+    assert picture.stat().st_size > 10_000
     assert fit.intervals["equilibrium_gap"].low < 50e-9 < fit.intervals["equilibrium_gap"].high
     printed = capsys.readouterr().out
     assert "the interface grows with speed" in printed
-    low, _, high, _, _, true, _ = printed.splitlines()[-1].split()[3:]
+    low, _, high, _, _, true, _ = printed.splitlines()[-2].split()[3:]
     assert float(low) < float(true) < float(high)
+
+
+def test_a_probe_on_a_gel_snaps_in_and_lets_go():
+    gel = vt.read_case(EXAMPLES / "afm" / "gel.toml")
+    found = vt.solve(gel, accuracy=0.02, estimate_error=False)
+    force = vt.summary(found)["pull_off_force_N"]
+    # between the elastic forces of relaxed and instantaneous moduli: 1.5 to 2 pi R dg, over k
+    unit = 1.5 * np.pi * 10e-6 * 30e-6
+    assert unit < force < 4 / 3 * unit * 2
+
+
+def test_every_example_has_a_title_for_its_page_of_the_site():
+    spec = importlib.util.spec_from_file_location(
+        "example_pages", EXAMPLES.parent / "docs/example_pages.py"
+    )
+    pages = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(pages)
+    for example in EXAMPLES.glob("*.py"):
+        title, line, empty, *_ = pages.with_title(example.read_text()).split("\n")
+        assert 10 < len(title) - 3 == len(line) < 100 and set(line) == {"="} and empty == ""
+        assert not title.endswith(".")

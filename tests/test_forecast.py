@@ -243,6 +243,34 @@ def test_beyond_the_largest_rate_it_lies_between_the_last_one_and_the_fast_limit
         assert answer.work_interval[0] < answer.work_to_pull_off < answer.work_interval[1]
 
 
+@pytest.mark.parametrize(
+    "end", [("rate", 1e10, 1), ("tabor", 0.01, -1), ("modulus_ratio", 1e-4, -1), ("tabor", 10.0, 1)]
+)
+def test_predictions_are_continuous_where_the_surrogate_ends(end):
+    name, limit, outward = end
+    case = dict(exponent=0.3, modulus_ratio=0.02, preload=20.0, rate=100.0, tabor=2.0)
+    inner, outer = (
+        vt.predict(sphere(**case | {name: limit * (1 + side * outward * 1e-7)}), budget=0.01)
+        for side in (-1, 1)
+    )
+    assert inner.why != outer.why and inner.inside
+    assert outer.pull_off_force == pytest.approx(inner.pull_off_force, rel=1e-5)
+    if limit != 0.01:  # no work is given below
+        assert outer.work_to_pull_off == pytest.approx(inner.work_to_pull_off, rel=1e-5)
+
+
+def test_beyond_the_largest_rate_the_interval_widens_towards_the_fast_limit():
+    case = dict(exponent=0.2, modulus_ratio=1e-3)
+    rates = (1e10, 1.001e10, 1e11, 1e13, 1e16)
+    found = [vt.predict(sphere(rate=rate, **case)) for rate in rates]
+    forces, widths = np.array(
+        [[x.pull_off_force, x.interval[1] / x.interval[0] - 1] for x in found]
+    ).T
+    fast = vt.predict(sphere(rate=1e10, exponent=2.0, modulus_ratio=1e-3)).pull_off_force
+    assert np.all(np.diff(forces) > 0) and 0.97 * fast < forces[-1] < fast
+    assert np.all(np.diff(widths) >= 0) and widths[1] == pytest.approx(widths[0], rel=0.02)
+
+
 def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt():
     for rate, exponent in ((10.0, 0.3), (1e6, 0.8), (1e9, 2.0)):
         case = dict(rate=rate, exponent=exponent, preload=300.0)
@@ -407,7 +435,10 @@ def refused(problem, **options):
     [
         ({"moves": (vt.Dwell(3.0),)}, "Dwell(duration=3.0"),
         ({"stiffness": 2.0}, "a stiffness of 2 x 1.5 pi R dg0/h0"),
-        ({"start": vt.Apart(9.0)}, "Apart(gap=9.0)"),
+        (
+            {"start": vt.Apart(9.0)},
+            "begins with apart 9; verified only for depth, force",
+        ),
     ],
 )
 def test_other_tests_are_refused(changed, words):
@@ -434,7 +465,7 @@ def test_where_no_method_applies_the_error_names_the_quantity_out_of_range():
 
 
 def test_impossible_questions_are_refused():
-    assert "no relaxed one exists at AtDepth(depth=-50.0)" in refused(sphere(preload=-50.0))
+    assert "no relaxed one exists at depth -50" in refused(sphere(preload=-50.0))
     assert "evaluated up to 300" in refused(sphere(start=vt.AtForce(1e9)))
     for rate in (1.0, 1e17):
         for confidence in (0.85, 90, np.nan):

@@ -14,7 +14,7 @@ import viscotack as vt
 from command_line import exit_status
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
-from viscotack.identify.covariances import allowed, covariance, log_forces, shift_error
+from viscotack.identify.covariances import covariance, log_forces
 from viscotack.identify.forward import Forward
 from viscotack.identify.study import Study, answer
 from viscotack.lab.tack import Measured
@@ -22,6 +22,7 @@ from viscotack.materials import Passport, write_passport
 from viscotack.materials.conversion import slowed
 from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence
+from viscotack.materials.passport_uncertainty import allowed, shift_error
 from viscotack.materials.shift import WLF, TabulatedShift
 from viscotack.operations import operation
 from viscotack.operations.declare.study import read_study, study_text

@@ -7,7 +7,8 @@ import pytest
 
 from training import fresh_cases
 from training.calibration import Apart, levelled
-from training.fresh_cases import TWO_PEAKS, curve_error, drawn, labelled
+from training.fresh_cases import TWO_PEAKS, drawn, labelled
+from training.scores import curve_error
 from viscotack.result.trajectory import POINTS
 from viscotack.surrogate import physics
 from viscotack.surrogate.line import Curves

@@ -8,7 +8,7 @@ import pytest
 import viscotack as vt
 from viscotack.campaign.columns import KINDS
 from viscotack.forecast.tiers import AT_ONCE
-from viscotack.surrogate import physics, short_range, store
+from viscotack.surrogate import short_range, store
 from viscotack.surrogate.physics import INPUTS
 from viscotack.theory import lennard_jones
 
@@ -158,21 +158,64 @@ def test_it_comes_back_from_its_file_and_a_damaged_one_is_refused(tmp_path):
         store.load(tmp_path / "none.npz")
 
 
-def test_what_it_is_worth_is_measured_on_other_solids():
+def test_errors_are_measured_on_other_solids():
+    pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
+    from training.rows import of_arrays
     from training.short_range import measured
 
     rows = drawn(300, seed=5)
     rows = rows[answered(rows)]
-    said = shipped().evaluate(rows)
-    zones = said.more["zones"]
-    true = np.column_stack([1.02 * said.pull_off_force, said.more["amplification"], zones, zones])
-    found, scores = measured(shipped(), rows, true)
-    assert found.constants["error"] == pytest.approx([1 - 1 / 1.02] * 2)
-    assert scores["cases"] == len(rows) and scores["median"] == pytest.approx(1 - 1 / 1.02)
-    assert physics.RATE == 4  # the order of the columns above
+    tests = shipped().tests(rows)
+    said = shipped().evaluate(tests)
+    found = tests.curves(said)
+    force, work = 1.02 * said.pull_off_force, said.work_to_pull_off
+    left = found.depth - found.depth[:, -1:]
+    true = of_arrays(rows, force, work, found.force, found.contact_radius, left)
+    first = np.where(found.force[:, 0] > 0, 8, 0)
+    steps = [
+        [depth[i] - depth[i:][[0, -1]], -tension[i:][[0, -1]]]
+        for i, depth, tension in zip(first, found.depth, found.force, strict=True)
+    ]
+    made, scores = measured(shipped(), true, np.array(steps))
+    assert made.constants["error"][0] == pytest.approx([0.02, 0.02])
+    assert made.constants["error"][1:] == pytest.approx(np.zeros((3, 2)), abs=1e-9)
+    assert scores["cases"] == len(rows)
+    assert scores["force"]["median"] == pytest.approx(0.02)
+    assert scores["with work"] == pytest.approx(tests.agree(said).mean())
 
 
-def test_the_force_is_continuous_at_a_tabor_number_of_ten():
+def test_work_and_curve_agree_with_the_theory():
+    from viscotack.methods.by_crack import unloading
+
+    case = problem(tabor=30.0, rate=30.0, preload=100.0)
+    said, theory = vt.predict(case), vt.crack_contact(case)
+    low, high = said.work_interval
+    assert low <= theory.work_to_pull_off <= high and high / low < 1.15
+    points, _ = unloading(theory)
+    depth = theory.depth_at_pull_off + points[0]
+    off = np.interp(depth[8:], said.curve.depth[::-1], said.curve.force[::-1]) - points[1, 8:]
+    assert np.max(np.abs(off)) < said.curve_band
+    assert said.curve.force[-1] == pytest.approx(-said.pull_off_force)
+    start = said.curve.force[0], said.curve.contact_radius[0]
+    assert start == pytest.approx((theory.force[0], theory.contact_radius[0]))
+
+
+def test_works_on_which_the_networks_differ_are_withheld():
+    # a work jumps where the pull is as fast as the bulk relaxes
+    rates = np.geomspace(3.0, 3e4, 60)
+    rows = np.array([[700.0, 2e-4, 1.5, 3600.0, 700.0 * rate] for rate in rates])
+    tests = shipped().tests(rows)
+    said = shipped().evaluate(tests)
+    kept = tests.holds(said) & tests.inside().all(axis=1)
+    withheld = kept & ~tests.agree(said)
+    assert 0 < withheld.sum() < kept.sum()
+    row = dict(zip(INPUTS, rows[np.flatnonzero(withheld)[0]].tolist(), strict=True))
+    answer = vt.predict(problem(**row), budget=AT_ONCE)
+    assert answer.work_to_pull_off is None and answer.curve is None
+    assert "its networks are not certain" in answer.why
+
+
+def test_force_and_work_are_continuous_at_a_tabor_number_of_ten():
     solid = vt.RetardationPowerLaw(
         rubbery_modulus=1.0, glassy_modulus=20.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
     )
@@ -184,6 +227,10 @@ def test_the_force_is_continuous_at_a_tabor_number_of_ten():
     below, above = said(10 * (1 - 1e-7)), said(10 * (1 + 1e-7))
     assert (below.method, above.method) == ("surrogate", "learned crack contact")
     assert above.pull_off_force == pytest.approx(below.pull_off_force, rel=1e-6)
+    assert above.work_to_pull_off == pytest.approx(below.work_to_pull_off, rel=1e-5)
+    assert above.curve.depth == pytest.approx(
+        below.curve.depth, abs=0.05 * np.ptp(below.curve.depth)
+    )
     assert "with which it meets the simulations at a Tabor number of 10" in above.why
     factors = [said(mu).why.count("with which it meets") for mu in (12.0, 19.9, 20.0, 30.0)]
     assert factors == [1, 1, 0, 0]

@@ -98,10 +98,27 @@ NOT_DRAWN = {
     "simulate": [{"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"}],
     "sweep": [SWEEP],
     "array": [{"file": "wafer_pad.toml", "accuracy": 0.01}],
+    "next-test": [
+        {"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": ["1 mN", "5 mN"]},
+        {
+            "study": "study.toml",
+            "speed": ["1 mm/s"],
+            "dwell": ["10 s"],
+            "approach_speed": "10 um/s",
+            "forecast_speed": ["10 mm/s"],
+        },
+    ],
     "rough": [{"file": "bumps.toml", "accuracy": 0.02}],
     "design": [{"file": "lift_and_let_go.toml", "confirm": 0}],
     "uncertainty": [
         {"problem": "lens.toml", "scatter": ["geometry.radius 2 %"], "samples": 16},
+        {
+            "problem": "lens.toml",
+            "passport": "pdms-10-1",
+            "temperature": "0 degC",
+            "temperature_uncertainty": "1 K",
+            "study": "study.toml",
+        },
     ],
     "control": [{"problem": "lens.toml", "slowest": "100 um/s", "fastest": "150 um/s"}],
     "window": [{"file": "kinetic_stamp.toml", "simulate": True}],

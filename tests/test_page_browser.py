@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from app_server import browsing, running
+from app_server import browsing, running, until
 from viscotack.operations.parts.examples import EXAMPLES
 from viscotack.problem.case_file import case_of_tables
 from viscotack.units import readable, readable_interval
@@ -56,14 +56,6 @@ def opened(page, link):
     page.goto(link)
     page.wait_for_selector("body[data-run=done]", timeout=60_000)
     return page
-
-
-def until(page, expression, seconds=60.0):
-    """Wait for a truth; the page itself evaluates no text as a program."""
-    end = time.perf_counter() + seconds
-    while not page.evaluate(expression):
-        assert time.perf_counter() < end, f"{expression} is not so after {seconds} s"
-        page.wait_for_timeout(20)
 
 
 def at_rest(page):

@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks import docs_check
+from benchmarks.docs_check import records
 
 ROOT = Path(__file__).parents[1]
 REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
@@ -157,13 +158,6 @@ def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
         assert passed == of, done.stdout
 
 
-@pytest.mark.slow
-def test_studies_of_the_pages_run(anywhere):
-    assert studies()
-    for lines in studies():
-        run(lines)
-
-
 SHOWING = [page for page in docs_check.PAGES if [*docs_check.sessions(page.read_text())]]
 
 
@@ -173,10 +167,14 @@ def test_commands_print_what_the_pages_show(page, anywhere):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("page", SHOWING, ids=name)
-def test_slow_commands_print_what_the_pages_show(page, anywhere):
-    if any(s.command.startswith(STUDY) for s in docs_check.sessions(page.read_text())):
-        assert docs_check.stale(page) == {}
+def test_studies_of_the_pages_run_and_print_what_is_shown(anywhere):
+    shown = {x.command: x for page in SHOWING for x in docs_check.sessions(page.read_text())}
+    assert studies()
+    for line in (line for lines in studies() for line in lines):
+        if line in shown:
+            assert docs_check.difference(shown[line], docs_check.printed(line)) == ""
+        else:
+            run([line])
 
 
 @pytest.mark.parametrize(
@@ -195,6 +193,13 @@ def test_lines_agree_to_the_last_digit_shown(shown, printed, same):
     assert docs_check.agrees(shown, printed) is same
 
 
+def test_lines_of_a_page_are_compared_but_for_seconds():
+    page = "| A | 7.3290 (-0.011 %) in 0.15 s |\n| B | 2.1 |\n"
+    assert docs_check.apart(page, page.replace("0.15 s", "0.27 s")) == []
+    assert len(docs_check.apart(page, page.replace("7.3290", "7.3320"))) == 1
+    assert len(docs_check.apart(page, page + "| C | 1 |")) == 1
+
+
 def test_a_stale_session_is_found_and_renewed(monkeypatch):
     page = "Text 1.0\n```console\n$ viscotack x\na 1.2\n...\nz 3\n$ viscotack y\n```\n"
     (session,) = docs_check.sessions(page)
@@ -203,6 +208,67 @@ def test_a_stale_session_is_found_and_renewed(monkeypatch):
     assert "lines" in docs_check.difference(session, ["a 1.2"])
     fresh = docs_check.renewed(page, {session: ["a 1.5", "b", "z 4"]})
     assert fresh == page.replace("1.2", "1.5").replace("z 3", "z 4")
+
+
+def test_numbers_of_the_pages_are_those_of_their_sources():
+    quotes = [(page.name, q) for page in docs_check.PAGES for q in records.quotes(page.read_text())]
+    wrong = [(page, q.source, q.difference) for page, q in quotes if not q.agrees]
+    assert wrong == [], "run: python benchmarks/docs_check.py --write"
+
+
+@pytest.fixture
+def recorded(tmp_path, monkeypatch):
+    """Return a page that quotes a record of its own."""
+    monkeypatch.setattr(records, "FOLDER", tmp_path)
+    values = {"times": 134.2, "share": 0.00143, "rows": 9005, "low": -0.5, "table": ["| 3 | 4 |"]}
+    records.write("speed", values)
+    return (
+        "After 7 s 134<!-- = speed.times --> times, **0.14 %**<!-- = speed.share -->, "
+        "9,005<!-- = speed.rows -->, −0.50<!-- = speed.low --> and `2` 134200"
+        "<!-- = speed.times * 1e3 -->.\n\n<!-- = speed.table -->\n| 3 | 4 |\n"
+    )
+
+
+def test_numbers_with_a_source_are_counted(recorded):
+    assert [quote.difference for quote in records.quotes(recorded)] == [""] * 6
+    assert records.count(recorded) == {"all": 8, "written": 0, "measured": 7, "as stated": 0}
+
+
+@pytest.mark.parametrize(
+    ("shown", "wrong"),
+    [("134<", "135<"), ("0.14", "0.15"), ("9,005", "9,006"), ("−0.50", "0.50"), ("| 4", "| 5")],
+)
+def test_a_changed_digit_is_found_and_renewed(recorded, shown, wrong):
+    changed = recorded.replace(shown, wrong)
+    assert changed != recorded
+    found = [quote.difference for quote in records.quotes(changed) if not quote.agrees]
+    # a number without a sign may be that of a negative value
+    assert len(found) == (shown != "−0.50")
+    assert records.renewed(changed) == (recorded if found else changed)
+
+
+def test_a_source_that_is_not_there_is_named(recorded):
+    for page, words in (
+        ("7<!-- = speed.nothing -->", "speed.nothing: its source has no 'nothing'"),
+        ("7<!-- = haste.times -->", "there is no record"),
+        ("seven<!-- = speed.times -->", "no number stands before"),
+        ("<!-- = speed.times -->\n7\n", "a block needs lines of text"),
+        ("7<!-- = computed.nothing -->", "computed.nothing: computed.py has"),
+        ("7<!-- = viscotack.bem.NOTHING -->", "NOTHING"),
+    ):
+        with pytest.raises(LookupError, match=words):
+            list(records.quotes(page))
+
+
+def test_what_no_benchmark_measured_is_recorded_as_stated(tmp_path, monkeypatch):
+    monkeypatch.setattr(records, "FOLDER", tmp_path)
+    monkeypatch.setattr(records, "ROOT", tmp_path)
+    page = tmp_path / "page.md"
+    page.write_text("<!-- = long.held -->\n93 of 95 held.\n")
+    assert records.quoted(page) == ["long.held"] and records.quoted(page) == []
+    assert records.count(page.read_text())["as stated"] == 2
+    (quote,) = records.quotes("<!-- = long.held -->\n94 of 95 held.\n")
+    assert quote.difference == "shown: 94, recorded: 93"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from release.building import settled
+from release.links import broken
 from release.metadata import CODEMETA, ROOT, codemeta, notes, project, readme_for_index, recipe
 from viscotack import __version__
 
@@ -55,6 +56,24 @@ def test_the_readme_of_an_index_has_no_link_into_the_checkout():
     assert "![lens](http://x.org/v1/docs/lens.png)" in absolute
     assert "[this](http://x.org/v1/docs/start.md#one)" in absolute
     assert not re.findall(r"\]\((?!http)", readme_for_index((ROOT / "README.md").read_text()))
+
+
+def test_broken_links_and_parts_from_elsewhere_are_found(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "index.html").write_text(
+        '<h1 id="top-of-all"></h1><a href="in/one.html#here">1</a> <a href="in">2</a>'
+        '<a href="https://example.org/">3</a> <a href="#nowhere">4</a> <a href="in/two.html">5</a>'
+        '<script src="https://cdn.example.org/x.js"></script><img src="in/none.png">'
+    )
+    (tmp_path / "in/one.html").write_text('<p id="here"><a href="../index.html#top-of-all">6</a>')
+    (tmp_path / "in/index.html").write_text('<link rel="stylesheet" href="none.css">')
+    assert list(broken(tmp_path)) == [
+        "in/index.html: none.css does not exist",
+        "index.html: #nowhere has no such place",
+        "index.html: in/two.html does not exist",
+        "index.html: https://cdn.example.org/x.js comes from another place",
+        "index.html: in/none.png does not exist",
+    ]
 
 
 def packed(names, time):

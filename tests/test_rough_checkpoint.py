@@ -11,9 +11,11 @@ import pytest
 
 import viscotack as vt
 from test_rough_file import BUMPS, MAP, SMALL
+from viscotack.bem.grid import run as grid_run
+from viscotack.bem.grid.checkpoint import Checkpoint
 from viscotack.errors import InputError
 from viscotack.operations import ask
-from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retraction
 from viscotack.rough import RoughProblem, pull
 from viscotack.surfaces import self_affine
 
@@ -113,6 +115,30 @@ def test_an_interrupted_run_loses_the_steps_since_it_was_written(tmp_path, whole
     begun = []
     assert_same(pull(problem(), maps=6, checkpoint=path, progress=begun.append), whole)
     assert begun[0] == shares[0]  # from the relaxed start, which was written
+
+
+@pytest.mark.parametrize("start", [AtForce(2e-4), AtDepth(3e-6)])
+def test_a_relaxed_start_that_is_interrupted_continues(tmp_path, monkeypatch, start):
+    given = replace(problem(), protocol=Retraction(start=start, speed=2e-5))
+    path, calls, balanced = tmp_path / "run.npz", [], grid_run._balanced
+
+    def counted(*arguments):
+        calls.append(1)
+        if len(calls) == 9:
+            raise KeyboardInterrupt
+        return balanced(*arguments)
+
+    contact, begin = given.contact, given.units.start(start)
+    expected = grid_run.relaxed(contact, begin)
+    monkeypatch.setattr(grid_run, "_balanced", counted)
+    with pytest.raises(KeyboardInterrupt):
+        grid_run.relaxed(contact, begin, Checkpoint.opened(path, "key", every=0.0))
+    found = grid_run.relaxed(contact, begin, Checkpoint.opened(path, "key", every=0.0))
+    assert np.array_equal(found.gap, expected.gap) and found.depth == expected.depth
+    again, calls[:] = len(calls) - 9, [1] * 9
+    grid_run.relaxed(contact, begin)
+    assert again == len(calls) - 9 - 8  # the eight states before the interruption were kept
+    assert list(Checkpoint.opened(path, "key").parts) == ["start"]
 
 
 def test_a_run_that_met_its_time_limit_continues(tmp_path, whole, monkeypatch):

@@ -49,21 +49,19 @@ def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
                 "measured",
                 True,
             )
-            if said.work_to_pull_off is None:
-                assert said.interval[0] < force < said.interval[1]
-                continue
             pairs = (
                 (force, said.pull_off_force, said.interval),
-                (work, said.work_to_pull_off, said.work_interval),
+                (work, said.work_to_pull_off or np.nan, said.work_interval or (np.nan, np.nan)),
             )
             errors.append([abs(np.log10(true / value)) for true, value, _ in pairs])
             off.append([abs(np.log(true / v)) / np.log(ends[1] / v) for true, v, ends in pairs])
-    # it abstains in one and gives no work in two, starts from 40 h0 and a Prony series
-    assert len(off) >= 9
+    # it abstains where it is not certain, of the work more often
+    forces, works = np.isfinite(off).sum(axis=0)
+    assert forces >= 10 and works >= 7
     # twelve cases are no measure of a share of nine in ten: docs/surrogate.md has one
-    assert np.all(np.mean(np.array(off) <= 1, axis=0) >= 0.75)
-    assert np.max(off) < 3.5
-    assert np.all(np.max(errors, axis=0) < [0.01, 0.07])
+    assert np.all(np.sum(np.array(off) <= 1, axis=0) >= [0.75 * forces, 0.75 * works])
+    assert np.nanmax(off) < 3.5
+    assert np.all(np.nanmax(errors, axis=0) < [0.01, 0.03])
 
 
 def test_a_power_law_has_the_same_answer_through_either_door():
@@ -94,15 +92,18 @@ def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
     tests = read(datasets.load("solids"))
     tests = tests.chosen(parts(tests)["judge"] & (tests.number < CHOSEN))
     made, facts = store.shipped("solids"), store.facts(store.FILES["solids"])
-    said = made.evaluate(tests.like(made))
+    like = tests.like(made)
+    said = made.evaluate(like)
+    given = ~made.doubtful(like, said)
     stated = facts["scores"]["judged by, drawn evenly"]
-    for name, found, true in (
-        ("force", said.pull_off_force, tests.rows.force),
-        ("work", said.work_to_pull_off, tests.rows.work),
+    for name, found, true, some in (
+        ("force", said.pull_off_force, tests.rows.force, given[:, 0]),
+        ("work", said.work_to_pull_off, tests.rows.work, given[:, 1]),
     ):
-        assert np.mean(np.log10(found / true) ** 2) == pytest.approx(
+        assert np.mean(np.log10(found / true)[some] ** 2) == pytest.approx(
             stated[name]["mse_log10"], rel=1e-3
         )
+        assert some.mean() == pytest.approx(stated[name]["given"])
 
 
 def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():

@@ -28,14 +28,8 @@ def lens():
 
 def test_an_elastic_sphere_has_the_indices_of_a_product():
     """JKR: P = 1.5 pi R dg0, so that ln P is a sum, of variance s_R^2 + s_w^2."""
-    elastic = vt.Problem(
-        material=vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
-        traction=vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=10e-9),
-        geometry=vt.Sphere(radius=5e-3),
-        protocol=vt.Retraction(start=vt.AtForce(force=1e-3), speed=1e-5),
-    )
     sR, sw = 0.03, 0.1
-    found = vt.uncertainty(elastic, {RADIUS: sR, WORK: sw}, samples=12)
+    found = vt.uncertainty(elastic(), {RADIUS: sR, WORK: sw}, samples=12)
     # the tier says how far it may be from a simulation, which is part of the variance
     rest = 1 - found.total[TIER]
     assert rest > 0.9
@@ -44,6 +38,108 @@ def test_an_elastic_sphere_has_the_indices_of_a_product():
     # of a normal cut at three deviations
     assert found.deviation == pytest.approx(np.hypot(sR, sw) / np.sqrt(rest), rel=0.02)
     assert found.median == pytest.approx(1.5 * np.pi * 5e-3 * 0.1, rel=0.01)
+
+
+def elastic(work=0.1, modulus=1e6):
+    return vt.Problem(
+        material=vt.Elastic(rubbery_modulus=modulus, poisson_ratio=0.5),
+        traction=vt.LennardJones(work_of_adhesion=work, equilibrium_gap=10e-9),
+        geometry=vt.Sphere(radius=5e-3),
+        protocol=vt.Retraction(start=vt.AtForce(force=1e-3), speed=1e-5),
+    )
+
+
+def test_sampled_interfaces_and_solids_have_the_indices_of_their_scatter():
+    """JKR: the force is proportional to the work, and the modulus has no share."""
+    works = 0.1 * np.exp(0.1 * np.random.default_rng(3).standard_normal(8))
+    sampled = {
+        "traction": [elastic(work=float(w)).traction for w in works],
+        "material": [elastic(modulus=1e6 * x).material for x in (0.8, 1.25)],
+    }
+    found = vt.uncertainty(elastic(), {RADIUS: 0.03}, sampled=sampled, samples=20)
+    s2, r2 = float(np.var(np.log(works))), 0.03**2
+    assert list(found.first) == [RADIUS, "traction", "material", TIER]
+    assert found.first["traction"] == pytest.approx(s2 / (s2 + r2), abs=0.01)
+    assert found.total["material"] < 1e-6
+    assert found.deviation == pytest.approx(np.sqrt(s2 + r2), rel=0.03)
+
+
+def test_an_error_of_all_times_is_that_of_the_only_time():
+    one, other = (
+        vt.uncertainty(CASE, **given, samples=12)
+        for given in ({"deviations": {"material.tau0": 0.3}}, {"times": {"temperature": 0.3}})
+    )
+    assert one.deviation == pytest.approx(other.deviation, rel=1e-9)
+    assert one.first["material.tau0"] == pytest.approx(other.first["temperature"], rel=1e-9)
+
+
+def test_indices_of_samples_are_the_same_for_another_seed():
+    rng = np.random.default_rng(5)
+    solids, laws = [], []
+    for a, b in rng.standard_normal((64, 2)):
+        solids.append(replace(CASE.material, tau0=CASE.material.tau0 * float(np.exp(0.5 * a))))
+        # a softer solid, as its constants correlate
+        E = CASE.material.glassy_modulus * float(np.exp(0.3 * (a + b)))
+        solids[-1] = replace(solids[-1], glassy_modulus=E)
+        w, gap = np.exp(0.1 * a), np.exp(-0.2 * a + 0.1 * b)
+        law = CASE.traction
+        laws.append(
+            replace(
+                law,
+                work_of_adhesion=law.work_of_adhesion * float(w),
+                equilibrium_gap=law.equilibrium_gap * float(gap),
+            )
+        )
+    both = [
+        vt.uncertainty(
+            CASE,
+            {RADIUS: 0.05},
+            sampled={"material": solids, "traction": laws},
+            times={"temperature": 0.2},
+            samples=64,
+            seed=seed,
+        )
+        for seed in (0, 7)
+    ]
+    for found in both:
+        assert found.index_error < 0.02
+        assert sum(found.first.values()) == pytest.approx(1, abs=0.03)
+    for name in both[0].first:
+        assert abs(both[0].first[name] - both[1].first[name]) < 0.02
+        assert abs(both[0].total[name] - both[1].total[name]) < 0.02
+
+
+@pytest.mark.parametrize(
+    "given, words",
+    [
+        ({"passport": "pdms-10-1"}, "uncertainty of this material is unknown"),
+        ({"temperature_uncertainty": "1 K"}, "needs passport"),
+        (
+            {"problem": {"indenter": "sphere", "tabor": 3.0, "modulus_ratio": 0.1, "exponent": 0.6,
+                         "preload": 10.0, "rate": 1.0}, "passport": "pdms-10-1"},
+            "in SI",
+        ),
+    ],
+)  # fmt: skip
+def test_what_a_passport_lacks_is_said(given, words):
+    with pytest.raises(InputError, match=words):
+        vt.ask("uncertainty", **({"problem": str(LENS)} | given))
+
+
+def test_the_temperature_of_a_passport_is_an_input(monkeypatch):
+    answer = vt.ask(
+        "uncertainty",
+        problem=str(LENS),
+        passport="pdms-10-1",
+        temperature="0 degC",
+        temperature_uncertainty="2 K",
+        samples=16,
+    )
+    (first, tier) = answer.record()["inputs"]
+    assert (first["input"], tier["input"]) == ("temperature", TIER)
+    # WLF at 0 degC: 0.06 per K of ln(a_T)
+    assert first["deviation"] == pytest.approx(2 * 0.06, rel=0.5)
+    assert answer.record()["deviation"] > 0
 
 
 def test_the_band_is_that_of_direct_predictions(lens):

@@ -24,8 +24,8 @@ from viscotack.surrogate.network import together
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 
 from .fitting import Fit, Fits, Task
-from .rows import Rows
-from .scores import curve_errors, travel_errors
+from .rows import LEARNED, Rows
+from .scores import errors, labels_of
 
 # The part of the errors that a network of their reach is to hold: that of the usual intervals, so
 # that one level serves wherever errors are alike, as where labels were biased, and wherever a few
@@ -35,8 +35,6 @@ from .scores import curve_errors, travel_errors
 REACH, LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 WEIGHT = 8.0
-# How often it is decided which rows are certain.
-_ROUNDS = 3
 HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
 
 
@@ -75,14 +73,15 @@ def judged(surrogate: Surrogate, rows: Rows, given: Any = None) -> Apart:
     """
     tests = surrogate.tests(rows.groups if given is None else given)
     said = surrogate.evaluate(tests)
-    found = surrogate.curves(tests, said)
-    errors = (
-        np.log10(said.pull_off_force / rows.force),
-        np.log10(said.work_to_pull_off / rows.work),
-        np.nanmax(np.abs(curve_errors(found, rows)), axis=1),
-        travel_errors(found, rows),
-    )
-    return Apart(tests.told_of_errors(said), np.column_stack(errors))
+    found = errors(said, surrogate.curves(tests, said), labels_of(rows))
+    return Apart(tests.told_of_errors(said), found)
+
+
+def by_set(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
+    """Return :func:`worth` for spheres of all sets and of each."""
+    sets = {name: rows.chosen(rows.origin == i) for i, name in enumerate(LEARNED)}
+    some = {"all": rows, **sets}
+    return {n: worth(surrogate, judged(surrogate, x)) for n, x in some.items() if len(x)}
 
 
 def trusted(
@@ -131,34 +130,19 @@ def trusted(
     ]
     sets = [pairs[i :: len(kept)] for i in range(len(kept))]
     whole = Trust(together(members), untested())
-    with_second = "second" in surrogate.networks
-    return replace(surrogate, trust=levelled(whole, sets, with_second=with_second))
+    return replace(surrogate, trust=levelled(whole, sets))
 
 
-def levelled(
-    trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]], *, with_second: bool = True
-) -> Trust:
-    """Return a trust with levels, single and joint, for the rows of each set that are certain.
+def levelled(trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]]) -> Trust:
+    """Return a trust with levels, single and joint, for the numbers of each set that are given.
 
-    Of the sets the largest level counts. Which rows are certain depends on the widths, so it is
-    decided with the levels of all rows first; all are without second networks.
+    Of the sets the largest level counts.
     """
-    found, kept = trust, [[np.ones(len(rows.told), dtype=bool) for _, rows in one] for one in sets]
-    for _ in range(_ROUNDS if with_second else 1):
-        scores = [
-            np.concatenate([scored(of, r)[k] for (of, r), k in zip(one, some, strict=True)])
-            for one, some in zip(sets, kept, strict=True)
-        ]
-        # a set of starts in tension has no travel to zero force
-        levels = np.nanmax([levels_of(one) for one in scores], axis=0)
-        joint = np.max([_joint(one, levels) for one in scores], axis=0)
-        found = replace(trust, levels=levels, joint=joint)
-        if with_second:
-            kept = [
-                [~replace(of, levels=levels).doubtful(rows.told)[:, 1] for of, rows in one]
-                for one in sets
-            ]
-    return found
+    scores = [np.concatenate([scored(of, rows) for of, rows in one]) for one in sets]
+    # a set of starts in tension has no travel to zero force
+    levels = np.nanmax([levels_of(one) for one in scores], axis=0)
+    joint = np.max([_joint(one, levels) for one in scores], axis=0)
+    return replace(trust, levels=levels, joint=joint)
 
 
 def _joint(scores: Array, levels: Array) -> Array:
@@ -185,8 +169,14 @@ def untested() -> Array:
 
 
 def scored(trust: Trust, apart: Apart) -> Array:
-    """Return errors over how far they usually reach, shape (n, 4); nan where there is none."""
-    return np.abs(apart.error) / np.column_stack(trust.widths(apart.told, CONFIDENCES[0]))
+    """Return errors over their predicted sizes, shape (n, 4); nan of what is not given."""
+    size = 10.0 ** trust.reach(apart.told).mean(axis=0)
+    return np.where(given_of(trust, apart), np.abs(apart.error) / size, np.nan)
+
+
+def given_of(trust: Trust, apart: Apart) -> Array:
+    """Return a mask of the numbers of ``OF`` that are given, shape (n, 4)."""
+    return ~trust.doubtful(apart.told)[:, [0, 1, 1, 1]]
 
 
 def levels_of(scores: Array) -> Array:
@@ -214,22 +204,25 @@ def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> Array:
 
 
 def worth(surrogate: Surrogate, apart: Apart, *, confidence: float = 0.9) -> dict[str, Any]:
-    """Return what answers and intervals are worth on rows not learned from, ready for JSON.
+    """Return what given numbers and intervals are worth on rows not learned from, for JSON.
 
     Errors of curves are parts of the pull-off force, the others parts of the number itself.
     """
     assert surrogate.trust is not None, "intervals are measured first"
     widths = np.column_stack(surrogate.trust.widths(apart.told, confidence))
+    given = given_of(surrogate.trust, apart)
     answer: dict[str, Any] = {"rows": len(apart.told)}
     for i, name in enumerate(OF):
-        known = np.isfinite(apart.error[:, i])
+        known = np.isfinite(apart.error[:, i]) & given[:, i]
         log, width = np.abs(apart.error[known, i]), widths[known, i]
         part, half = (log, width) if name == "curve" else (10**log - 1, 10**width - 1)
         answer[name] = {
+            "given": float(np.mean(given[:, i])),
             "mse_log10": None if name == "curve" else float(np.mean(log**2)),
             "median": float(np.median(part)),
             "90 %": float(np.quantile(part, 0.9)),
             "95 %": float(np.quantile(part, 0.95)),
+            "99 %": float(np.quantile(part, 0.99)),
             "largest": float(part.max()),
             "cover": float(np.mean(log <= width)),
             "half width": float(np.median(half)),

@@ -18,21 +18,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
-from viscotack import Groups, InputError, Outcome, peaks, pull_off, solve, work_to_pull_off
+from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, solve, work_to_pull_off
 from viscotack.campaign.case import retraction
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.random_solids import STRETCHED, creep_spectrum
-from viscotack.result.trajectory import PRESSED
 from viscotack.surrogate import linear_solids, physics, punch_physics
 from viscotack.surrogate.alike import TIMES
-from viscotack.surrogate.line import Curves
 from viscotack.surrogate.linear_solids import SolidContact
 from viscotack.surrogate.model import Surrogate
 
 from .calibration import Apart
+from .contacts import problem as contact_problem
 from .drawing import BOXES
+from .scores import errors
 
 ACCURACY = 5e-4
 # Numbers of random solids that no data set has; one in eight solids is a stretched exponential.
@@ -58,8 +57,13 @@ class Case:
     inputs: dict[str, float]
 
     @property
-    def problem(self) -> Groups:
-        """The dimensionless problem."""
+    def problem(self) -> Problem | Groups:
+        """The problem, of a contact of an engineer in SI."""
+        return contact_problem(self.inputs) if self.kind == "contact" else self.groups
+
+    @property
+    def groups(self) -> Groups:
+        """The dimensionless problem of a case of a campaign."""
         return KINDS[self.kind].problem(self.inputs)
 
     @property
@@ -142,9 +146,12 @@ DESIGNS: tuple[Callable[[Random], Case], ...] = (
 
 
 def drawn(seed: int, counts: tuple[int, ...]) -> list[Case]:
-    """Return cases of each design, in an order whose beginning has its share of each."""
+    """Return cases of each design, in an order whose beginning has its share of each.
+
+    The last designs may be left out.
+    """
     found: list[tuple[float, Case]] = []
-    for number, (draw, count) in enumerate(zip(DESIGNS, counts, strict=True)):
+    for number, (draw, count) in enumerate(zip(DESIGNS, counts, strict=False)):
         random = np.random.default_rng([seed, number])
         found += [((i + 0.5) / count, draw(random)) for i in range(count)]
     return [case for _, case in sorted(found, key=lambda pair: pair[0])]
@@ -187,11 +194,17 @@ def label(case: Case, accuracy: float = ACCURACY) -> dict[str, Any]:
 
 
 def labelled(
-    cases: list[Case], folder: Path, accuracy: float = ACCURACY, *, missing: bool = True
+    cases: list[Case],
+    folder: Path,
+    accuracy: float = ACCURACY,
+    *,
+    missing: bool = True,
+    needed: Callable[[Case], bool] = lambda _: True,
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
     """Iterate over cases with their labels; missing ones are simulated, or skipped.
 
     Labels of `FINER` designs are at least as accurate as stated there. Each accuracy has a file.
+    The label of a case that is not needed is empty.
     """
     folder.mkdir(parents=True, exist_ok=True)
     known: dict[Path, dict[str, Any]] = {}
@@ -201,6 +214,9 @@ def labelled(
         if path not in known:
             known[path] = _stored(path)
         if case.key not in known[path]:
+            if not needed(case):
+                yield case, {}
+                continue
             if not missing:
                 continue
             known[path][case.key] = found = label(case, wanted)
@@ -216,40 +232,11 @@ def _stored(path: Path) -> dict[str, Any]:
     return {entry["key"]: entry["label"] for entry in entries}
 
 
-def curve_error(curve: Curves, label: dict[str, Any]) -> float:
-    """Return the largest error of the tension of one curve at a simulated step.
-
-    At the same travel from zero force, or from a start in tension, by monotone cubics between the
-    points of the curve; steps beyond its end are compared with its last force.
-    """
-    first = PRESSED if curve.force[0] > 0 else 0
-    travel, tension = curve.depth[first] - curve.depth[first:], -curve.force[first:]
-    kept = np.append(True, np.diff(travel) > 0)
-    if kept.sum() == 1:
-        return float(np.max(np.abs(tension[0] - label["tension"])))
-    at = np.clip(label["travel"], 0.0, travel[-1])
-    read = PchipInterpolator(travel[kept], tension[kept])(at)
-    return float(np.max(np.abs(read - label["tension"])))
-
-
 def apart(made: Surrogate, given: Any, labels: list[dict[str, Any]]) -> Apart:
     """Return how far a surrogate is off; of a curve at any simulated step."""
     tests = made.tests(given)
     said = made.evaluate(tests)
-    curves = made.curves(tests, said)
-    force, work, to_zero = (np.array([x[n] for x in labels]) for n in ("force", "work", "to_zero"))
-    each = [
-        Curves(*one) for one in zip(curves.depth, curves.force, curves.contact_radius, strict=True)
-    ]
-    off = [
-        curve_error(curve, label) / label["force"]
-        for curve, label in zip(each, labels, strict=True)
-    ]
-    travel = curves.depth[:, 0] - curves.depth[:, PRESSED]
-    pressed = (curves.force[:, 0] > 0) & (to_zero > 0)
-    travel = np.where(pressed, np.log10(travel / np.where(pressed, to_zero, 1.0)), np.nan)
-    errors = np.log10(said.pull_off_force / force), np.log10(said.work_to_pull_off / work)
-    return Apart(tests.told_of_errors(said), np.column_stack([*errors, off, travel]))
+    return Apart(tests.told_of_errors(said), errors(said, tests.curves(said), labels))
 
 
 def given_of(made: Surrogate, cases: list[Case]) -> Any:
@@ -260,7 +247,7 @@ def given_of(made: Surrogate, cases: list[Case]) -> Any:
         np.array([case.inputs[n] for case in cases]) for n in ("tabor", "modulus_ratio", "preload")
     )
     creep = np.array(
-        [case.problem.material.creep(TIMES / case.inputs["rate"]) for case in cases], dtype=float
+        [case.groups.material.creep(TIMES / case.inputs["rate"]) for case in cases], dtype=float
     )
     return linear_solids.like(made, tabor, k, depth, np.clip(creep, k[:, None], 1.0))
 

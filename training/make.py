@@ -26,7 +26,6 @@ from viscotack.surrogate import store
 from viscotack.version import __version__
 
 from . import drawing, rows, scores
-from .calibration import HOW, judged, trusted
 from .recipe import BANDED, QUICK, Recipe, learn, learn_limits
 from .refining import QUICK_REFINEMENT, Refinement, refine
 from .rows import FAR_OFF, FAST, LEARNED
@@ -39,7 +38,9 @@ _THINNED = 4
 
 
 def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
-    """Train, measure, write ``surrogate.npz`` and ``scores.json`` in the folder; return the scores.
+    """Train, write ``surrogate.npz`` and ``scores.json`` in the folder; return the scores.
+
+    :mod:`training.second` measures the intervals.
 
     Parameters
     ----------
@@ -66,23 +67,11 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
         _say(began, "networks")
         surrogate = refine(rough, learned, fast, refinement, shop)
         _say(began, "networks of what they leave over")
-        how = QUICK.line if quick else HOW
-        apart = [judged(surrogate, measuring) for measuring in measuring_rows(test)]
-        some = judged(surrogate, learned.chosen(slice(None, None, 2)))
-        far_off = [rows.read(name).chosen(rows.certain(name)) for name in FAR_OFF]
-        hard = judged(surrogate, rows.joined(far_off))
-        # one network alone errs by chance in places
-        seeds = (0, 1), (0, 1)
-        surrogate = trusted(surrogate, some, apart, shop.fit_all, hard=[hard], how=how, seeds=seeds)
-        _say(began, "intervals")
-        found: dict[str, Any] = {"kept apart at random": scores.scores(surrogate, test)}
-        facts = _facts(len(learned), len(test), recipe, refinement)
-        store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
-        print(json.dumps(found, indent=1), file=sys.stderr, flush=True)
-        found["bands kept apart"] = []
+        found: dict[str, Any] = {"bands kept apart": []}
         for one in begun:
             found["bands kept apart"].append(scores.score_band(one, limits))
             _say(began, json.dumps(found["bands kept apart"][-1]))
+    facts = _facts(len(learned), len(test), recipe, refinement)
     store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
     write_whole(folder / "scores.json", (json.dumps(found, indent=1) + "\n").encode())
     return found

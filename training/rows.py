@@ -113,15 +113,28 @@ def of_table(
         return np.array(table.column(key).to_pylist(), dtype=float)
 
     groups = np.column_stack([column(key) for key in inputs])
-    force, left = sense * column(f"trajectory_{what}"), column("trajectory_travel_left")
-    radius = column(f"trajectory_{edge}")
-    peak = column(f"pull_off_{what}")
+    curve = sense * column(f"trajectory_{what}"), column(f"trajectory_{edge}")
+    left = column("trajectory_travel_left")
+    numbers = column(f"pull_off_{what}"), column("work_to_pull_off")
+    return of_arrays(groups, *numbers, *curve, left, number)
+
+
+def of_arrays(
+    groups: Array,
+    peak: Array,
+    work: Array,
+    force: Array,
+    radius: Array,
+    left: Array,
+    number: int = 0,
+) -> Rows:
+    """Return rows of pull-off force, work, and force, radius and travel left of a trajectory."""
     said, known = _curves(force, radius)
     travel = left[:, 0] - left[:, PRESSED]
     return Rows(
         groups=groups,
         force=peak,
-        work=column("work_to_pull_off"),
+        work=work,
         start_force=force[:, 0],
         start_radius=radius[:, 0],
         line=said,

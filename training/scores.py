@@ -1,120 +1,78 @@
-"""What a surrogate is worth, on rows that it has not learned from."""
+"""Errors of a surrogate on cases that it has not learned from, and of bands left out."""
 
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
+from viscotack.arrays import Array
 from viscotack.result.trajectory import PRESSED
 from viscotack.surrogate import physics
+from viscotack.surrogate.answers import Answers
 from viscotack.surrogate.contact import between
 from viscotack.surrogate.line import Curves
 from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks, together
-from viscotack.surrogate.physics import Array
 
 from .fitting import Fit
 from .recipe import begin_forces
-from .rows import BANDED, BANDS, LEARNED, Rows, band
+from .rows import BANDED, BANDS, Rows, band
 from .shop import Shop
 
-_CONFIDENCE = 0.9
-# Between these lie the regions: three ranges of Tabor number, times three of rate.
-_TABORS, _RATES = (0.1, 1.0), (10.0, 1e5)
-REGIONS = (len(_TABORS) + 1) * (len(_RATES) + 1)
+Label = dict[str, Any]
 
 
-def region(groups: Array) -> npt.NDArray[np.intp]:
-    """Return the number of the region of each row, from 0 to REGIONS - 1.
-
-    Examples
-    --------
-    >>> region(np.array([[0.05, 0.1, 0.6, 1.0, 1.0], [5.0, 0.1, 0.6, 1.0, 1e9]])).tolist()
-    [0, 8]
-    """
-    tabor = np.searchsorted(_TABORS, groups[:, physics.TABOR])
-    rate = np.searchsorted(_RATES, groups[:, physics.RATE])
-    return tabor * (len(_RATES) + 1) + rate
-
-
-def scores(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
-    """Return errors, covers and errors of the curves by set, ready for JSON."""
-    sets = {name: rows.chosen(rows.origin == i) for i, name in enumerate(LEARNED)}
-    return {name: _of(surrogate, some) for name, some in {"all": rows, **sets}.items() if len(some)}
-
-
-def _of(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
-    said = surrogate.evaluate(rows.groups)
-    between = surrogate.intervals(rows.groups, said, confidence=_CONFIDENCE)
-    where = region(rows.groups)
-    answer: dict[str, Any] = {"rows": len(rows)}
-    for name, found, ends, true in (
-        ("force", said.pull_off_force, between.pull_off_force, rows.force),
-        ("work", said.work_to_pull_off, between.work_to_pull_off, rows.work),
-    ):
-        error = np.log10(found / true)
-        held = (ends[:, 0] <= true) & (true <= ends[:, 1])
-        answer[name] = {
-            "mse_log10": float(np.mean(error**2)),
-            "median": float(np.median(np.abs(found / true - 1))),
-            "95 %": float(np.quantile(np.abs(found / true - 1), 0.95)),
-            "largest": float(np.max(np.abs(found / true - 1))),
-            "cover": float(held.mean()),
-            "cover by region": [
-                float(held[where == r].mean()) if np.any(where == r) else None
-                for r in range(REGIONS)
-            ],
-            "half width": float(np.median(ends[:, 1] / ends[:, 0]) ** 0.5 - 1),
-        }
-    return answer | {"curve": _curve(surrogate.curves(rows.groups, said), rows)}
-
-
-def _curve(found: Curves, rows: Rows) -> dict[str, float]:
-    """Return how far predicted curves are off, root mean square over the points in tension."""
-    error = np.sqrt(np.nanmean(curve_errors(found, rows) ** 2, axis=1))
-    return {
-        "median": float(np.median(error)),
-        "90 %": float(np.quantile(error, 0.9)),
-        "99 %": float(np.quantile(error, 0.99)),
-    }
-
-
-def curve_errors(found: Curves, rows: Rows) -> Array:
-    """Return how far curves are off at the stored points in tension, shape (n, 24).
-
-    Parts of the pull-off force, at the same travel from zero force, or from a start in tension; nan
-    for points in compression. Where zero force is: :func:`travel_errors`.
-    """
-    travel = rows.trajectory_left[:, :1] - rows.trajectory_left - _to_zero(rows)[:, None]
-    error = np.full(travel.shape, np.nan)
+def labels_of(rows: Rows) -> list[Label]:
+    """Return rows in the form of the labels of :mod:`training.fresh_cases`, at stored points."""
+    found = []
     for i in range(len(rows)):
         first = PRESSED if rows.start_force[i] > 0 else 0
-        known = found.depth[i, first] - found.depth[i, first:]
-        force = _at(travel[i, first:], known, found.force[i, first:])
-        error[i, first:] = (force - rows.trajectory_force[i, first:]) / rows.force[i]
-    return error
+        left = rows.trajectory_left[i]
+        found.append(
+            {
+                "force": rows.force[i],
+                "work": rows.work[i],
+                "to_zero": left[0] - left[first],
+                "travel": left[first] - left[first:],
+                "tension": -rows.trajectory_force[i, first:],
+            }
+        )
+    return found
 
 
-def travel_errors(found: Curves, rows: Rows) -> Array:
-    """Return errors of log10 of the travel to zero force, shape (n,); nan for starts in tension."""
-    pressed = rows.start_force > 0
-    travel = np.where(pressed, found.depth[:, 0] - found.depth[:, PRESSED], 1.0)
-    return np.where(pressed, np.log10(travel / np.where(pressed, _to_zero(rows), 1.0)), np.nan)
+def curve_error(curve: Curves, label: Label) -> float:
+    """Return the largest error of the tension of one curve at a simulated step.
+
+    At the same travel from zero force, or from a start in tension, by monotone cubics between the
+    points of the curve; steps beyond its end are compared with its last force.
+    """
+    first = PRESSED if curve.force[0] > 0 else 0
+    travel, tension = curve.depth[first] - curve.depth[first:], -curve.force[first:]
+    kept = np.append(True, np.diff(travel) > 0)
+    if kept.sum() == 1:
+        return float(np.max(np.abs(tension[0] - label["tension"])))
+    at = np.clip(label["travel"], 0.0, travel[-1])
+    read = PchipInterpolator(travel[kept], tension[kept])(at)
+    return float(np.max(np.abs(read - label["tension"])))
 
 
-def _to_zero(rows: Rows) -> Array:
-    """Return the travel to zero force, 0 for starts in tension."""
-    return np.where(rows.start_force > 0, rows.give * rows.start_force / rows.start_radius, 0.0)
-
-
-def _at(travel: Array, known: Array, force: Array) -> Array:
-    """Return forces at travels; beyond the last known one the last force."""
-    kept = np.append(True, np.diff(known) > 0)
-    curve = PchipInterpolator(known[kept], force[kept])
-    return curve(np.clip(travel, known[0], known[-1]))
+def errors(said: Answers, curves: Curves, labels: list[Label]) -> Array:
+    """Return the errors of ``trust.OF``, shape (n, 4); of a start in tension no travel."""
+    force, work, to_zero = (np.array([x[n] for x in labels]) for n in ("force", "work", "to_zero"))
+    each = [
+        Curves(*one) for one in zip(curves.depth, curves.force, curves.contact_radius, strict=True)
+    ]
+    off = [
+        curve_error(curve, label) / label["force"]
+        for curve, label in zip(each, labels, strict=True)
+    ]
+    travel = curves.depth[:, 0] - curves.depth[:, PRESSED]
+    pressed = (curves.force[:, 0] > 0) & (to_zero > 0)
+    travel = np.where(pressed, np.log10(travel / np.where(pressed, to_zero, 1.0)), np.nan)
+    of_numbers = np.log10(said.pull_off_force / force), np.log10(said.work_to_pull_off / work)
+    return np.column_stack([*of_numbers, off, travel])
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,9 +1,10 @@
 """The theory of a crack at the edge, learned: cases, answers, networks.
 
-``python -m training.short_range --out DIR``. Solids are drawn from a Sobol
+``python -m training.short_range --out DIR [--keep]``. Solids are drawn from a Sobol
 sequence of modulus ratio and exponent; of each the cracks are solved once, and some cases with
 other Tabor numbers, starts and rates are marched at once. Answered solids are kept in the folder,
-so that a run that was stopped goes on.
+so that a run that was stopped goes on. With ``--keep`` the networks of the force are those of the
+package, and only work and curve are learned.
 """
 
 from __future__ import annotations
@@ -23,23 +24,33 @@ from scipy.stats import qmc
 
 from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
-from viscotack.methods.by_crack import CrackContact, crack_contacts
+from viscotack.methods.by_crack import CrackContact, crack_contacts, unloading
+from viscotack.result.trajectory import POINTS
 from viscotack.surrogate import short_range, store
+from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import added, together
+from viscotack.surrogate.network import Networks, added, from_arrays, together
 from viscotack.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR, Array
 from viscotack.surrogate.short_range import HIGH, LOW, ShortRangeContact
+from viscotack.surrogate.trust import OF
 from viscotack.version import __version__
 
 from .fitting import Fit, Task, fit
 from .recipe import scaled_task
+from .rows import Rows, of_arrays
+from .scores import errors, labels_of
 
 # Solids, cases of each, and the part of the solids that no network learns from.
 SOLIDS, CASES, _KEPT = 128, 48, 0.125
 _SEED = 31
 FIRST = Fit((24, 24, 24), steps=2000, scale=0.1, penalty=1e-7)
 SECOND, GAIN = Fit((24, 24, 24), steps=1500, scale=3e-3, penalty=1e-6), 0.03
+STATE = Fit(FIRST.hidden, steps=FIRST.steps, scale=1.0, penalty=1e-8)
+CURVE = Fit((32, 32, 32), steps=2000, scale=1.0, penalty=1e-8)
+LEFT = Fit((24, 24, 24), steps=1500, scale=0.03, penalty=1e-6)
 _MEMBERS = 2
+# Steps of a curve of the theory at which the networks are compared with it.
+STEPS = 60
 
 
 def solids(count: int) -> Array:
@@ -62,83 +73,124 @@ def cases(solid: Array, number: int, count: int) -> Array:
     return np.column_stack([tabor, both, start * tabor, time * tabor])
 
 
-def answers(rows: Array) -> Array:
-    """Return force, amplification, zones and work of cases of one solid; nan without an answer."""
-    found = np.full((len(rows), 4), np.nan)
+def answers(rows: Array) -> tuple[Array, Array, Array]:
+    """Return numbers and curves of cases of one solid; nan without an answer.
+
+    Force, amplification, zones and work, shape (n, 4); travel left, force and contact radius
+    at the points of a trajectory, shape (n, 3, 24); and travel and tension at steps of the theory
+    from zero force, or a start in tension, to the pull-off, shape (n, 2, STEPS).
+    """
+    found, curves = np.full((len(rows), 4), np.nan), np.full((len(rows), 3, POINTS), np.nan)
+    steps = np.full((len(rows), 2, STEPS), np.nan)
     kind = KINDS["sphere"]
     problems = [kind.problem(dict(zip(INPUTS, row, strict=True))) for row in rows.tolist()]
     try:
         said = crack_contacts([p.groups() for p in problems])
     except InputError:
-        return found
+        return found, curves, steps
     for i, one in enumerate(said):
         if isinstance(one, CrackContact) and one.pull_off_force is not None:
             numbers = (one.pull_off_force, one.amplification_at_pull_off, one.zones)
             found[i] = np.array([*numbers, one.work_to_pull_off], dtype=float)
-    return found
+            curves[i], whole = unloading(one)
+            # even in the number of steps, which are shorter where the force changes
+            places = np.linspace(0, whole.shape[1] - 1, STEPS)
+            steps[i] = [np.interp(places, np.arange(len(x)), x) for x in whole]
+    return found, curves, steps
 
 
-def simulated(folder: Path, count: int, each: int) -> tuple[Array, Array, npt.NDArray[np.intp]]:
-    """Return groups, answers and solids of the cases, those of the folder read from it."""
+def simulated(folder: Path, count: int, each: int) -> tuple[list[Array], npt.NDArray[np.intp]]:
+    """Return groups and answers of the cases, and their solids; some from the folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    groups, said, number = [], [], []
+    found, number = [], []
     for i, solid in enumerate(solids(count)):
         file = folder / f"{i:04d}.npz"
         if not file.exists():
             rows = cases(solid, i, each)
-            np.savez(file, groups=rows, said=answers(rows))
+            np.savez(file, rows, *answers(rows))
         with np.load(file, allow_pickle=False) as held:
-            groups.append(held["groups"])
-            said.append(held["said"])
-            number.append(np.full(len(held["said"]), i))
+            found.append([held[f"arr_{j}"] for j in range(4)])
+            number.append(np.full(each, i))
         print(f"\r{i + 1} of {count} solids", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
-    return np.concatenate(groups), np.concatenate(said), np.concatenate(number)
+    return [np.concatenate(x) for x in zip(*found, strict=True)], np.concatenate(number)
 
 
-def learn(groups: Array, said: Array) -> Surrogate:
-    """Return networks that say what the theory says; their error is not known yet."""
-    tests = Surrogate(ShortRangeContact, {}).tests(groups)
+def forces(tests: Contact, said: Array) -> dict[str, Networks]:
+    """Return networks of the force, and of the energy and zones at the pull-off."""
     target = np.log10(said[:, :1])
     force = Task(tests.told, target, np.ones_like(target), (tests.slow, tests.fast))
     others = np.column_stack([np.log10(said[:, 1] - 1 + short_range.LEAST), np.log10(said[:, 2])])
     state = scaled_task(tests.told, others)
-    forces = []
+    found = []
     for seed in range(_MEMBERS):
         one = fit(force, FIRST, seed=seed)
         left = replace(force, before=one(tests.told)[0], gain=GAIN)
-        forces.append(added(one, fit(left, SECOND, seed=seed)))
-    how = Fit(FIRST.hidden, steps=FIRST.steps, scale=1.0, penalty=1e-8)
-    networks = {"force": together(forces), "state": state.of(fit(state.task, how, seed=0))}
-    return Surrogate(ShortRangeContact, networks, constants={"error": np.zeros(2)})
+        found.append(added(one, fit(left, SECOND, seed=seed)))
+    return {"force": together(found), "state": state.of(fit(state.task, STATE, seed=0))}
 
 
-def measured(made: Surrogate, groups: Array, said: Array) -> tuple[Surrogate, dict[str, Any]]:
-    """Return networks with their error on cases of other solids, and what they are worth.
+def curves(tests: Contact, rows: Rows) -> dict[str, Networks]:
+    """Return networks of the work, of the travel to zero force and of the shapes of the curve."""
+    force, pressed = np.log10(rows.force), rows.start_force > 0
+    known, unit = tests.knowing(force), np.log10(rows.groups[:, TABOR])
+    with_work = np.column_stack([known, np.log10(rows.work)])
+    work = np.log10(rows.work) - force - unit
+    give = (np.log10(rows.give) - unit)[pressed]
+    works, gives = scaled_task(known, work[:, None]), scaled_task(with_work[pressed], give[:, None])
+    line = scaled_task(with_work, rows.line, rows.known)
+    return {
+        "work": works.of(together([_twice(works.task, seed) for seed in range(_MEMBERS)])),
+        "give": gives.of(_twice(gives.task, 0)),
+        "line": line.of(fit(line.task, CURVE, seed=0)),
+    }
+
+
+def _twice(task: Task, seed: int) -> Networks:
+    """Return a network with another of what it leaves over."""
+    one = fit(task, CURVE, seed=seed)
+    left = replace(task, before=one(task.inputs)[0], gain=GAIN)
+    return added(one, fit(left, LEFT, seed=seed))
+
+
+def _shipped() -> dict[str, Networks]:
+    """Return the networks of the force of the file of the package, whatever else it has."""
+    with np.load(store.FILES["short range"], allow_pickle=False) as arrays:
+        return {name: from_arrays(arrays, f"{name}.") for name in ("force", "state")}
+
+
+def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict[str, Any]]:
+    """Return a surrogate with its errors on cases of solids that it has not learned from.
 
     Parameters
     ----------
     made : Surrogate
-        That has not learned from these cases.
-    groups : ndarray, shape (n, 5)
-    said : ndarray, shape (n, 4)
-        Force, amplification, zones and work by the theory.
+    rows : Rows
+    steps : ndarray, shape (n, 2, STEPS)
+        Travel and tension at which curves are compared.
     """
-    tests = made.tests(groups)
-    found = made.evaluate(tests)
-    inside = tests.inside().all(axis=1) & tests.holds(found)
-    ratio = (found.pull_off_force / said[:, 0])[inside]
-    off = np.abs(ratio - 1)
-    error = np.quantile(off, [0.9, 0.98])
-    scores = {
-        "cases": int(inside.sum()),
-        "mse_log10": float(np.mean(np.log10(ratio) ** 2)),
-        "median": float(np.median(off)),
-        "90 %": float(error[0]),
-        "98 %": float(error[1]),
-        "largest": float(off.max()),
+    tests = made.tests(rows.groups)
+    said = made.evaluate(tests)
+    at_steps = [
+        label | {"travel": travel, "tension": tension}
+        for label, (travel, tension) in zip(labels_of(rows), steps, strict=True)
+    ]
+    within = tests.inside().all(axis=1) & tests.holds(said)
+    log = np.abs(errors(said, tests.curves(said), at_steps)[within])
+    # work and curve are given only where the networks agree
+    log[~tests.agree(said)[within], 1:] = np.nan
+    # of a curve over the pull-off force, the others of log10
+    off = np.column_stack([10 ** log[:, :2] - 1, log[:, 2], 10 ** log[:, 3] - 1])
+    shares = {"median": 0.5, "90 %": 0.9, "98 %": 0.98, "largest": 1.0}
+    found = np.nanquantile(off, list(shares.values()), axis=0).T
+    scores = {n: dict(zip(shares, x.tolist(), strict=True)) for n, x in zip(OF, found, strict=True)}
+    given = float(np.mean(np.isfinite(log[:, 1])))
+    cases = {
+        "cases": int(within.sum()),
+        "with work": given,
+        "mse_log10": float(np.mean(log[:, 0] ** 2)),
     }
-    return replace(made, constants={"error": error}), scores
+    return replace(made, constants={"error": found[:, 1:3]}), cases | scores
 
 
 def main() -> None:
@@ -146,21 +198,29 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m training.short_range")
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--solids", type=int, default=SOLIDS)
+    parser.add_argument("--keep", action="store_true", help="networks of the force of the package")
     given = parser.parse_args()
     began = perf_counter()
-    groups, said, number = simulated(given.out / "solids", given.solids, CASES)
-    known = np.isfinite(said[:, 0])
+    found, number = simulated(given.out / "solids", given.solids, CASES)
+    known = np.isfinite(found[1]).all(axis=1)
+    groups, said, points, steps, number = (x[known] for x in (*found, number))
+    left, force, radius = np.moveaxis(points, 1, 0)
+    rows = of_arrays(groups, said[:, 0], said[:, 3], force, radius, left)
     # every so many of a Sobol sequence would be a box of it
     apart = np.random.default_rng(_SEED).permutation(given.solids)[: round(_KEPT * given.solids)]
     kept = np.isin(number, apart)
-    made = learn(groups[known & ~kept], said[known & ~kept])
-    made, scores = measured(made, groups[known & kept], said[known & kept])
+    learned = ~kept
+    made = Surrogate(ShortRangeContact, {}, constants={"error": np.zeros((len(OF), 2))})
+    tests = made.tests(groups[learned])
+    of_force = _shipped() if given.keep else forces(tests, said[learned])
+    made = made.having(**of_force, **curves(tests, rows.chosen(learned)))
+    made, scores = measured(made, rows.chosen(kept), steps[kept])
     facts = {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
         "solids": given.solids,
-        "cases": len(groups),
-        "answered": int(known.sum()),
+        "cases": len(known),
+        "answered": len(groups),
         "scores": scores,
     }
     store.save(made, given.out / "short_range.npz", facts)

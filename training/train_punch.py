@@ -33,7 +33,7 @@ from viscotack.surrogate.network import Networks
 from viscotack.surrogate.punch_physics import Array, PunchContact, told
 from viscotack.version import __version__
 
-from .calibration import judged, trusted, worth
+from .calibration import judged, worth
 from .fitting import Fit, Task
 from .recipe import scaled_task
 from .refining import Looks, Stage, twice
@@ -153,7 +153,10 @@ def faces() -> Rows:
 
 
 def make(folder: Path, *, workers: int) -> dict[str, Any]:
-    """Train, measure, write ``punch.npz`` in the folder; return what it is worth."""
+    """Train and write ``punch.npz`` in the folder; return its metadata.
+
+    :mod:`training.second` measures the intervals.
+    """
     began = perf_counter()
 
     def say(what: str) -> None:
@@ -169,8 +172,6 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
     measuring = joined([measuring, ends.chosen(slice(0, None, 2))])
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
         made = learn(learned, read(LIMITS), shop, say)
-        made = trusted(made, judged(made, learned), [judged(made, measuring)], shop.fit_all)
-        say("intervals")
     facts = {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
@@ -180,7 +181,6 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
             "measuring": len(measuring),
             "judging": len(joined(judging())),
         },
-        "scores": scores(made),
     }
     store.save(made, folder / "punch.npz", facts)
     say("done")
@@ -188,7 +188,7 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Train and say what it is worth."""
+    """Train and print metadata."""
     parser = argparse.ArgumentParser(prog="python -m training.train_punch")
     parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
     parser.add_argument("--workers", type=int, default=1, help="processes")

@@ -217,12 +217,10 @@ def across(made: Surrogate, tests: Tests) -> list[Apart]:
 
 
 def make(table: Any) -> tuple[Surrogate, dict[str, Any]]:
-    """Return what was learned from a table, and what it is worth."""
+    """Return what was learned from a table without intervals, and numbers of rows."""
     part = parted(table)
     made = with_range(bent(unbent(), part["learn"]), part["learn"])
-    made = measured(made, part)
-    counts = {name: len(some) for name, some in part.items()}
-    return made, {"rows": counts, "scores": scores(made, part)}
+    return made, {"rows": {name: len(some) for name, some in part.items()}}
 
 
 def scores(made: Surrogate, part: Mapping[str, Tests]) -> dict[str, Any]:
@@ -271,7 +269,7 @@ def tables(path: Path | None, *, rows: int | None) -> Any:
 
 
 def main() -> None:
-    """Learn, measure, write and say what it is worth."""
+    """Learn, write and print metadata."""
     parser = argparse.ArgumentParser(prog="python -m training.train_solids")
     parser.add_argument("--out", type=Path, required=True, help="folder of the file")
     parser.add_argument("--table", type=Path, help="Parquet file in place of the sets")

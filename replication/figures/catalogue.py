@@ -33,6 +33,8 @@ BESIDE = (
     "printed-algorithm",
     "linear-curve",
 )
+# Made in less than a second from theory, without models and simulations.
+THEORY = ("2.1", "2.2a", "2.2b", "3.3", "4.2", "4.8", "A.3")
 # Parts of the docstring that are said of a figure.
 _PARTS = ("Claims:", "Needs:", "Costs:")
 

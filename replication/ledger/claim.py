@@ -10,6 +10,7 @@ from math import isnan
 from viscotack import InputError
 
 from ..bench import Numbers
+from ..figures.catalogue import THEORY
 
 # Difference that is said [%].
 _LEAST = 0.002
@@ -25,6 +26,15 @@ class Verdict(StrEnum):
     THEN = "holds as measured then"
     FAILS = "does not hold"
     OPEN = "cannot be decided"
+
+
+class Standing(StrEnum):
+    """How firmly a claim stands, as corrected where it needs a correction."""
+
+    PROVEN = "proven"
+    CONSISTENT = "consistent"
+    CONJECTURE = "conjecture"
+    REFUTED = "refuted"
 
 
 @dataclass(frozen=True)
@@ -88,18 +98,34 @@ class Claim:
         ValueError
             If the verdict does not stand with what was measured.
         """
-        found = self.measure(of)
+        return self.judged(of)[0]
+
+    def judged(self, of: Of) -> tuple[Measured, Standing]:
+        """Measure it, and return how firmly it stands too.
+
+        A claim is proven if neither a simulation nor a trained model is needed.
+        """
+        needed: set[str] = set()
+
+        def noted(name: str) -> Numbers:
+            needed.add(name)
+            return of(name)
+
+        found = self.measure(noted)
         low, high = self.stands
         if isnan(found.value) or not low <= found.value <= high:
             raise InputError(
                 f"claim {self.name}: measured {found.value:.5g}, and the verdict '{self.verdict}' "
                 f"stands between {low:g} and {high:g}; look at it again"
             )
-        return found
+        if self.verdict in (Verdict.FAILS, Verdict.OPEN):
+            refuted = self.verdict is Verdict.FAILS
+            return found, Standing.REFUTED if refuted else Standing.CONJECTURE
+        alone = needed <= set(THEORY) and self.verdict is not Verdict.THEN
+        return found, Standing.PROVEN if alone else Standing.CONSISTENT
 
-    def row(self, of: Of) -> str:
+    def row(self, found: Measured, standing: Standing) -> str:
         """Return its line of the ledger."""
-        found = self.measured(of)
         thesis, apart = str(self.thesis), "-"
         if isinstance(self.thesis, float):
             thesis = f"{self.thesis:.6g}"
@@ -113,7 +139,7 @@ class Claim:
             thesis,
             found.said(),
             apart,
-            f"**{self.verdict}**",
+            f"**{self.verdict}**, {standing}",
             self.evidence,
             f"`claim {self.name}`",
         )

@@ -8,8 +8,8 @@ from textwrap import fill
 
 import numpy as np
 
-from .claim import Of, Verdict
-from .contents import CHAPTERS, OWN, of_thesis
+from .claim import Of, Standing, Verdict
+from .contents import CHAPTERS, OWN, every, of_thesis
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "replication.md"
 _HEAD = (
@@ -20,16 +20,18 @@ _HEAD = (
 
 def page(of: Of) -> str:
     """Return the ledger, from numbers of figures that are kept or made afresh."""
-    parts = [_opening(), _derived_twice(of), _linear_curve(of), _BOUND, _READING]
+    judged = {claim.name: claim.judged(of) for claim in every()}
+    standings = Counter(judged[claim.name][1] for claim in of_thesis())
+    parts = [_opening(standings), _derived_twice(of), _linear_curve(of), _BOUND, _READING]
     for chapter, claims in CHAPTERS.items():
-        rows = "\n".join(claim.row(of) for claim in claims)
+        rows = "\n".join(claim.row(*judged[claim.name]) for claim in claims)
         parts.append(f"## {chapter}\n\n{_HEAD}\n{rows}")
-    rows = "\n".join(claim.row(of) for claim in OWN)
+    rows = "\n".join(claim.row(*judged[claim.name]) for claim in OWN)
     parts.append(f"## Found here, beside the thesis\n\n{_HEAD}\n{rows}")
     return "\n\n".join(parts) + "\n"
 
 
-def _opening() -> str:
+def _opening(standings: Counter[Standing]) -> str:
     counts = Counter(claim.verdict for claim in of_thesis())
     said = ", ".join(f"{counts[verdict]} {_PLURAL[verdict]}" for verdict in Verdict)
     text = (
@@ -41,7 +43,10 @@ def _opening() -> str:
         "its band, the command refuses to write, and a test compares this page with what is "
         "measured."
     )
-    return f"# The thesis, claim by claim\n\n{fill(text, 108)}\n\n{fill(_ERRORS, 108)}"
+    counted = ", ".join(f"{standings[standing]} {standing}" for standing in Standing)
+    firm = f"How firmly they stand: {counted}. {_STANDINGS}"
+    paragraphs = "\n\n".join(fill(x, 108) for x in (text, firm, _ERRORS))
+    return f"# The thesis, claim by claim\n\n{paragraphs}"
 
 
 _PLURAL = {
@@ -51,6 +56,12 @@ _PLURAL = {
     Verdict.FAILS: "do not hold",
     Verdict.OPEN: "cannot be decided",
 }
+_STANDINGS = (
+    "Proven is what follows from equations, from the printed text or from the authors' files, "
+    "without a simulation or a trained model, in its corrected form where it needs one; "
+    "consistent, what agrees with simulations, models or times within the band of its verdict; a "
+    "conjecture, what the published material does not decide; refuted, what does not hold."
+)
 _ERRORS = (
     "Errors of simulations are the solver's own estimates, which cover the true error in nine of "
     "ten cases and more ([performance](performance.md)). Figures are in the "

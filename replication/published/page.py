@@ -219,3 +219,9 @@ def write(rows: Sequence[Row], folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     draw(rows, folder)
     write_whole(folder / "README.md", page(rows))
+
+
+def changed(rows: Sequence[Row], kept: str) -> list[str]:
+    """Return the lines of the page that a kept page does not have, but for what the runs took."""
+    known = set(kept.splitlines())
+    return [line for line in page(rows).splitlines() if line not in known and " took " not in line]

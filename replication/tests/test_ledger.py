@@ -16,7 +16,7 @@ from replication.__main__ import app  # noqa: E402
 from replication.figures.catalogue import THESIS  # noqa: E402
 from replication.gallery import GALLERY, PICTURES, SEEN, text  # noqa: E402
 from replication.kept import kept  # noqa: E402
-from replication.ledger.claim import Measured, Verdict  # noqa: E402
+from replication.ledger.claim import Measured, Standing, Verdict  # noqa: E402
 from replication.ledger.contents import every, named  # noqa: E402
 from replication.ledger.page import PAGE, page  # noqa: E402
 from viscotack.theory import jkr, persson_brener  # noqa: E402
@@ -62,6 +62,9 @@ def test_claims_are_many_and_each_says_how_it_is_remeasured():
     assert len(CLAIMS) >= FEWEST
     assert len({claim.name for claim in CLAIMS}) == len(CLAIMS)
     assert {claim.verdict for claim in CLAIMS} == set(Verdict)
+    # an equation, a simulation, something unpublished, and a wrong statement
+    standings = {x: named(x).judged(kept)[1] for x in ("tabor", "alpha", "arms", "tabor-of-pdms")}
+    assert list(standings.values()) == list(Standing)
     written = PAGE.read_text(encoding="utf-8")
     for claim in CLAIMS:
         assert f"`claim {claim.name}` |" in written
@@ -137,4 +140,5 @@ def test_a_claim_is_measured_by_its_command(measured):
 def test_everything_is_drawn_and_measured_from_kept_numbers(tmp_path):
     code, said = asked("--all", "--workers", 1, "--out", tmp_path)
     assert code == 0 and "every verdict stands" in said
-    assert {path.stem for path in tmp_path.glob("*.png")} == {n.replace(".", "_") for n in SEEN}
+    drawn = {path.stem: path.stat().st_size for path in tmp_path.glob("*.png")}
+    assert set(drawn) == {n.replace(".", "_") for n in SEEN} and min(drawn.values()) > 2000

@@ -11,7 +11,7 @@ pytest.importorskip("pyarrow", reason="comes with viscotack[campaign]")
 from replication.published.__main__ import app, drawn  # noqa: E402
 from replication.published.compare import APART, INPUTS, compare, inputs_of  # noqa: E402
 from replication.published.corrected import COLUMNS, corrected  # noqa: E402
-from replication.published.page import page  # noqa: E402
+from replication.published.page import changed, page  # noqa: E402
 from replication.table import Detachments  # noqa: E402
 from viscotack import (  # noqa: E402
     AtDepth,
@@ -105,6 +105,8 @@ def test_the_page_names_the_row_that_is_off(rows):
     assert re.search(r"\+(9\.9|10\.0|10\.1) %", line)
     assert "1 inputs are stated more than once, 2 rows" in text
     assert "1 rows hold 0.01" in " ".join(text.split())
+    assert changed(rows, text) == []
+    assert changed(rows, text.replace("25.00 %", "24.00 %")) != []
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from viscotack.units import as_given, finite
 
 # Smallest and largest magnitude of a quantity in SI that a file or an option may state. Tips of
 # microscopes (1 nm, 0.1 nN), creep (1 pm/s for years), glasses and gels lie far inside.
-_PLAUSIBLE = {
+PLAUSIBLE = {
     "m": (1e-15, 1e2),
     "m/s": (1e-21, 1e5),
     "s": (1e-21, 1e18),
@@ -44,7 +44,7 @@ def plausible(name: str, number: float, unit: str) -> float:
     ...
     viscotack.errors.InputError: radius must lie between 1e-15 and 100 m, got 1000 m; check its unit
     """
-    smallest, largest = _PLAUSIBLE.get(unit, (0.0, math.inf))
+    smallest, largest = PLAUSIBLE.get(unit, (0.0, math.inf))
     if number and not smallest <= abs(number) <= largest:
         raise InputError(
             f"{name} must lie between {smallest:g} and {largest:g} {unit}, got {number:g} {unit}; "

@@ -74,11 +74,12 @@ if sys.platform == "win32":
         return float(getattr(memory, "peak_wset", memory.rss))
 
 else:
-    import fcntl
-    import resource
+    # fcntl and resource are imported where they are used: Pyodide has neither.
 
     def lock(handle: int) -> bool:
         """Lock an open file for this process, without waiting; return whether it was free."""
+        import fcntl
+
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -113,6 +114,8 @@ else:
 
     def bound_memory(most: int) -> None:
         """Limit the address space of this process [bytes], where the system can."""
+        import resource
+
         _, hard = resource.getrlimit(resource.RLIMIT_AS)
         least = most if hard == resource.RLIM_INFINITY else min(most, hard)
         resource.setrlimit(resource.RLIMIT_AS, (least, hard))
@@ -126,6 +129,8 @@ else:
         with suppress(OSError, StopIteration):  # Linux; getrusage has that of the parent, too
             lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
             return 1024.0 * int(next(x for x in lines if x.startswith("VmHWM:")).split()[1])
+        import resource
+
         # kilobytes, but bytes on macOS
         unit = 1.0 if sys.platform == "darwin" else 1024.0
         return unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

@@ -142,6 +142,14 @@ def test_a_flat_map_on_a_layer_jumps_off_at_the_strength():
     assert -at == pytest.approx(drawn + SOFT.edge_gap - GAP, rel=5e-3)
 
 
+def test_a_flat_map_starts_where_no_traction_acts():
+    # at depth 0 all tractions are zero, and so is what unbalanced ones are compared with
+    plane = HeightMap(np.zeros((16, 16)), 5e-6)
+    found = pull(replace(flat(), surface=plane), estimate_error=False)
+    assert found.force[0] == pytest.approx(0, abs=1e-9 * found.pull_off_force)
+    assert 0.6 * SOFT.strength < found.pull_off_stress < SOFT.strength
+
+
 @pytest.mark.parametrize(
     "body", [HalfSpace(), Layer(thickness=40e-6, base=Bonded(poisson_ratio=0.5))]
 )

@@ -7,8 +7,9 @@ import viscotack as vt
 from viscotack.errors import InputError
 from viscotack.geometry import Layer
 from viscotack.operations import ask
+from viscotack.pads import superposed
 from viscotack.protocol import Apart, AtDepth, AtForce, Dwell, Retraction
-from viscotack.rough import RoughProblem, pull, superposed
+from viscotack.rough import RoughProblem, pull
 from viscotack.surfaces import HeightMap, bumps, drawn_asperities, self_affine, sphere, summits
 from viscotack.theory import jkr
 

@@ -18,11 +18,13 @@ from viscotack.bem import DEFAULT_ACCURACY, Accuracy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.methods import solve
+from viscotack.problem import RoughCase
 from viscotack.problem.nouns import known
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
 from viscotack.result.parts import spans
+from viscotack.rough import problem_of, pull, stickiness
 from viscotack.system import peak_memory
 
 from ..result import Outcome, Result
@@ -179,7 +181,7 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
 
     Parameters
     ----------
-    problem : Problem or Groups
+    problem : Problem, Groups or RoughCase
         The problem.
     settings : CaseSettings
         Accuracy, end and limits.
@@ -204,6 +206,8 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     >>> f"{row['pull_off_force']:.2f}"
     '1.12'
     """
+    if isinstance(problem, RoughCase):
+        return _of_rough(problem, settings)
     # a trajectory begins at the start that the row states
     result = solve(
         problem,
@@ -224,6 +228,20 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     row |= {name: cost.get(name) for name in _COST} | {"jumps": len(result.events)}
     row |= {"versions": ", ".join(f"{k} {v}" for k, v in answer["versions"].items())}
     return row | curve(result, found)
+
+
+def _of_rough(case: RoughCase, settings: CaseSettings) -> dict[str, Any]:
+    """Return the row of a rough surface: its answer, statistics and measures of stickiness."""
+    problem = problem_of(case)
+    found = pull(problem, accuracy=settings.accuracy, time_limit=settings.time_limit)
+    if found.outcome is Outcome.STOPPED:
+        raise Unsolved(found.status)
+    spread, cost = problem.roughness, found.statistics
+    row = found.summary | {"warnings": "; ".join(found.warnings)}
+    row |= {"rms_height_m": spread.rms_height, "rms_slope": spread.rms_slope}
+    row |= {"pixels_per_zone": problem.zone.pixels} | stickiness(problem).record
+    row |= {name: cost.get(name) for name in _COST if name != "nodes"}
+    return row | {"versions": words(identity())}
 
 
 def curve(result: Result, found: PullOff) -> dict[str, Any]:

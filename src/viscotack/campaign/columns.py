@@ -17,7 +17,7 @@ from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
 from viscotack.methods import has_start
-from viscotack.problem import Groups, Problem, plane, revolution
+from viscotack.problem import Groups, Problem, RoughCase, plane, revolution
 from viscotack.problem.record import to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.units import positive
@@ -156,6 +156,8 @@ def has_relaxed_contact(problem: Any) -> bool:
     looked for with the range of its traction law, with which contacts exist beyond the end of JKR's
     (:func:`viscotack.theory.elastic.relaxed.contact`).
     """
+    if isinstance(problem, RoughCase):  # found by the simulation
+        return True
     start = problem.groups().start
     if isinstance(start, AtDepth) and start.depth >= 0:
         return True
@@ -215,7 +217,7 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
 
     Parameters
     ----------
-    base : Problem
+    base : Problem, Groups or RoughCase
         The problem that the other numbers come from.
     names : set of str
         Paths of the numbers in ``to_dict(base)``, such as ``protocol.speed``; in SI.
@@ -239,5 +241,5 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
         columns=tuple(sorted(names)),
         problem=partial(made, to_dict(base), known, tuple(also)),
         inputs=known,
-        in_si=isinstance(base, Problem),
+        in_si=isinstance(base, Problem | RoughCase),
     )

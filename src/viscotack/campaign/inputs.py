@@ -12,7 +12,7 @@ from typing import Any
 from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, PowerLawProfile
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups, Problem, RoughCase
 from viscotack.problem.older import upgraded_paths
 from viscotack.problem.record import from_dict, to_dict
 
@@ -53,7 +53,7 @@ def inputs_of(problem: Any) -> dict[str, Input]:
 
     Parameters
     ----------
-    problem : Problem or Groups
+    problem : Problem, Groups or RoughCase
         The problem.
 
     Returns
@@ -72,6 +72,8 @@ def inputs_of(problem: Any) -> dict[str, Input]:
     'h0'
     """
     found = {entry.path: entry for entry in _numbers(problem, problem.units, "")}
+    if isinstance(problem, RoughCase):
+        return {path: entry for path, entry in found.items() if path not in problem.unused}
     if not isinstance(problem, Problem):
         # the parts of a dimensionless problem have the cards of those in SI
         own = set(problem.units.values())

@@ -10,11 +10,12 @@ from typing import Any
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.text import read_text
-from viscotack.files.toml import parse_toml
+from viscotack.files.toml import parse_toml, read_toml
 from viscotack.problem.case_file import read_case
 from viscotack.problem.case_table import refuse_maps
 from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
+from viscotack.rough import read_rough_case
 
 from ..units import parse
 from .case import CaseSettings
@@ -320,9 +321,7 @@ def _kind(
         if "kind" in tables:
             raise InputError(f"{path}: kind and problem exclude each other; leave one out")
         also = own_nouns(own)
-        problem = read_case(
-            path.parent / str(tables["problem"]), also=also, temperature=_temperature(path, tables)
-        )
+        problem = _base(path, path.parent / str(tables["problem"]), tables, also)
         names = {name for key, block in blocks for name in _inputs(key, block)}
         try:
             check_exponent(problem, names)
@@ -335,6 +334,18 @@ def _kind(
     if name not in KINDS:
         raise InputError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
     return KINDS[name], None
+
+
+def _base(path: Path, file: Path, tables: Mapping[str, Any], also: tuple[Any, ...]) -> Any:
+    """Return the problem of a file, a case or a rough surface."""
+    kelvin = _temperature(path, tables)
+    if "surface" not in read_toml(file):
+        return read_case(file, also=also, temperature=kelvin)
+    if kelvin is not None:
+        raise InputError(
+            f"{path}: a rough surface states the temperature of its material in its own file"
+        )
+    return read_rough_case(file, also=also)
 
 
 def _temperature(path: Path, tables: Mapping[str, Any]) -> float | None:

@@ -8,12 +8,13 @@ from .confirming import Simulated
 from .design_file import DesignFile, read_design
 from .finding import Candidate, Design, find_design
 from .limits import Limit
-from .space import Bounds, Choice, DesignSpace, Targets
+from .space import Bounds, Choice, Conditions, DesignSpace, Targets
 
 __all__ = [
     "Bounds",
     "Candidate",
     "Choice",
+    "Conditions",
     "Design",
     "DesignFile",
     "DesignSpace",

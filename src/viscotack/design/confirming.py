@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viscotack.errors import InputError
 from viscotack.methods import solve
-from viscotack.result import Outcome
-from viscotack.result.observables import pull_off
+from viscotack.problem import Problem
+from viscotack.protocol import Dwell, LoadTo, Retraction
+from viscotack.result import Outcome, Result
+from viscotack.result.dead_load import time_to_detachment
+from viscotack.result.observables import pull_off, work_to_pull_off
 
 from .fast import FastTier, Pad
-from .margins import Candidate, margins_of, pads_of
-from .space import HOLD, RELEASE, Targets
+from .margins import Candidate, Judge, pad_of
+from .space import HOLD, LOAD, RELEASE, WORK
+
+# A dead load is applied within this part of the holding time, and simulated for so many of them.
+_APPLIED, _LONGEST = 0.01, 3.0
 
 
 @dataclass(frozen=True)
@@ -21,24 +27,39 @@ class Simulated:
 
     Attributes
     ----------
-    hold, release : float or None
-        Pull-off force of all pads [N]; None if no target depends on it, or if the run failed.
+    forces : mapping of str to float
+        Of all pads, with the names of :class:`.margins.Candidate`: "hold", "release" [N] and "work"
+        [J], and as "dead_load" the load held for the time [N], by the simulated time under the
+        wanted load and the slope of the theory. Those of failed runs are missing.
     errors : mapping of str to float
-        Relative error estimates of both.
+        Relative error estimates.
     margins : mapping of str to float
         Margins of the targets by the simulated forces; empty if a run failed.
     method : str
         "simulation", or "steady cracks" where the simulation hands over to them.
     why : str
         Reason of a failed run.
+    time : float or None
+        Simulated time to detachment under the wanted dead load [s]; None if there is none, or if
+        it is longer than three holding times.
     """
 
-    hold: float | None
-    release: float | None
+    forces: Mapping[str, float]
     errors: Mapping[str, float]
     margins: Mapping[str, float]
     method: str
     why: str = ""
+    time: float | None = None
+
+    @property
+    def hold(self) -> float | None:
+        """Pull-off force at the hold speed [N]."""
+        return self.forces.get(HOLD)
+
+    @property
+    def release(self) -> float | None:
+        """Pull-off force at the release speed [N]."""
+        return self.forces.get(RELEASE)
 
     @property
     def margin(self) -> float | None:
@@ -51,14 +72,8 @@ class Simulated:
         return None if self.margin is None else self.margin >= 0
 
 
-def simulate(
-    candidate: Candidate,
-    fast: FastTier,
-    targets: Targets,
-    *,
-    accuracy: float,
-) -> Simulated:
-    """Simulate one pad of a design at both speeds.
+def simulate(candidate: Candidate, fast: FastTier, judge: Judge, *, accuracy: float) -> Simulated:
+    """Simulate one pad of a design at the conditions of its targets.
 
     Parameters
     ----------
@@ -66,41 +81,105 @@ def simulate(
         The design.
     fast : FastTier
         Has materials and interface.
-    targets : Targets
-        The targets.
+    judge : Judge
+        Targets and conditions.
     accuracy : float
         Of each simulation, as for :func:`viscotack.solve`.
     """
+    choice = candidate.choice
     forces: dict[str, float] = {}
     errors: dict[str, float] = {}
     methods, reasons = [], []
-    for name, pad in pads_of(candidate.choice, targets).items():
-        found = _pulled(pad, fast, accuracy)
-        if isinstance(found, str):
-            reasons.append(f"{name}: {found}")
-            continue
-        force, errors[name], method = found
-        forces[name] = candidate.choice.pads * force
-        methods.append(method)
-    hold, release = forces.get(HOLD), forces.get(RELEASE)
+    select = {HOLD: min, RELEASE: max, WORK: min}
+    for name, pads in judge.pads(choice).items():
+        for pad in pads:
+            found = _pulled(fast.problem(pad), accuracy)
+            if isinstance(found, str):
+                reasons.append(f"{name}: {found}")
+                continue
+            values, error, method = found
+            methods.append(method)
+            if name == RELEASE:
+                values = {RELEASE: values[HOLD]}
+            elif judge.targets.work is None:
+                values = {HOLD: values[HOLD]}
+            for key, value in values.items():
+                total = choice.pads * value
+                forces[key] = select[key](forces.get(key, total), total)
+                errors[key] = max(errors.get(key, 0.0), error.get(key, accuracy))
+    time = None
+    if judge.targets.holding_time is not None:
+        held = _held(candidate, fast, judge, accuracy)
+        if isinstance(held, str):
+            reasons.append(f"{LOAD}: {held}")
+        else:
+            forces[LOAD], time, method = held
+            errors[LOAD] = accuracy
+            methods.append(method)
     return Simulated(
-        hold,
-        release,
+        forces,
         errors,
-        {} if reasons else margins_of(targets, hold, release),
+        {} if reasons else judge.margins(choice, forces),
         " and ".join(dict.fromkeys(methods)),
         "; ".join(reasons),
+        time,
     )
 
 
-def _pulled(pad: Pad, fast: FastTier, accuracy: float) -> tuple[float, float, str] | str:
-    """Return the simulated force of a pad [N], its relative error and method, or a reason."""
-    problem = fast.problem(pad)
+def _pulled(
+    problem: Problem, accuracy: float
+) -> tuple[dict[str, float], dict[str, float], str] | str:
+    """Return force [N] and work [J] of a pad, their relative errors and the method, or a reason."""
     try:
         found = solve(problem, accuracy=accuracy, until="pull-off", throw=False)
         if found.outcome is Outcome.STOPPED:
             return found.status
-        force = pull_off(found).force * problem.scales().force
+        unit = problem.outputs.observables["work_to_pull_off"].unit
+        values = {
+            HOLD: pull_off(found).force * problem.scales().force,
+            WORK: work_to_pull_off(found) * getattr(problem.scales(), unit.scale),
+        }
     except InputError as reason:
         return str(reason)
-    return force, (found.error_estimate or {}).get("force", accuracy), found.method
+    stated = found.error_estimate or {}
+    errors = {HOLD: stated.get("force", accuracy), WORK: stated.get("work", accuracy)}
+    return values, errors, found.method
+
+
+def _held(
+    candidate: Candidate, fast: FastTier, judge: Judge, accuracy: float
+) -> tuple[float, float | None, str] | str:
+    """Return the load held for the time [N], the time under the wanted load, and the method.
+
+    The simulated time becomes a load by the theory: that load times the ratio of the loads that the
+    theory has for both times.
+    """
+    choice, targets = candidate.choice, judge.targets
+    assert targets.holding_time is not None and targets.dead_load is not None, "the caller checks"
+    wanted = judge.conditions.holding_time(choice.material, targets.holding_time)
+    pad: Pad = pad_of(choice, 1.0, bonded=judge.bonded)
+    problem = fast.problem(pad)
+    load, longest = targets.dead_load / choice.pads, _LONGEST * wanted
+    moves = (LoadTo(-load, duration=_APPLIED * wanted), Dwell(longest, hold="force"))
+    held = Retraction(problem.protocol.start, None, moves)  # type: ignore[arg-type]
+    try:
+        found = solve(replace(problem, protocol=held), accuracy=accuracy, throw=False)
+        if found.outcome is Outcome.STOPPED:
+            return found.status
+        gone = found.outcome in (Outcome.JUMPED, Outcome.DETACHED)
+        time = _time(found) if gone else None  # type: ignore[arg-type]
+    except InputError as reason:
+        return str(reason)
+    shown = longest if time is None else max(time, _APPLIED * wanted)
+    first, second = (fast.held(pad, x) for x in (wanted, shown))
+    if isinstance(first, str) or isinstance(second, str):
+        return str(first)
+    return choice.pads * load * first.value / second.value, time, found.method
+
+
+def _time(found: Result) -> float:
+    """Return the time to detachment [s]; 0 if it is over before the load is."""
+    try:
+        return time_to_detachment(found)
+    except InputError:
+        return 0.0

@@ -1,49 +1,85 @@
-"""Pull-off forces of one pad by the fast tiers, with their intervals."""
+"""Forces, works and held loads of one pad by the fast tiers, with their intervals."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import hypot
 from typing import Any, Protocol
+
+import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.forecast import predict
 from viscotack.forecast.tiers import AT_ONCE
-from viscotack.geometry import Sphere
+from viscotack.geometry import Bonded, Frictionless, HalfSpace, Layer, PowerLawProfile, Sphere
+from viscotack.identify.computed import Computed
+from viscotack.identify.forward import Forward
 from viscotack.materials import Material
+from viscotack.materials.scaling import scaled
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce, Retraction
+from viscotack.traction import LennardJones
+
+from .holding import HELD_ERROR, held_load
 
 # Budgets of a prediction [s]: surrogates alone, and theories.
 SURROGATES, THEORIES = AT_ONCE, 0.5
+# Relative standard error of the theory on a layer, and normal deviate of an interval of 90 %.
+_ON_LAYER, _DEVIATE = 0.03, 1.645
 
 
 @dataclass(frozen=True)
 class Force:
-    """Pull-off force of one pad with its 90 % interval [N], and the name of its tier."""
+    """A force of one pad with its 90 % interval [N], or a work [J], and the name of its tier.
+
+    Attributes
+    ----------
+    value, low, high : float
+        The number and the ends of its interval.
+    method : str
+        Name of the tier.
+    work : Force or None
+        Work to pull-off of the same pull [J]; None where the tier has no interval of it.
+    """
 
     value: float
     low: float
     high: float
     method: str
+    work: Force | None = None
+
+    def times(self, factor: float) -> Force:
+        """Return the number of several pads."""
+        work = None if self.work is None else self.work.times(factor)
+        return Force(factor * self.value, factor * self.low, factor * self.high, self.method, work)
 
 
 @dataclass(frozen=True)
 class Pad:
-    """One pad and how it is pulled, in SI: a sphere on a half-space.
+    """One pad and how it is pulled, in SI.
 
     Attributes
     ----------
     material : str
         Name of the material.
     radius, preload, speed : float
-        Radius of the sphere [m], force of the relaxed start [N] on this pad, and speed [m/s].
+        Radius of the tip [m], force of the relaxed start [N] on this pad, and speed [m/s].
+    modulus, thickness, exponent, backing : float or None
+        As in :class:`.space.Choice`.
+    bonded : bool
+        Whether a layer is bonded to its base.
     """
 
     material: str
     radius: float
     preload: float
     speed: float
+    modulus: float | None = None
+    thickness: float | None = None
+    exponent: float | None = None
+    backing: float | None = None
+    bonded: bool = False
 
 
 class Forces(Protocol):
@@ -51,6 +87,10 @@ class Forces(Protocol):
 
     def force(self, pad: Pad) -> Force | str:
         """Return the force of a pad, or a reason."""
+        ...
+
+    def held(self, pad: Pad, time: float) -> Force | str:
+        """Return the dead load that a pad holds for a time [s], or a reason."""
         ...
 
 
@@ -72,26 +112,83 @@ class FastTier:
     traction: Any
     budget: float
     known: dict[Pad, Force | str] = field(default_factory=dict, repr=False)
+    loads: dict[tuple[Pad, float], Force | str] = field(default_factory=dict, repr=False)
+    computed: Computed = field(default_factory=Computed, repr=False)
+
+    def material(self, pad: Pad) -> Any:
+        """Return the material of a pad, with its modulus."""
+        stated: Any = self.materials[pad.material]
+        if pad.modulus is None:
+            return stated
+        return scaled(stated, modulus=pad.modulus / stated.rubbery_modulus, time=1.0)
 
     def problem(self, pad: Pad) -> Problem:
         """Return the problem of a pad; InputError if it exceeds small strain."""
+        R, q = pad.radius, pad.exponent
         return Problem(
-            material=self.materials[pad.material],
+            material=self.material(pad),
             traction=self.traction,
-            geometry=Sphere(pad.radius),
-            protocol=Retraction(AtForce(pad.preload), pad.speed),
+            geometry=Sphere(R) if q is None else PowerLawProfile(1 / (q * R ** (q - 1)), q),
+            body=self._body(pad),
+            protocol=Retraction(AtForce(pad.preload), pad.speed, stiffness=pad.backing),
         )
+
+    def _body(self, pad: Pad) -> HalfSpace | Layer:
+        if pad.thickness is None:
+            return HalfSpace()
+        nu = self.materials[pad.material].poisson_ratio
+        return Layer(pad.thickness, Bonded(poisson_ratio=nu) if pad.bonded else Frictionless())
 
     def force(self, pad: Pad) -> Force | str:
         """Return the force of a pad, or the reason why no tier within the budget predicts it."""
         if pad not in self.known:
             try:
-                self.known[pad] = self._predicted(self.problem(pad))
+                problem = self.problem(pad)
+                layer = pad.thickness is not None
+                self.known[pad] = self._on_layer(pad) if layer else self._predicted(problem)
             except InputError as reason:
                 self.known[pad] = str(reason)
         return self.known[pad]
 
+    def held(self, pad: Pad, time: float) -> Force | str:
+        """Return the dead load that a pad holds for a time [s], or the reason why none is known."""
+        pad = replace(pad, speed=1.0, backing=None)  # neither matters under a dead load
+        if (pad, time) not in self.loads:
+            try:
+                load = held_load(self.problem(pad), time)
+                error = _DEVIATE * HELD_ERROR
+                found = Force(load, load * (1 - error), load * (1 + error), "steady crack")
+                self.loads[pad, time] = found
+            except InputError as reason:
+                self.loads[pad, time] = str(reason)
+        return self.loads[pad, time]
+
     def _predicted(self, problem: Problem) -> Force:
-        found, unit = predict(problem, budget=self.budget), problem.scales().force
+        found = predict(problem, budget=self.budget)
+        force = problem.outputs.observables["pull_off_force"].unit
+        work = problem.outputs.observables["work_to_pull_off"].unit
+        unit, joule = (getattr(problem.scales(), x.scale) for x in (force, work))
         low, high = found.interval
-        return Force(found.pull_off_force * unit, low * unit, high * unit, found.method)
+        more = None
+        if found.work_to_pull_off is not None and found.work_interval is not None:
+            least, most = found.work_interval
+            more = Force(found.work_to_pull_off * joule, least * joule, most * joule, found.method)
+        return Force(found.pull_off_force * unit, low * unit, high * unit, found.method, more)
+
+    def _on_layer(self, pad: Pad) -> Force:
+        """Return the force by the steady crack at the edge of a sphere on a layer."""
+        law = self.traction
+        if type(law) is not LennardJones or pad.exponent is not None or pad.backing is not None:
+            raise InputError(
+                "on a layer only spheres with Lennard-Jones forces and a rigid backing are known"
+            )
+        known = Forward(
+            self.material(pad), pad.radius, body=self._body(pad), computed=self.computed
+        )
+        speed, load = np.array([pad.speed]), np.array([pad.preload])
+        given = (law.work_of_adhesion, law.equilibrium_gap, speed, load)
+        if reason := known.changed(*given).refused.get(0):
+            raise InputError(reason)
+        force = float(known.pulled(*given).force[0])
+        error = _DEVIATE * hypot(_ON_LAYER, float(known.layer_error(*given)[0]))
+        return Force(force, force * (1 - error), force * (1 + error), "crack contact on a layer")

@@ -1,15 +1,18 @@
 r"""Find a design: the largest margin of the worst target by the fast tier, then simulations.
 
 The margin of a target is :math:`\ln(P/P_\mathrm{hold})` or :math:`\ln(P_\mathrm{release}/P)`, with
-the less favourable end of the interval of P. Differential evolution maximises the smallest one.
+the less favourable end of the interval of P. Differential evolution maximises the smallest one;
+with tolerances the smallest one less the allowance that the yield needs. If no simulated design
+meets the targets, the ratios of simulated to predicted forces correct all predictions, and the best
+designs by these are simulated too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
-from math import ceil, exp, log
+from math import ceil, exp, inf, log
 from typing import Any
 
 import numpy as np
@@ -21,27 +24,37 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .confirming import Simulated, simulate
-from .fast import SURROGATES, THEORIES, FastTier, Forces, Pad
+from .fast import SURROGATES, THEORIES, FastTier, Forces
+from .front import front_of
 from .interpolating import interpolation
 from .limits import SPEEDS, Limit, solid_limits, wanted
-from .margins import Candidate, judged, pads_of
+from .margins import Candidate, Judge
 from .searching import NONE, Effort, search
 from .space import (
     HOLD,
     HOLD_SPEED,
+    INTERFACE,
+    LOAD,
+    MODULUS,
     PADS,
     PRELOAD,
-    RADIUS,
     RATIO,
     RELEASE,
     RELEASE_SPEED,
+    WORK,
     Choice,
+    Conditions,
     DesignSpace,
     Targets,
 )
+from .yields import Slopes, allowances, gain, share_of
 
-# Sizes of searches: of all targets together, and of one alone.
-_EFFORT, _REACH = Effort(3.3, 5.5), Effort(3.3, 2)
+# Sizes of searches: of all targets together, of one alone, and of each end of a front.
+_EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 1.2)
+# Bonus on the margin of all other targets, ln 2, in a search towards the end of a front.
+_BONUS = log(2.0)
+# Further simulations of designs by corrected predictions.
+_CORRECTED = 3
 # Designs that theories predict before they are interpolated, times free variables + 1, and rounds
 # of interpolation.
 _SAMPLED, _ROUNDS = 3.3, 4
@@ -72,7 +85,14 @@ class Design:
         Targets with the smallest margin of the first design, and bounds of variables beyond which
         it would grow, such as "hold_speed at most".
     elasticities : mapping of str to (mapping of str to (float or None))
-        For "hold" and "release" d ln P/d ln x of the first design; None where no tier predicts.
+        d ln P/d ln x of the first design for each force of its targets; None where no tier
+        predicts.
+    front : tuple of Candidate
+        Designs of which none is better in every target, by the less favourable ends of their
+        intervals; empty for a single target.
+    yields : tuple of (float or None)
+        Share of the parts of each candidate that meets the targets, by its simulated forces or
+        else by the fast tier; None without tolerances.
     limits : tuple of Limit
         What the solid permits, and if the targets are out of reach, what the best designs reach of
         each target alone.
@@ -87,6 +107,9 @@ class Design:
     elasticities: Mapping[str, Mapping[str, float | None]]
     limits: tuple[Limit, ...]
     fast: FastTier
+    front: tuple[Candidate, ...] = ()
+    yields: tuple[float | None, ...] = ()
+    judge: Judge = field(default_factory=lambda: Judge(Targets(ratio=1.0)))
 
     @property
     def predictions(self) -> int:
@@ -114,6 +137,7 @@ def find_design(
     traction: Any,
     space: DesignSpace,
     targets: Targets,
+    conditions: Conditions | None = None,
     *,
     confirm: int = 3,
     seed: int = 0,
@@ -133,8 +157,11 @@ def find_design(
         Bounds of the variables.
     targets : Targets
         Wanted forces of all pads.
+    conditions : Conditions, optional
+        Speeds, temperatures and tolerances at which the targets count.
     confirm : int
-        Number of candidates that are simulated, 0 to 3.
+        Number of candidates that are simulated, 0 to 3; if none of them meets the targets, up to
+        three more follow.
     seed : int
         Of the search.
     accuracy : float
@@ -151,36 +178,46 @@ def find_design(
     ValueError
         If a target needs a speed without bounds.
     """
+    judge = Judge(targets, conditions or Conditions(), space.bonded)
     check_stated(materials, space, targets)
-    fast = _covering(materials, traction, space, targets, seed)
+    fast, tried = _covering(materials, traction, space, judge, seed)
+    needed = _needed(tried, fast, judge)
+    several = len(targets.stated) > 1
     share = 0.6 / len(materials)
     seen: dict[Choice, Candidate] = {}
     for i, name in enumerate(materials):
+
+        def tell(done: float, i: int = i) -> None:
+            progress((i + done) * share)
+
         by = _searched if fast.budget == SURROGATES else _suggested
-        seen |= by(fast, space, targets, name, seed, lambda done, i=i: progress((i + done) * share))
+        seen |= by(fast, space, judge, needed, name, seed, tell)
+        if several and fast.budget == SURROGATES:
+            seen |= _ends(fast, space, judge, name, seed)
     if not seen:
         raise OutOfRange(f"no fast tier predicts a design between the bounds: {_reason(fast)}")
-    candidates = _apart(seen, space)
+    candidates = _apart(seen, space, needed)
     limits = solid_limits(fast, space, targets)
     if not candidates[0].is_possible and not any(each.excludes for each in limits):
-        limits += _reached(fast, space, targets, seed)
-    some = [each for each in candidates[:confirm] if each.is_possible]
-    runs: list[Simulated] = []
+        limits += _reached(fast, space, judge, seed)
+    progress(0.6)
     with limited(time_limit):
-        for each in some:
-            runs.append(simulate(each, fast, targets, accuracy=accuracy))
-            progress(0.6 + 0.4 * len(runs) / len(some))
-    candidates, simulated = _ranked(candidates, runs)
-    best = candidates[0]
-    slopes = _elasticities(best, fast, targets)
+        tested = _simulated(candidates, seen, fast, judge, confirm, accuracy, progress)
+    yields = [_yield(one, run, fast, judge) for one, run in tested]
+    order = sorted(range(len(tested)), key=lambda i: _rank(*tested[i], yields[i]))
+    best, run = tested[order[0]]
+    slopes = slopes_of(best.choice, fast, judge)
     return Design(
-        candidates=candidates,
-        simulated=simulated,
-        meets=_meets(best, simulated[0]),
+        candidates=tuple(tested[i][0] for i in order),
+        simulated=tuple(tested[i][1] for i in order),
+        meets=_meets(best, run, yields[order[0]], judge),
         binding=_binding(best, space, slopes),
         elasticities=slopes,
         limits=limits,
         fast=fast,
+        front=front_of(seen.values()) if several else (),
+        yields=tuple(yields[i] for i in order),
+        judge=judge,
     )
 
 
@@ -197,46 +234,80 @@ def _covering(
     materials: Mapping[str, Material],
     traction: Any,
     space: DesignSpace,
-    targets: Targets,
+    judge: Judge,
     seed: int,
-) -> FastTier:
-    """Return the surrogates if they predict enough of the space, otherwise the theories."""
+) -> tuple[FastTier, list[Candidate]]:
+    """Return the surrogates if they predict enough of the space, otherwise the theories.
+
+    Also return the designs that were tried.
+    """
     fast = FastTier(materials, traction, SURROGATES)
     tried = [
-        judged(choice, fast, targets)
+        judge.judged(choice, fast)
         for name in materials
         for choice in _drawn(space, name, _TRIED, seed)
     ]
-    covered = sum(not isinstance(each, str) for each in tried) / len(tried)
-    return fast if covered >= _COVERED else FastTier(materials, traction, THEORIES)
+    known = [each for each in tried if not isinstance(each, str)]
+    if len(known) >= _COVERED * len(tried):
+        return fast, known
+    return FastTier(materials, traction, THEORIES), known
+
+
+def _needed(tried: list[Candidate], fast: FastTier, judge: Judge) -> dict[str, float]:
+    """Return the margins that the yield needs, by the slopes of the best design that was tried."""
+    conditions, names = judge.conditions, tuple(judge.targets.stated)
+    best = max(tried, key=lambda each: each.margin, default=None)
+    if best is None or not conditions.deviations:
+        return dict.fromkeys(names, 0.0)
+    slopes = slopes_of(best.choice, fast, judge)
+    return allowances(names, slopes, conditions.deviations, conditions.share)
+
+
+def rated(margins: Mapping[str, float], needed: Mapping[str, float]) -> float:
+    """Return the smallest margin over what is needed."""
+    return min(margin - needed[name] for name, margin in margins.items())
 
 
 def _searched(
     forces: Forces,
     space: DesignSpace,
-    targets: Targets,
+    judge: Judge,
+    needed: Mapping[str, float],
     material: str,
     seed: int,
     tell: Callable[[float], None] = lambda share: None,
+    effort: Effort = _EFFORT,
 ) -> dict[Choice, Candidate]:
     """Return the designs of a search with their forces."""
     seen: dict[Choice, Candidate] = {}
 
     def rating(choice: Choice) -> float:
-        found = judged(choice, forces, targets)
+        found = judge.judged(choice, forces)
         if isinstance(found, str):
             return NONE
         seen[choice] = found
-        return max(found.margin, NONE)
+        return max(rated(found.margins, needed), NONE)
 
-    search(rating, space, material, effort=_EFFORT, seed=seed, tell=tell)
+    search(rating, space, material, effort=effort, seed=seed, tell=tell)
+    return seen
+
+
+def _ends(
+    fast: FastTier, space: DesignSpace, judge: Judge, material: str, seed: int
+) -> dict[Choice, Candidate]:
+    """Return designs of shorter searches towards each end of the front."""
+    seen: dict[Choice, Candidate] = {}
+    for number, target in enumerate(judge.targets.stated):
+        needed = {name: -_BONUS * (name != target) for name in judge.targets.stated}
+        seen |= _searched(fast, space, judge, needed, material, seed + number + 1, effort=_END)
     return seen
 
 
 def _suggested(
     fast: FastTier,
     space: DesignSpace,
-    targets: Targets,
+    judge: Judge,
+    needed: Mapping[str, float],
     material: str,
     seed: int,
     tell: Callable[[float], None],
@@ -245,14 +316,14 @@ def _suggested(
     choices = _drawn(space, material, ceil(_SAMPLED * (len(space.free) + 1)), seed)
     seen: dict[Choice, Candidate] = {}
     for number in range(_ROUNDS + 1):
-        tried = {choice: judged(choice, fast, targets) for choice in choices}
+        tried = {choice: judge.judged(choice, fast) for choice in choices}
         seen |= {choice: found for choice, found in tried.items() if not isinstance(found, str)}
         tell((number + 1) / (_ROUNDS + 1))
         between = interpolation(fast, material)
         if between is None or number == _ROUNDS:
             break
-        likely = _searched(between, space, targets, material, seed + number)
-        choices = [each.choice for each in _apart(likely, space)]
+        likely = _searched(between, space, judge, needed, material, seed + number)
+        choices = [each.choice for each in _apart(likely, space, needed)]
     return seen
 
 
@@ -269,11 +340,13 @@ def _reason(fast: FastTier) -> str:
     return max(reasons, key=reasons.count, default="the area has no room for a pad")
 
 
-def _apart(seen: Mapping[Choice, Candidate], space: DesignSpace) -> tuple[Candidate, ...]:
+def _apart(
+    seen: Mapping[Choice, Candidate], space: DesignSpace, needed: Mapping[str, float]
+) -> tuple[Candidate, ...]:
     """Return up to three of the best candidates that differ in a variable or in the material."""
     ends = np.array(space.ends()).reshape(-1, 2)
     found: list[Candidate] = []
-    for each in sorted(seen.values(), key=lambda one: -one.margin):
+    for each in sorted(seen.values(), key=lambda one: -rated(one.margins, needed)):
         near = any(
             each.choice.material == other.choice.material
             and np.all(
@@ -290,32 +363,93 @@ def _apart(seen: Mapping[Choice, Candidate], space: DesignSpace) -> tuple[Candid
     return tuple(found)
 
 
-def _ranked(
-    candidates: tuple[Candidate, ...], runs: list[Simulated]
-) -> tuple[tuple[Candidate, ...], tuple[Simulated | None, ...]]:
-    """Return candidates by their simulated margins, followed by those without a simulation."""
-
-    def rank(pair: tuple[Candidate, Simulated | None]) -> float:
-        margin = None if pair[1] is None else pair[1].margin
-        return np.inf if margin is None else -margin
-
-    rest: list[Simulated | None] = [None] * (len(candidates) - len(runs))
-    pairs = sorted(zip(candidates, [*runs, *rest], strict=True), key=rank)
-    first, second = zip(*pairs, strict=True)
-    return first, second
+# Simulation -------------------------------------------------------------------------------------
 
 
-def _meets(best: Candidate, run: Simulated | None) -> bool | None:
-    if run is not None:
+def _simulated(
+    candidates: tuple[Candidate, ...],
+    seen: Mapping[Choice, Candidate],
+    fast: FastTier,
+    judge: Judge,
+    confirm: int,
+    accuracy: float,
+    progress: Callable[[float], None],
+) -> list[tuple[Candidate, Simulated | None]]:
+    """Return candidates with their simulations, until one meets the targets.
+
+    The next one is the best by corrected predictions, or else the next candidate.
+    """
+    tested: list[tuple[Candidate, Simulated]] = []
+    waiting = [each for each in candidates[:confirm] if each.is_possible]
+    most = len(waiting) + _CORRECTED if waiting else 0
+    while len(tested) < most and not any(run.meets for _, run in tested):
+        known = [(one, run) for one, run in tested if run.margins]
+        done = {one.choice for one, _ in tested}
+        waiting = [each for each in waiting if each.choice not in done]
+        likely = _likely(seen, known, judge)
+        fresh = [each for each in (*likely, *waiting) if each.choice not in done]
+        if not fresh:
+            break
+        tested.append((fresh[0], simulate(fresh[0], fast, judge, accuracy=accuracy)))
+        progress(0.6 + 0.4 * len(tested) / most)
+    simulated = {one.choice for one, _ in tested}
+    return [*tested, *((x, None) for x in candidates if x.choice not in simulated)]
+
+
+def _likely(
+    seen: Mapping[Choice, Candidate], known: list[tuple[Candidate, Simulated]], judge: Judge
+) -> list[Candidate]:
+    """Return the best design by corrected predictions; none without a simulation."""
+    if not known:
+        return []
+    return [max(seen.values(), key=lambda one: _corrected(one, known, judge))]
+
+
+def _corrected(one: Candidate, known: list[tuple[Candidate, Simulated]], judge: Judge) -> float:
+    """Return the smallest margin with predictions times the ratio of the nearest simulation."""
+
+    def distance(other: Candidate) -> float:
+        return sum(
+            log(force.value / other.forces[name].value) ** 2 for name, force in one.forces.items()
+        )
+
+    near, run = min(known, key=lambda pair: distance(pair[0]))
+    forces = {
+        name: x.value * run.forces[name] / near.forces[name].value for name, x in one.forces.items()
+    }
+    return min(judge.margins(one.choice, forces).values())
+
+
+def _rank(one: Candidate, run: Simulated | None, part: float | None) -> tuple[float, float]:
+    """Return the order of a candidate: by its simulated yield and margin, then the others."""
+    margin = None if run is None else run.margin
+    if margin is None:
+        return inf, -one.margin
+    return -round(part or 0.0, 3), -margin
+
+
+def _yield(one: Candidate, run: Simulated | None, fast: FastTier, judge: Judge) -> float | None:
+    """Return the share of parts that meet the targets; None without tolerances."""
+    deviations = judge.conditions.deviations
+    if not deviations:
+        return None
+    margins = one.margins if run is None or not run.margins else run.margins
+    return share_of(margins, slopes_of(one.choice, fast, judge), deviations)
+
+
+def _meets(best: Candidate, run: Simulated | None, part: float | None, judge: Judge) -> bool | None:
+    if run is None:
+        return None if best.is_possible else False
+    if run.meets is None or not judge.conditions.deviations:
         return run.meets
-    return None if best.is_possible else False
+    return None if part is None else part >= judge.conditions.share
 
 
-def _reached(fast: FastTier, space: DesignSpace, targets: Targets, seed: int) -> tuple[Limit, ...]:
+def _reached(fast: FastTier, space: DesignSpace, judge: Judge, seed: int) -> tuple[Limit, ...]:
     """Return the largest or smallest force or ratio between the bounds, each target alone."""
     found = []
-    for target, value in wanted(targets).items():
-        rating = partial(_alone, targets=targets, target=target)
+    for target, value in wanted(judge.targets).items():
+        rating = partial(_alone, judge=_judge_of(target, judge))
         tried = []
         for name in fast.materials:
             forces = fast if fast.budget == SURROGATES else interpolation(fast, name) or fast
@@ -331,85 +465,88 @@ def _reached(fast: FastTier, space: DesignSpace, targets: Targets, seed: int) ->
     return tuple(found)
 
 
-def _alone(choice: Choice, *, fast: Forces, targets: Targets, target: str) -> float:
+def _judge_of(target: str, judge: Judge) -> Judge:
+    """Return the judge of one target alone, with the force 1."""
+    time = judge.targets.holding_time if target == LOAD else None
+    return replace(judge, targets=Targets(**{target: 1.0}, holding_time=time))
+
+
+def _alone(choice: Choice, *, fast: Forces, judge: Judge) -> float:
     """Return ln of the force or ratio of a design by the favourable ends; NONE without one."""
-    needed = (HOLD, RELEASE) if target == RATIO else (target,)
-    pads = pads_of(choice, targets)
-    forces = {name: fast.force(pads[name]) for name in needed}
-    total = 0.0
-    for name, force in forces.items():
-        if isinstance(force, str) or force.low <= 0:
-            return NONE
-        total += log(choice.pads * force.high) if name == HOLD else -log(choice.pads * force.low)
-    return total
+    found = judge.judged(choice, fast)
+    if isinstance(found, str):
+        return NONE
+    return max(min(found.best_margins.values()), NONE)
 
 
 def _of_speeds(best: Choice, target: str) -> str:
     """Return the design that reaches most, in words."""
-    needed = {HOLD: (HOLD_SPEED,), RELEASE: (RELEASE_SPEED,), RATIO: (HOLD_SPEED, RELEASE_SPEED)}
+    needed = {
+        HOLD: (HOLD_SPEED,),
+        WORK: (HOLD_SPEED,),
+        RELEASE: (RELEASE_SPEED,),
+        RATIO: (HOLD_SPEED, RELEASE_SPEED),
+        LOAD: (),
+    }
     said = {HOLD_SPEED: "hold", RELEASE_SPEED: "release"}
     speeds = " and ".join(
         f"a {said[name]} speed of {readable(getattr(best, name), 'm/s', digits=3)}"
         for name in needed[target]
     )
     return (
-        f"{speeds}, pads: {best.pads}, R = {readable(best.radius, 'm', digits=3)}, preload "
-        f"{readable(best.preload, 'N', digits=3)}"
+        f"{speeds + ', ' if speeds else ''}pads: {best.pads}, R = "
+        f"{readable(best.radius, 'm', digits=3)}, preload {readable(best.preload, 'N', digits=3)}"
     )
 
 
 # What matters ---------------------------------------------------------------------------------
 
-
-def _elasticities(
-    best: Candidate, fast: FastTier, targets: Targets
-) -> dict[str, dict[str, float | None]]:
-    """Return d ln P/d ln x of the forces by central differences of the fast tier."""
-    found = {}
-    for name, pad in pads_of(best.choice, targets).items():
-        of_pad = {x: _slope(fast, pad, x) for x in (RADIUS, PRELOAD, "speed")}
-        own = HOLD_SPEED if name == HOLD else RELEASE_SPEED
-        by_preload = of_pad[PRELOAD]
-        found[name] = {
-            RADIUS: of_pad[RADIUS],
-            PRELOAD: by_preload,
-            own: of_pad["speed"],
-            # N pads under the preload F are N times one under F/N
-            PADS: None if by_preload is None else 1 - by_preload,
-            **{x: _interface_slope(fast, pad, x) for x in _INTERFACE if hasattr(fast.traction, x)},
-        }
-    return found
+# Speed on which a force depends.
+_OWN = {HOLD: HOLD_SPEED, WORK: HOLD_SPEED, RELEASE: RELEASE_SPEED}
 
 
-_INTERFACE = ("work_of_adhesion", "equilibrium_gap")
+def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
+    """Return d ln P/d ln x of the forces of a design by central differences of the fast tier."""
+    modulus = getattr(fast.materials[choice.material], "rubbery_modulus", None)
+    scatters = judge.conditions.deviations
+    if MODULUS in scatters and choice.modulus is None:
+        choice = replace(choice, modulus=modulus)
+    names = [x for x in _variables(choice) if x != PADS]
+    ends: dict[str, list[Any]] = {}
+    for name in (*names, *(x for x in INTERFACE if hasattr(fast.traction, x))):
+        for step in (-_STEP, _STEP):
+            if name in INTERFACE:
+                law = replace(fast.traction, **{name: getattr(fast.traction, name) * exp(step)})
+                tier = FastTier(fast.materials, law, fast.budget)
+                found = judge.forces(choice, tier)
+            else:
+                moved = replace(choice, **{name: getattr(choice, name) * exp(step)})
+                found = judge.forces(moved, fast)
+            ends.setdefault(name, []).append(found)
+    forces = judge.forces(choice, fast)
+    slopes: dict[str, dict[str, float | None]] = {}
+    for force in () if isinstance(forces, str) else forces:
+        own: dict[str, float | None] = {}
+        for name, (low, high) in ends.items():
+            if name in (HOLD_SPEED, RELEASE_SPEED) and name != _OWN.get(force):
+                continue
+            known = not isinstance(low, str) and not isinstance(high, str)
+            own[name] = log(high[force].value / low[force].value) / (2 * _STEP) if known else None
+            if name == PRELOAD:
+                # N pads under the preload F are N times one under F/N
+                by_preload = own[name]
+                own[PADS] = None if by_preload is None else 1 - by_preload
+        slopes[force] = own
+    return slopes
 
 
-def _slope(fast: FastTier, pad: Pad, name: str) -> float | None:
-    """Return d ln P/d ln x for a variable of a pad."""
-    value = getattr(pad, name)
-    ends = [fast.force(replace(pad, **{name: value * exp(step)})) for step in (-_STEP, _STEP)]
-    return _difference(*ends)
+def _variables(choice: Choice) -> list[str]:
+    """Return the names of the variables that a design has."""
+    names = DesignSpace.__dataclass_fields__.keys() & choice.__dataclass_fields__.keys()
+    return [x for x in choice.__dataclass_fields__ if x in names and getattr(choice, x) is not None]
 
 
-def _interface_slope(fast: FastTier, pad: Pad, name: str) -> float | None:
-    """Return d ln P/d ln x for a number of the interface."""
-    value = getattr(fast.traction, name)
-    ends = []
-    for step in (-_STEP, _STEP):
-        law = replace(fast.traction, **{name: value * exp(step)})
-        ends.append(FastTier(fast.materials, law, fast.budget).force(pad))
-    return _difference(*ends)
-
-
-def _difference(low: Any, high: Any) -> float | None:
-    if isinstance(low, str) or isinstance(high, str):
-        return None
-    return log(high.value / low.value) / (2 * _STEP)
-
-
-def _binding(
-    best: Candidate, space: DesignSpace, slopes: Mapping[str, Mapping[str, float | None]]
-) -> tuple[str, ...]:
+def _binding(best: Candidate, space: DesignSpace, slopes: Slopes) -> tuple[str, ...]:
     """Return the targets with the smallest margin, and the bounds beyond which it would grow."""
     worst = [x for x, margin in best.margins.items() if margin <= best.margin + _TOGETHER]
     bounds = []
@@ -417,18 +554,13 @@ def _binding(
         space.free, space.ends(), space.places(best.choice).tolist(), strict=True
     ):
         # where several targets bind they share the gain
-        gain = sum(_gain(target, name, slopes) for target in worst)
+        more = sum(gain(target, name, slopes) or 0.0 for target in worst)
         near = _AT_END * (high - low)
-        if gain > _SLOPE and place >= high - near:
+        if more > _SLOPE and place >= high - near:
             bounds.append(f"{name} at most")
-        elif gain < -_SLOPE and place <= low + near:
+        elif more < -_SLOPE and place <= low + near:
             bounds.append(f"{name} at least")
     if space.area is not None and best.choice.pads == space.most_pads(best.choice.radius):
-        bounds += ["area at most"] if sum(_gain(x, PADS, slopes) for x in worst) > _SLOPE else []
+        more = sum(gain(x, PADS, slopes) or 0.0 for x in worst)
+        bounds += ["area at most"] if more > _SLOPE else []
     return (*worst, *bounds)
-
-
-def _gain(target: str, name: str, slopes: Mapping[str, Mapping[str, float | None]]) -> float:
-    """Return the slope of the margin of a target by ln of a variable; 0 where unknown."""
-    hold, release = (slopes.get(x, {}).get(name) or 0.0 for x in (HOLD, RELEASE))
-    return {HOLD: hold, RELEASE: -release, RATIO: hold - release}[target]

@@ -15,7 +15,10 @@ from scipy.interpolate import RBFInterpolator
 from viscotack.arrays import Array
 
 from .fast import FastTier, Force, Pad
+from .space import OF_PADS
 
+# Numbers of a pad.
+_NUMBERS = 3 + len(OF_PADS)
 # Pads more than variables that an interpolation needs.
 _MORE = 2
 
@@ -26,16 +29,18 @@ class Interpolation:
 
     Attributes
     ----------
-    pads : ndarray, shape (n, 3)
-        ln of radius, preload and speed of the known pads.
+    pads : ndarray, shape (n, 7)
+        ln of radius, preload, speed and of what else a pad has, of the known pads.
     reasons : tuple of (str or None)
         Reason why a theory does not predict a pad; such pads refuse those nearest to them.
-    spans : ndarray, shape (3,)
+    spans : ndarray, shape (7,)
         Ranges of the logarithms, 1 for those that do not vary.
     logarithms : callable
         Returns ln of force and of the ends of its interval over the radius.
     method : str
         Name of the tier.
+    fast : FastTier
+        The theories, which give held loads fast enough.
     """
 
     pads: Array
@@ -43,6 +48,11 @@ class Interpolation:
     spans: Array
     logarithms: Callable[[Array], Array]
     method: str
+    fast: FastTier
+
+    def held(self, pad: Pad, time: float) -> Force | str:
+        """Return the dead load that a pad holds for a time [s], or a reason."""
+        return self.fast.held(pad, time)
 
     def force(self, pad: Pad) -> Force | str:
         """Return the interpolated force of a pad, or the reason of the nearest known pad."""
@@ -60,8 +70,8 @@ def interpolation(fast: FastTier, material: str) -> Interpolation | None:
     answered = {
         pad: force for pad, force in known.items() if not isinstance(force, str) and force.low > 0
     }
-    pads = np.array([_logarithms(pad) for pad in known]).reshape(-1, 3)
-    spans = np.ptp(pads, axis=0) if len(pads) else np.zeros(3)
+    pads = np.array([_logarithms(pad) for pad in known]).reshape(-1, _NUMBERS)
+    spans = np.ptp(pads, axis=0) if len(pads) else np.zeros(_NUMBERS)
     varied = spans > 0
     if len(answered) < np.count_nonzero(varied) + _MORE:
         return None
@@ -78,8 +88,10 @@ def interpolation(fast: FastTier, material: str) -> Interpolation | None:
         spans,
         lambda x: fitted((x / spans)[:, varied]),
         next(iter(answered.values())).method,
+        fast,
     )
 
 
 def _logarithms(pad: Pad) -> Array:
-    return np.log([pad.radius, pad.preload, pad.speed])
+    more = [getattr(pad, name) or 1.0 for name in OF_PADS]
+    return np.log([pad.radius, pad.preload, pad.speed, *more])

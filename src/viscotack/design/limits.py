@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import product
 from math import inf
 
 import numpy as np
@@ -24,7 +25,7 @@ from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.units import readable
 
 from .fast import FastTier, Pad
-from .space import HOLD, RATIO, RELEASE, DesignSpace, Targets
+from .space import HOLD, LOAD, RATIO, RELEASE, WORK, DesignSpace, Targets
 
 # Number of radii at which bounds are computed.
 _RADII = 33
@@ -40,9 +41,10 @@ class Limit:
     Attributes
     ----------
     target : str
-        "hold", "release" or "ratio".
+        "hold", "release", "ratio", "work" or "dead_load".
     wanted, reach : float
-        The target, and the largest force or ratio, or the smallest force to release [N or 1].
+        The target, and the largest force, ratio or work, or the smallest force to release [N, 1
+        or J].
     cause : str
         "solid" for the relaxed and instantaneous solid, "speeds" for the best design between the
         bounds, by the fast tier.
@@ -64,15 +66,28 @@ class Limit:
 
 def wanted(targets: Targets) -> dict[str, float]:
     """Return the targets with the ratio that hold and release imply."""
-    known = {HOLD: targets.hold, RELEASE: targets.release, RATIO: targets.least_ratio}
+    known = {
+        HOLD: targets.hold,
+        RELEASE: targets.release,
+        RATIO: targets.least_ratio,
+        WORK: targets.work,
+        LOAD: targets.dead_load,
+    }
     return {name: value for name, value in known.items() if value is not None}
 
 
 def solid_limits(fast: FastTier, space: DesignSpace, targets: Targets) -> tuple[Limit, ...]:
-    """Return the bounds by the relaxed and the instantaneous solid, the widest of all materials."""
+    """Return the bounds by the relaxed and the instantaneous solid, the widest of all materials.
+
+    They are those of spheres on a half-space; of works, layers and other tips none is known.
+    """
+    if space.thickness is not None or space.exponent is not None:
+        return ()
     each = [_of_material(name, fast, space) for name in fast.materials]
     found = []
     for target, value in wanted(targets).items():
+        if target == WORK:
+            continue
         select = min if target == RELEASE else max
         reach, why = select((one[target] for one in each), key=lambda pair: pair[0])
         found.append(Limit(target, value, reach, SOLID, why))
@@ -82,12 +97,14 @@ def solid_limits(fast: FastTier, space: DesignSpace, targets: Targets) -> tuple[
 def _of_material(name: str, fast: FastTier, space: DesignSpace) -> Mapping[str, tuple[float, str]]:
     """Return the bound of each target and its words, for one material."""
     most, least, ratio = (-inf, ""), (inf, ""), (-inf, "")
-    for R in np.geomspace(space.radius.low, space.radius.top, _RADII).tolist():
+    moduli = [None] if space.modulus is None else [space.modulus.low, space.modulus.top]
+    radii = np.geomspace(space.radius.low, space.radius.top, _RADII).tolist()
+    for R, modulus in product(radii, moduli):
         room = space.most_pads(R)
         if not room:
             continue
         try:
-            problem = fast.problem(Pad(name, R, _LIGHT, 1.0))
+            problem = fast.problem(Pad(name, R, _LIGHT, 1.0, modulus))
         except InputError:  # the sphere is too small for the range of attraction
             continue
         groups = lennard_jones_alike(problem.groups())
@@ -114,4 +131,4 @@ def _of_material(name: str, fast: FastTier, space: DesignSpace) -> Mapping[str, 
                 f"{fast_one / slow:.3g} for the range of attraction",
             ),
         )
-    return {HOLD: most, RELEASE: least, RATIO: ratio}
+    return {HOLD: most, RELEASE: least, RATIO: ratio, LOAD: most}

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf, log
 
 from .fast import Force, Forces, Pad
-from .space import HOLD, RATIO, RELEASE, Choice, Targets
+from .space import (
+    HOLD,
+    LOAD,
+    OF_PADS,
+    PRELOAD,
+    RATIO,
+    RELEASE,
+    WORK,
+    Choice,
+    Conditions,
+    Targets,
+)
 
 
 @dataclass(frozen=True)
@@ -18,9 +29,10 @@ class Candidate:
     ----------
     choice : Choice
         The design.
-    hold, release : Force or None
-        Pull-off force of all pads [N] at the two speeds, with 90 % interval; None if no target
-        depends on it.
+    forces : mapping of str to Force
+        Of all pads, with 90 % intervals, at the worst of the conditions: pull-off force to "hold"
+        and "release" [N], "work" to pull-off [J], and the "dead_load" held for the time [N]; those
+        on which a target depends.
     margins : mapping of str to float
         For each target ln of the force over the target, or of the target over the force, by the
         less favourable ends of the intervals; positive if the target is met.
@@ -29,10 +41,19 @@ class Candidate:
     """
 
     choice: Choice
-    hold: Force | None
-    release: Force | None
+    forces: Mapping[str, Force]
     margins: Mapping[str, float]
     best_margins: Mapping[str, float]
+
+    @property
+    def hold(self) -> Force | None:
+        """Pull-off force at the hold speed."""
+        return self.forces.get(HOLD)
+
+    @property
+    def release(self) -> Force | None:
+        """Pull-off force at the release speed."""
+        return self.forces.get(RELEASE)
 
     @property
     def margin(self) -> float:
@@ -41,54 +62,91 @@ class Candidate:
 
     @property
     def is_possible(self) -> bool:
-        """Whether the intervals leave it open that every target is met."""
-        return min(self.best_margins.values()) >= 0
+        """Whether intervals of twice the width leave it open that every target is met.
+
+        One in ten numbers is outside its own interval.
+        """
+        both = ((self.margins[name], high) for name, high in self.best_margins.items())
+        return all(high + (high - low) / 2 >= 0 for low, high in both)
 
 
-def pads_of(choice: Choice, targets: Targets) -> dict[str, Pad]:
-    """Return one pad at the hold and at the release speed, as far as targets need them."""
+def pad_of(choice: Choice, speed: float, *, bonded: bool = False) -> Pad:
+    """Return one pad of a design at a speed."""
+    more = {name: getattr(choice, name) for name in OF_PADS}
     each = choice.preload / choice.pads
-    speeds = {HOLD: choice.hold_speed, RELEASE: choice.release_speed}
-    needed = {HOLD: targets.needs_hold, RELEASE: targets.needs_release}
-    return {
-        name: Pad(choice.material, choice.radius, each, speed)
-        for name, speed in speeds.items()
-        if needed[name] and speed is not None
-    }
+    return Pad(choice.material, choice.radius, each, speed, **more, bonded=bonded)
 
 
-def judged(choice: Choice, fast: Forces, targets: Targets) -> Candidate | str:
-    """Return a design with its forces and margins, or the reason why no tier predicts a force."""
-    found: dict[str, Force] = {}
-    for name, pad in pads_of(choice, targets).items():
-        force = fast.force(pad)
-        if isinstance(force, str):
-            return force
-        N = choice.pads
-        found[name] = Force(N * force.value, N * force.low, N * force.high, force.method)
-    hold, release = found.get(HOLD), found.get(RELEASE)
-    low, high = (None if hold is None else (hold.low, hold.high)[i] for i in (0, 1))
-    least, most = (None if release is None else (release.low, release.high)[i] for i in (0, 1))
-    return Candidate(
-        choice,
-        hold,
-        release,
-        margins_of(targets, low, most),
-        margins_of(targets, high, least),
-    )
+@dataclass(frozen=True)
+class Judge:
+    """Targets, the conditions at which they count, and how a layer rests on its base."""
+
+    targets: Targets
+    conditions: Conditions = Conditions()
+    bonded: bool = False
+
+    def pads(self, choice: Choice) -> dict[str, tuple[Pad, ...]]:
+        """Return one pad at each hold and release speed, as far as targets need them."""
+        speeds = {HOLD: choice.hold_speed, RELEASE: choice.release_speed}
+        needed = {HOLD: self.targets.needs_hold, RELEASE: self.targets.needs_release}
+        return {
+            name: tuple(
+                pad_of(choice, v, bonded=self.bonded)
+                for v in self.conditions.speeds(name, choice.material, speed)
+            )
+            for name, speed in speeds.items()
+            if needed[name] and speed is not None
+        }
+
+    def forces(self, choice: Choice, fast: Forces) -> dict[str, Force] | str:
+        """Return the forces of a design at the worst conditions, or why none is predicted."""
+        found: dict[str, Force] = {}
+        for name, pads in self.pads(choice).items():
+            some = [fast.force(pad) for pad in pads]
+            known = [x for x in some if not isinstance(x, str)]
+            if len(known) < len(some):
+                return next(x for x in some if isinstance(x, str))
+            found[name] = _least(known) if name == HOLD else max(known, key=lambda x: x.high)
+            if name == HOLD and self.targets.work is not None:
+                works = [x.work for x in known if x.work is not None]
+                if len(works) < len(known):
+                    return f"the tier {known[0].method!r} has no interval of the work to pull-off"
+                found[WORK] = _least(works)
+        if self.targets.holding_time is not None:
+            time = self.conditions.holding_time(choice.material, self.targets.holding_time)
+            held = fast.held(pad_of(choice, 1.0, bonded=self.bonded), time)
+            if isinstance(held, str):
+                return held
+            found[LOAD] = held
+        return {name: force.times(choice.pads) for name, force in found.items()}
+
+    def judged(self, choice: Choice, fast: Forces) -> Candidate | str:
+        """Return a design with its forces and margins, or why no tier predicts a force."""
+        forces = self.forces(choice, fast)
+        if isinstance(forces, str):
+            return forces
+        low = {name: x.high if name == RELEASE else x.low for name, x in forces.items()}
+        high = {name: x.low if name == RELEASE else x.high for name, x in forces.items()}
+        margins, best = (self.margins(choice, x) for x in (low, high))
+        return Candidate(choice, forces, margins, best)
+
+    def margins(self, choice: Choice, forces: Mapping[str, float]) -> dict[str, float]:
+        """Return the margin of each target for forces of all pads [N or J]."""
+        over: Mapping[str, Callable[[float], float]] = {
+            HOLD: lambda wanted: _ln(forces[HOLD], wanted),
+            RELEASE: lambda wanted: -_ln(forces[RELEASE], wanted),
+            RATIO: lambda wanted: _ln(forces[HOLD], wanted) - _ln(forces[RELEASE], 1.0),
+            WORK: lambda wanted: _ln(forces[WORK], wanted),
+            LOAD: lambda wanted: _ln(forces[LOAD], wanted),
+            PRELOAD: lambda wanted: _ln(wanted, choice.preload),
+        }
+        return {name: over[name](wanted) for name, wanted in self.targets.stated.items()}
 
 
-def margins_of(targets: Targets, hold: float | None, release: float | None) -> dict[str, float]:
-    """Return the margin of each target for forces of all pads [N]."""
-    over = {
-        HOLD: lambda wanted: _ln(hold, wanted),
-        RELEASE: lambda wanted: -_ln(release, wanted),
-        RATIO: lambda wanted: _ln(hold, wanted) - _ln(release, 1.0),
-    }
-    return {name: over[name](wanted) for name, wanted in targets.stated.items()}
+def _least(forces: list[Force]) -> Force:
+    return min(forces, key=lambda x: x.low)
 
 
-def _ln(force: float | None, over: float) -> float:
+def _ln(force: float, over: float) -> float:
     """Return ln of a force over another number; the interval of a poor theory may reach 0."""
-    assert force is not None, "checked with the space"
     return log(force / over) if force > 0 else -inf

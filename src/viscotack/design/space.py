@@ -1,8 +1,9 @@
-"""Targets of a design, and the variables that are free between bounds."""
+"""Targets of a design, its conditions, and the variables that are free between bounds."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 from math import exp, inf, log
 
 import numpy as np
@@ -10,16 +11,32 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-HOLD, RELEASE, RATIO = "hold", "release", "ratio"
+HOLD, RELEASE, RATIO, WORK, LOAD = "hold", "release", "ratio", "work", "dead_load"
 RADIUS, PRELOAD, PADS = "radius", "preload", "pads"
 HOLD_SPEED, RELEASE_SPEED = "hold_speed", "release_speed"
-UNITS = {RADIUS: "m", PRELOAD: "N", PADS: "1", HOLD_SPEED: "m/s", RELEASE_SPEED: "m/s"}
+MODULUS, THICKNESS, EXPONENT, BACKING = "modulus", "thickness", "exponent", "backing"
+UNITS = {
+    RADIUS: "m",
+    PRELOAD: "N",
+    PADS: "1",
+    HOLD_SPEED: "m/s",
+    RELEASE_SPEED: "m/s",
+    MODULUS: "Pa",
+    THICKNESS: "m",
+    EXPONENT: "1",
+    BACKING: "N/m",
+}
+# Variables that a design has without bounds: a sphere of the stated material on a half-space.
+OF_PADS = (MODULUS, THICKNESS, EXPONENT, BACKING)
+INTERFACE = ("work_of_adhesion", "equilibrium_gap")
 MOST_PADS = 10_000
+# Largest relative standard deviation of a tolerance.
+_LARGEST = 0.5
 
 
 @dataclass(frozen=True)
 class Targets:
-    """Forces that a design must hold and release.
+    """What a design must hold and release.
 
     Parameters
     ----------
@@ -29,6 +46,14 @@ class Targets:
         Largest pull-off force of all pads at the release speed [N].
     ratio : float or None
         Least ratio of both forces.
+    work : float or None
+        Least work to pull-off of all pads at the hold speed [J].
+    dead_load : float or None
+        Weight that hangs on all pads for the holding time [N].
+    preload : float or None
+        Largest preload of all pads [N].
+    holding_time : float or None
+        Time for which the dead load is held [s].
 
     Examples
     --------
@@ -39,18 +64,24 @@ class Targets:
     hold: float | None = None
     release: float | None = None
     ratio: float | None = None
+    work: float | None = None
+    dead_load: float | None = None
+    preload: float | None = None
+    holding_time: float | None = None
 
     def __post_init__(self) -> None:
-        if not self.stated:
-            raise InputError("a design needs a target: hold, release or ratio")
-        for name, value in self.stated.items():
-            if not 0 < value < inf:
+        if not self.stated.keys() - {PRELOAD}:
+            raise InputError("a design needs a target: hold, release, ratio, work or dead_load")
+        if (self.dead_load is None) != (self.holding_time is None):
+            raise InputError("a dead_load needs its holding_time, and the other way round")
+        for name, value in (*self.stated.items(), ("holding_time", self.holding_time)):
+            if value is not None and not 0 < value < inf:
                 raise InputError(f"the target {name} must be positive, got {value!r}")
 
     @property
     def stated(self) -> dict[str, float]:
         """The targets that are stated, by their names."""
-        values = ((field.name, getattr(self, field.name)) for field in fields(self))
+        values = ((x.name, getattr(self, x.name)) for x in fields(self) if x.name != "holding_time")
         return {name: value for name, value in values if value is not None}
 
     @property
@@ -63,12 +94,76 @@ class Targets:
     @property
     def needs_hold(self) -> bool:
         """Whether a target depends on the hold speed."""
-        return self.hold is not None or self.ratio is not None
+        return not self.hold is self.ratio is self.work is None
 
     @property
     def needs_release(self) -> bool:
         """Whether a target depends on the release speed."""
         return self.release is not None or self.ratio is not None
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Conditions that a design must bear: at the worst of them each target counts.
+
+    Parameters
+    ----------
+    hold_window : float
+        Holds at all speeds from the hold speed to this times it.
+    release_window : float
+        Releases at all speeds from the release speed to one over this times it.
+    shifts : mapping of str to (float, float)
+        Least and largest factor on the times of each material, a_T, over the temperatures. By
+        superposition a test at the speed v is one at v a_T of the stated material.
+    deviations : mapping of str to float
+        Relative standard deviations of variables, "work_of_adhesion" and "equilibrium_gap" from
+        part to part.
+    share : float
+        Least share of the parts that meet all targets, the yield; 0 without deviations.
+
+    Examples
+    --------
+    >>> Conditions(hold_window=10.0).speeds("hold", "rubber", 1e-3)
+    (0.001, 0.01)
+    """
+
+    hold_window: float = 1.0
+    release_window: float = 1.0
+    shifts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    deviations: Mapping[str, float] = field(default_factory=dict)
+    share: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("hold_window", "release_window"):
+            if not 1 <= getattr(self, name) < inf:
+                raise InputError(f"the {name} must be at least 1, got {getattr(self, name)!r}")
+        known = [name for name in (*UNITS, *INTERFACE) if name != PADS]
+        for name, value in self.deviations.items():
+            if name not in known:
+                raise InputError(f"no scatter of {name!r:.60}; known are {', '.join(known)}")
+            if not 0 < value <= _LARGEST:
+                raise InputError(
+                    f"the relative standard deviation of {name} must be above 0 and at most "
+                    f"{_LARGEST:g}, got {value:g}"
+                )
+        if bool(self.deviations) != (self.share > 0) or not 0 <= self.share < 1:
+            raise InputError(
+                "a scatter needs the yield, a share between 0 and 1, and the other way round; got "
+                f"{self.share:g}"
+            )
+
+    def speeds(self, name: str, material: str, speed: float) -> tuple[float, ...]:
+        """Return the ends of the speeds at which the stated material is like all conditions."""
+        least, most = self.shifts.get(material, (1.0, 1.0))
+        if name == HOLD:
+            ends = speed * least, speed * self.hold_window * most
+        else:
+            ends = speed / self.release_window * least, speed * most
+        return tuple(dict.fromkeys(ends))
+
+    def holding_time(self, material: str, time: float) -> float:
+        """Return the longest holding time for the stated material over the temperatures [s]."""
+        return time / self.shifts.get(material, (1.0, 1.0))[0]
 
 
 @dataclass(frozen=True)
@@ -114,6 +209,16 @@ class Choice:
         Number of equal pads on a rigid backing.
     hold_speed, release_speed : float or None
         Speeds of the two pulls [m/s]; None if no target depends on one.
+    modulus : float or None
+        Rubbery modulus [Pa] of a family with the spectrum of the material: all moduli scale. None
+        for the material as it is.
+    thickness : float or None
+        Of a layer of the material on a rigid base [m]; None for a half-space.
+    exponent : float or None
+        q of the profile r^q/(q R^(q-1)), from a cone (1) over the sphere (2) to flatter tips; None
+        for a sphere.
+    backing : float or None
+        Stiffness of the backing of each pad [N/m]; None for a rigid one.
     """
 
     material: str
@@ -122,6 +227,10 @@ class Choice:
     pads: int
     hold_speed: float | None
     release_speed: float | None
+    modulus: float | None = None
+    thickness: float | None = None
+    exponent: float | None = None
+    backing: float | None = None
 
 
 @dataclass(frozen=True)
@@ -140,6 +249,11 @@ class DesignSpace:
         Number of equal pads on a rigid backing, whole numbers.
     area : float or None
         Largest area of the pads [m^2], spheres side by side in squares of 2 R: N (2 R)^2.
+    modulus, thickness, exponent, backing : Bounds or None
+        As in :class:`Choice`; None leaves a sphere of the stated material on a half-space and a
+        rigid backing.
+    bonded : bool
+        Whether a layer is bonded to its base; otherwise it slides.
 
     Examples
     --------
@@ -158,10 +272,17 @@ class DesignSpace:
     release_speed: Bounds | None = None
     pads: Bounds = Bounds(1)
     area: float | None = None
+    modulus: Bounds | None = None
+    thickness: Bounds | None = None
+    exponent: Bounds | None = None
+    backing: Bounds | None = None
+    bonded: bool = False
 
     def __post_init__(self) -> None:
         if any(end != int(end) or end > MOST_PADS for end in (self.pads.low, self.pads.top)):
             raise InputError(f"the number of pads must be a whole number up to {MOST_PADS:,}")
+        if self.bonded and self.thickness is None:
+            raise InputError("a bonded layer needs bounds of its thickness")
         if (
             self.area is not None
             and not self.used_area(self.radius.low, self.pads.low) <= self.area

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from viscotack.problem import Groups
 
@@ -36,7 +37,7 @@ class Verified:
     bodies: tuple[type, ...]
     laws: tuple[type, ...]
     solids: tuple[type, ...]
-    starts: tuple[type, ...]
+    starts: tuple[Any, ...]
     moves: bool = False
     springs: bool = False
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -56,7 +57,8 @@ class Verified:
 
     def _refuses_test(self, groups: Groups, unit: str) -> str:
         if type(groups.start) not in self.starts:
-            return f"the test begins with {groups.start!r}; verified only for {_names(self.starts)}"
+            words = [start.word for start in self.starts]
+            return f"the test begins with {groups.start}; verified only for {_listed(words)}"
         if groups.moves and not self.moves:
             return (
                 f"the machine moves before the retraction: {groups.moves[0]!r}; verified only for "
@@ -73,5 +75,9 @@ class Verified:
 
 
 def _names(classes: tuple[type, ...]) -> str:
-    *others, last = [each.__name__ for each in classes]
+    return _listed([each.__name__ for each in classes])
+
+
+def _listed(words: list[str]) -> str:
+    *others, last = words
     return f"{', '.join(others)} and {last}" if others else last

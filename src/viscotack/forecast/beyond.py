@@ -1,8 +1,16 @@
 r"""Physical extrapolation of the surrogate slightly beyond three limits of its training range.
 
-**Rates above 1e10 h0/tau0.** The force lies between that at the limit and that of a solid without
-relaxation, the fast limit of the same start, which is part of the training. For exponents above
-about 0.5 the two are equal within the interval.
+**Rates above 1e10 h0/tau0.** The force P lies between that at the limit and that of a solid without
+relaxation, the fast limit G of the same start, which is part of the training. It approaches G from
+its value :math:`P_0` and slope :math:`s = d \ln P/d \ln r` at the limit :math:`r_0`, so that it is
+continuous there:
+
+.. math:: \ln \frac{P}{P_0} = t \ln \frac{G}{P_0} , \qquad
+          t = 1 - \left( \frac{r}{r_0} \right)^{-s/\ln (G/P_0)} .
+
+The interval reaches from that at the limit to that for twice the slope, at most that of G. The
+logarithm of the work passes the same part t of its way. For exponents above about 0.5 both ends
+are equal within the interval.
 
 **Tabor numbers below 0.01.** Adhesion deforms the solid by about mu gaps or less, and the start's
 depth has hardly deformed the surface: at given depth, rate and solid, the force over its
@@ -70,6 +78,9 @@ class Beyond:
     why: str
 
 
+_Said = tuple["Answers", "Intervals"]
+
+
 def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | None:
     """Predict one row of groups that exceeds only these three limits.
 
@@ -102,9 +113,8 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         rows[0, physics.EXPONENT] = learned.limits["exponent"][1]
         glassy = learned.tests(rows)
         most = learned.evaluate(glassy)
-        said, held = _between(
-            (said, held), (most, learned.intervals(glassy, most, confidence=confidence))
-        )
+        ends = (said, held), (most, learned.intervals(glassy, most, confidence=confidence))
+        said, held = _between(*ends, _parts(learned, at_end, ends, float(rate / high)))
         why.append(
             f"above a rate of {high:g} the force lies between its value there and the fast limit"
         )
@@ -132,27 +142,43 @@ def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:
     return np.array([way, way * min(work / steep, 1.0) if work > 0 else work * (1 - ratio)])
 
 
-def _between(
-    one: tuple[Answers, Intervals], other: tuple[Answers, Intervals]
-) -> tuple[Answers, Intervals]:
-    """Return the middle of two predictions, with an interval that contains both intervals."""
-    (a, held_a), (b, held_b) = one, other
+def _parts(
+    learned: Surrogate, at_end: Array, ends: tuple[_Said, _Said], ratio: float
+) -> tuple[float, float]:
+    """Return the part of the way to the fast limit for a rate larger by a factor, and its most."""
+    from viscotack.surrogate import physics
+
+    steep = max(float(learned.slopes(at_end)[0][0, physics.RATE]), 0.0) * float(np.log(ratio))
+    way = float(np.log(ends[1][0].pull_off_force[0] / ends[0][0].pull_off_force[0]))
+    # hardly any way is left where the force is at its fast limit
+    passed = steep / max(way, 1e-9)
+    return -float(np.expm1(-passed)), min(2 * passed, 1.0)
+
+
+def _between(one: _Said, other: _Said, parts: tuple[float, float]) -> _Said:
+    """Return a prediction at a part of the logarithmic way from one to another.
+
+    Its interval contains those of the first and at the larger part.
+    """
+    (a, held_a), (b, held_b), (part, most) = one, other, parts
+
+    def along(x: Array, y: Array, share: float) -> Array:
+        return x ** (1 - share) * y**share
 
     def hull(x: Array, y: Array) -> Array:
-        return np.column_stack([np.minimum(x, y)[:, 0], np.maximum(x, y)[:, 1]])
+        far = along(x, y, most)
+        return np.column_stack([np.minimum(x, far)[:, 0], np.maximum(x, far)[:, 1]])
 
     return (
         replace(
             a,
-            pull_off_force=np.sqrt(a.pull_off_force * b.pull_off_force),
-            work_to_pull_off=np.sqrt(a.work_to_pull_off * b.work_to_pull_off),
+            pull_off_force=along(a.pull_off_force, b.pull_off_force, part),
+            work_to_pull_off=along(a.work_to_pull_off, b.work_to_pull_off, part),
         ),
         replace(
             held_a,
             pull_off_force=hull(held_a.pull_off_force, held_b.pull_off_force),
             work_to_pull_off=hull(held_a.work_to_pull_off, held_b.work_to_pull_off),
-            curve=np.maximum(held_a.curve, held_b.curve),
-            travel=hull(held_a.travel, held_b.travel),
         ),
     )
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups
 from viscotack.problem.ranges import at_least, at_most
 from viscotack.protocol import AtDepth, Start
 from viscotack.theory import (
@@ -120,6 +120,11 @@ class ClosedForms:
         Speed of the edge at pull-off [(R^2 dg0/E0*)^(1/3) per time unit].
     estimates : tuple of Estimate
         Elastic, unloading, detachment, rate-fit and glassy.
+    curve : Unloading or None
+        The curve behind the estimate "unloading", a moving edge on a relaxed bulk: depth [h0],
+        force [1.5 pi R dg0], contact radius [(pi R^2 dg0/E0*)^(1/3)], edge speed as in a result,
+        time in the time unit. The force is without the estimate's correction for the range of the
+        forces. None for elastic solids and for starts without a JKR contact.
     """
 
     slowest: float
@@ -130,6 +135,7 @@ class ClosedForms:
     preload_change: tuple[float, float] | None
     edge_speed: float | None
     estimates: tuple[Estimate, ...]
+    curve: unloading.Unloading | None
 
     def regime_of(self, force: float) -> str:
         """Return the regime of a retraction with a known pull-off force [1.5 pi R dg0]."""
@@ -181,6 +187,7 @@ def _without_theory(why: str, slowest: float, fastest: float, start: float | Non
         preload_change=None,
         edge_speed=None,
         estimates=tuple(Estimate(name, limits.get(name), None, False, why) for name in _NAMES),
+        curve=None,
     )
 
 
@@ -226,53 +233,7 @@ def _by_theory(
         preload_change=change,
         edge_speed=edge,
         estimates=tuple(_of_law(e, asked) for e in estimates),
-    )
-
-
-def edge_curve(problem: Problem | Groups) -> unloading.Unloading | None:
-    """Compute the unloading curve of a moving edge on a relaxed bulk, in some milliseconds.
-
-    It is the curve behind the estimate "unloading".
-
-    Parameters
-    ----------
-    problem : Problem or Groups
-        As for :func:`closed_forms`.
-
-    Returns
-    -------
-    Unloading or None
-        The dimensionless curve: depth [h0], force [1.5 pi R dg0], contact radius
-        [(pi R^2 dg0/E0*)^(1/3)], edge speed as in a result, time in the time unit. The force is
-        without the estimate's correction for the range of the forces. None for elastic solids and
-        for starts without a JKR contact.
-
-    Raises
-    ------
-    ValueError
-        As :func:`closed_forms`.
-
-    Examples
-    --------
-    >>> from viscotack import AtDepth, Groups, StandardSolid
-    >>> material = StandardSolid(
-    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-    ... )
-    >>> case = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(20), rate=1)
-    >>> f"{-min(edge_curve(case).force):.2f}"
-    '1.92'
-    """
-    asked = problem.groups()
-    check_retraction(asked)
-    groups = lennard_jones_alike(asked)
-    contact = contact_in_groups(groups.start, tabor=groups.tabor)
-    curve = None if contact is None else _unloading(groups, float(contact.depth))
-    if curve is None:
-        return None
-    return curve._replace(
-        depth=curve.depth * asked.tabor,
-        contact_radius=curve.contact_radius / _TIP,
-        force=curve.force / _JKR_FORCE,
+        curve=None if depth is None or curve is None else _in_groups(curve, asked),
     )
 
 
@@ -353,6 +314,15 @@ def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
     if groups.modulus_ratio >= 1:
         return None
     return unloading.retraction(depth, _crack(groups), speed=_speed(groups), **_UNIT)
+
+
+def _in_groups(curve: unloading.Unloading, asked: Groups) -> unloading.Unloading:
+    """Return a curve in the units of dimensionless groups."""
+    return curve._replace(
+        depth=curve.depth * asked.tabor,
+        contact_radius=curve.contact_radius / _TIP,
+        force=curve.force / _JKR_FORCE,
+    )
 
 
 def _error(estimate: Estimate) -> float:

@@ -12,9 +12,10 @@ from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
-from viscotack.methods.crack_band import band_parts, not_measured
+from viscotack.methods.crack_band import curve_bands, not_measured
 from viscotack.problem import Case, Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.surrogate.answers import Intervals
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.theory.elastic.relaxed import contact_in_groups
 from viscotack.traction import LennardJones
@@ -28,9 +29,10 @@ from .training_range import out_of_range
 
 if TYPE_CHECKING:
     from viscotack.surrogate.alike import Alike
-    from viscotack.surrogate.answers import Answers, Intervals
+    from viscotack.surrogate.answers import Answers
     from viscotack.surrogate.contact import Contact
     from viscotack.surrogate.model import Surrogate
+    from viscotack.surrogate.short_range import ShortRangeContact
 
 
 SURROGATE, SOLIDS, LEARNED_CRACK = "surrogate", "surrogate of solids", "learned crack contact"
@@ -237,33 +239,49 @@ def learned_crack_limits(asked: Question) -> str:
 
 def by_learned_crack(asked: Question) -> Prediction:
     """Evaluate the surrogate of the crack theory."""
-    said = asked.once(said_of_crack)
-    assert not isinstance(said, str), "checked by the limits"
-    error = float(_learned("short range").constants["error"][0])
+    found = asked.once(said_of_crack)
+    assert not isinstance(found, str), "checked by the limits"
+    tests, said = found
+    error = _learned("short range").constants["error"][:, 0]
     zones, energy, effective = (
         float(said.more[name][0]) for name in ("zones", "amplification", "effective")
     )
-    band = error + sum(map(float, band_parts(energy, effective, zones)))
+    bands = error + curve_bands(energy, effective, zones)
     why = (
         f"{'; '.join(asked.once(inputs_of_sphere).out)}; surrogate of the theory 'crack contact', "
-        f"within {error:.2%} of it: effective Tabor number {effective:.3g}, travel of "
+        f"within {error[0]:.2%} of it: effective Tabor number {effective:.3g}, travel of "
         f"{zones:.3g} zones to the pull-off"
     )
-    factor = _at_seam(asked)
-    if factor != 1:
-        why += f"; times {factor:.4g}, with which it meets the simulations at a Tabor number of 10"
-    force = factor * float(said.pull_off_force[0])
-    found = of_theory(asked, force, band, LEARNED_CRACK, why, inside=True)
-    low, high = found.interval
-    least = min(force, float(pull_off_ratio(asked.groups.tabor)))
-    return replace(found, interval=(max(low, least), high))
+    factors = _at_seam(asked)
+    if factors[0] != 1:
+        why += (
+            f"; times {factors[0]:.4g}, with which it meets the simulations at a Tabor number of 10"
+        )
+    force, work = said.pull_off_force * factors[0], said.work_to_pull_off * factors[1]
+    said = replace(said, pull_off_force=force, work_to_pull_off=work)
+    ends = np.outer([force[0], work[0], 1.0], [1.0, 1.0])
+    ends *= 1 + bands[[0, 1, 3], None] * [-1, 1]
+    least = min(force[0], float(pull_off_ratio(asked.groups.tabor)))
+    ends[0, 0] = max(ends[0, 0], least)
+    plain = of_theory(asked, float(force[0]), float(bands[0]), LEARNED_CRACK, why, inside=True)
+    plain = replace(plain, interval=(float(ends[0, 0]), float(ends[0, 1])))
+    if np.isnan(work[0]) or not tests.agree(said)[0]:
+        return replace(plain, why=f"{why}; no work and no curve: its networks are not certain")
+    whole = replace(
+        plain,
+        work_to_pull_off=float(work[0]),
+        work_interval=(float(ends[1, 0]), float(ends[1, 1])),
+    )
+    held = Intervals(ends[:1], ends[1:2], bands[2:3], ends[2:])
+    return with_curve(whole, tests.curves(said), held)
 
 
-def _at_seam(asked: Question) -> float:
-    """Return the factor that makes the force continuous at a Tabor number of 10.
+def _at_seam(asked: Question) -> Array:
+    """Return the factors that make force and work continuous at a Tabor number of 10, shape (2,).
 
-    It is the ratio of the surrogate of simulations to that of the theory there, for the same depth
-    and rate, and tends to 1 at ``_FADED``; 1 without both.
+    They are the ratios of the surrogate of simulations to that of the theory there, for the same
+    depth and rate, and tend to 1 at ``_FADED``; 1 without both. The factor of a work that is
+    doubtful there is nan.
     """
     from viscotack.surrogate import physics
 
@@ -271,16 +289,20 @@ def _at_seam(asked: Question) -> float:
     mu, rows[0, physics.TABOR] = asked.groups.tabor, seam
     simulated, theory = _learned(), _learned("short range")
     if mu >= _FADED or not (simulated.inside(rows).all() and theory.inside(rows).all()):
-        return 1.0
+        return np.ones(2)
     answers, said = simulated.evaluate(rows), theory.evaluate(rows)
-    if simulated.doubtful(rows, answers)[0, 0] or not theory.holds(rows, said)[0]:
-        return 1.0
-    ratio = float(answers.pull_off_force[0] / said.pull_off_force[0])
+    force_doubtful, work_doubtful = simulated.doubtful(rows, answers)[0].tolist()
+    if force_doubtful or not theory.holds(rows, said)[0]:
+        return np.ones(2)
+    ratio = np.append(
+        answers.pull_off_force / said.pull_off_force,
+        np.nan if work_doubtful else answers.work_to_pull_off / said.work_to_pull_off,
+    )
     return ratio ** float(1 - np.log(mu / seam) / np.log(_FADED / seam))
 
 
-def said_of_crack(asked: Question) -> Answers | str:
-    """Return the output of the surrogate of the crack theory, or why it does not apply."""
+def said_of_crack(asked: Question) -> tuple[ShortRangeContact, Answers] | str:
+    """Return the tests and output of the surrogate of the crack theory, or why it has none."""
     from viscotack.surrogate import physics, short_range
 
     learned, groups = _learned("short range"), asked.groups
@@ -289,6 +311,7 @@ def said_of_crack(asked: Question) -> Answers | str:
         contact = contact_in_groups(groups.start, tabor=groups.tabor)
         rows[0, physics.PRELOAD] = np.nan if contact is None else contact.depth * groups.tabor
     tests = learned.tests(rows)
+    assert isinstance(tests, short_range.ShortRangeContact)
     if not learned.inside(tests).all():
         return "out of the training range of the surrogate of the crack theory"
     said = learned.evaluate(tests)
@@ -296,7 +319,7 @@ def said_of_crack(asked: Question) -> Answers | str:
         return "the crack theory behind the surrogate does not hold there"
     if elsewhere := not_measured(groups):
         return f"the band of the crack theory was not measured here: {elsewhere}"
-    return said
+    return tests, said
 
 
 # Inputs --------------------------------------------------------------------------------------

@@ -88,8 +88,7 @@ def predict_table(
         One row per input row: `pull_off_force` [1.5 pi R dg0] and `work_to_pull_off`
         [1.5 pi R dg0 h0], for punches `pull_off_stress` [sigma0] and the work [dg0], their
         intervals `..._low` and `..._high`, `method`, `inside` (the training range), `band`
-        (measured or not) and `why` it is not inside. Spheres outside are predicted by a theory,
-        without work. If no theory applies, the surrogate is not certain, or the case is invalid,
+        (measured or not) and `why` it is not inside. Spheres outside are predicted by a theory. If no theory applies, the surrogate is not certain, or the case is invalid,
         numbers are nan, `method` is "" and `why` states the reason; nothing is simulated.
 
     Raises
@@ -154,7 +153,7 @@ def predict_table(
             _put(table, WORK, at, found.work_to_pull_off, found.work_interval)
             table["method"][at], table["inside"][at] = found.method, found.inside
             table["band"][at] = found.band
-            table["why"][at] = "" if found.curve is not None else found.why
+            table["why"][at] = "" if found.method == method else found.why
         done += len(at)
         if report is not None:
             report(done, count)
@@ -231,6 +230,6 @@ def _put(
     table: dict[str, Any], names: tuple[str, str, str], at: Any, value: Any, pair: Any
 ) -> None:
     value_name, low, high = names
-    # most theories do not predict the work, and none its interval
+    # most theories do not predict the work
     table[value_name][at] = np.nan if value is None else value
     table[low][at], table[high][at] = (np.nan, np.nan) if pair is None else pair

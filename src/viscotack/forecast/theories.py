@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
+
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.methods.by_crack import CrackContact, crack_contact
-from viscotack.methods.crack_band import not_measured
+from viscotack.methods.by_crack import CrackContact, crack_contact, unloading
+from viscotack.methods.crack_band import FURTHER, not_measured
 from viscotack.problem.ranges import at_least, outside
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
+from viscotack.surrogate.answers import Intervals
+from viscotack.surrogate.line import Curves
 from viscotack.theory.elastic.relaxed import contact_in_groups, radius_without_adhesion
 from viscotack.traction import (
     Dugdale,
@@ -21,7 +27,7 @@ from viscotack.traction import (
 
 from .allow_list import ANY, Verified
 from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike
-from .prediction import Prediction, of_theory
+from .prediction import Prediction, of_theory, with_curve
 from .question import Question
 from .two_peaks import two_peaks
 
@@ -185,5 +191,15 @@ def by_crack_contact(asked: Question) -> Prediction:
     if found.pull_off_force is None:
         raise OutOfRange("the test reaches no pull-off")
     why = f"by the theory {CRACK_CONTACT!r}: {found.why}"
-    work = found.work_to_pull_off
-    return of_theory(asked, found.pull_off_force, found.band, CRACK_CONTACT, why, work=work)
+    work, groups = found.work_to_pull_off, asked.groups
+    plain = of_theory(asked, found.pull_off_force, found.band, CRACK_CONTACT, why, work=work)
+    simple = asked.relaxed_start and not groups.moves and groups.stiffness is None
+    if work is None or not simple or not isinstance(groups.geometry, Sphere):
+        return plain
+    _, of_work, of_curve, of_travel = found.band + FURTHER
+    left, force, radius = unloading(found)[0][:, None]
+    curves = Curves(found.depth_at_pull_off + left, force, radius)
+    one = np.ones((1, 2)) + np.array([-1, 1]) * of_travel
+    held = Intervals(one, one, np.array([of_curve]), one)
+    interval = (work * (1 - of_work), work * (1 + of_work))
+    return with_curve(replace(plain, work_interval=interval), curves, held)

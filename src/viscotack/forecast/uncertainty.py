@@ -1,10 +1,13 @@
 r"""Uncertainty of a predicted force from tolerances of inputs, and which input matters.
 
 Each input x has the factor :math:`e^{s z}` with its relative standard deviation s and a normal z,
-cut at three. The logarithm of the force Y is predicted at drawn points and interpolated by radial
-basis functions of z. The errors of the tier and of the interpolation are one more independent
-input, so that they are part of the band and of the variance. The first-order and total indices of
-Sobol,
+cut at three. A part of the problem that is known by equally likely samples, such as the solids of a
+passport or the interfaces of a posterior, is one input with all its correlations: the samples are
+ordered by the force that each gives at the stated other inputs, and drawn by their number. The
+logarithm of the force Y is predicted at drawn points and interpolated by radial basis functions of
+z, and of the logarithms of those forces. The errors of the tier and of the interpolation are one
+more independent input, so that they are part of the band and of the variance. The first-order and
+total indices of Sobol,
 
 .. math:: S_i = \frac{V[E(Y | z_i)]}{V[Y]}, \quad S_{Ti} = \frac{E[V(Y | z_{\sim i})]}{V[Y]},
 
@@ -14,8 +17,8 @@ are those of Saltelli et al. (2010), doi:10.1016/j.cpc.2009.09.018, as computed 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 from typing import Any
 
@@ -24,6 +27,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.campaign.columns import kind_of_problem
 from viscotack.errors import InputError, OutOfRange
+from viscotack.materials.conversion import slowed
 from viscotack.problem import Case
 
 from .answer import predict
@@ -32,6 +36,8 @@ from .tiers import SOON
 
 # Name of the error of tier and interpolation among the inputs.
 TIER = "tier"
+# Parts of a problem that samples may replace, and largest number of these samples.
+_SAMPLED, _MOST_SAMPLES = ("material", "traction"), 64
 # Normal deviates of the inputs are cut here.
 _CUT = 3.0
 # Largest relative standard deviation, for which e^(s z) is still about 1 + s z.
@@ -62,7 +68,8 @@ class Uncertainty:
     deviation : float
         Standard deviation of the logarithm of the force.
     first, total : dict of str to float
-        Indices of Sobol by the path of the input, and of "tier", the error of prediction and
+        Indices of Sobol by the path of the input, the name of a sampled part ("material",
+        "traction") or of an error of the times, and of "tier", the error of prediction and
         interpolation.
     index_error : float
         Largest difference of an index between two sets of points.
@@ -95,8 +102,10 @@ class Uncertainty:
 
 def uncertainty(
     problem: Case,
-    deviations: Mapping[str, float],
+    deviations: Mapping[str, float] | None = None,
     *,
+    sampled: Mapping[str, Sequence[Any]] | None = None,
+    times: Mapping[str, float] | None = None,
     confidence: float = 0.9,
     samples: int = 256,
     seed: int = 0,
@@ -104,7 +113,7 @@ def uncertainty(
     also: tuple[Any, ...] = (),
     progress: Callable[[float], None] = lambda share: None,
 ) -> Uncertainty:
-    """Propagate tolerances of inputs to the pull-off force, and attribute its variance to them.
+    """Propagate uncertainties of inputs to the pull-off force, and attribute its variance to them.
 
     Parameters
     ----------
@@ -113,6 +122,11 @@ def uncertainty(
     deviations : mapping of str to float
         Relative standard deviations, independent, by the path of the input as in campaigns
         ("geometry.radius", "material.tau0"); above 0 and at most 0.5.
+    sampled : mapping of str to sequence
+        Equally likely values of "material" (:attr:`viscotack.materials.Passport.allowed`) or
+        "traction", in place of the stated one; up to 64 of them are used.
+    times : mapping of str to float
+        Standard deviations of ln of all times of the material, by a name such as "temperature".
     confidence : float
         Fraction inside the interval, above 0 and below 1.
     samples : int
@@ -149,33 +163,74 @@ def uncertainty(
     >>> found.interval[0] < found.pull_off_force < found.interval[1]
     True
     """
-    names = list(deviations)
-    s = np.array([deviations[name] for name in names], float)
-    _check(deviations, confidence, samples)
-    kind = kind_of_problem(problem, set(names), also)
-    means = np.array([_number(kind.inputs, name) for name in names])
-    z = _normals(len(names), samples, seed)
+    deviations, times, sampled = deviations or {}, times or {}, sampled or {}
+    scattered = {**deviations, **times}
+    every = [*scattered, *sampled]
+    _check(deviations, times, sampled, confidence, samples)
+    kind_of_problem(problem, set(deviations), also)  # names the unknown path
+
+    def posed(z: Mapping[str, float], parts: Mapping[str, Any]) -> Case:
+        """Return the problem with normal deviates of its numbers and with samples of its parts."""
+        whole = replace(problem, **parts)
+        if times:
+            slower = float(np.exp(sum(s * z[name] for name, s in times.items())))
+            whole = replace(whole, material=slowed(whole.material, slower))
+        kind = kind_of_problem(whole, set(deviations), also)
+        inputs = {
+            name: _number(kind.inputs, name) * float(np.exp(s * z[name]))
+            for name, s in deviations.items()
+        }
+        return kind.problem(inputs) if inputs else whole
+
+    count = samples + sum(min(len(x), _MOST_SAMPLES) for x in sampled.values()) + 1
+    done = 0
+
+    def predicted(case: Case) -> Prediction:
+        nonlocal done
+        done += 1
+        progress(done / count)
+        return _bounded(predict(case, budget=budget))
+
+    stated = dict.fromkeys(scattered, 0.0)
+    ordered = {
+        name: _ordered(values, lambda x, name=name: _in_unit(predicted(posed(stated, {name: x}))))
+        for name, values in sampled.items()
+    }
+
+    def drawn(u: Array) -> tuple[Array, list[Any]]:
+        """Return normal deviates of numbers, and numbers of samples, by uniform deviates."""
+        columns = zip(ordered.values(), u[:, len(scattered) :].T, strict=True)
+        return _normals(u[:, : len(scattered)]), [x.numbers(column) for x, column in columns]
+
+    points = _points(len(every), samples, seed)
+    z, numbers = drawn(points)
     pieces = []
-    for done, row in enumerate(z):
-        inputs = dict(zip(names, (means * np.exp(s * row)).tolist(), strict=True))
-        pieces.append(_bounded(predict(kind.problem(inputs), budget=budget)))
-        progress((done + 1) / (samples + 1))
+    for i, row in enumerate(z.tolist()):
+        chosen = zip(ordered.items(), numbers, strict=True)
+        parts = {name: x.values[number[i]] for (name, x), number in chosen}
+        pieces.append(predicted(posed(dict(zip(scattered, row, strict=True)), parts)))
     logs = np.log([_in_unit(x) for x in pieces])
     deviate = NormalDist().inv_cdf(0.95)  # of intervals of the tiers, which hold nine of ten
     widths = [np.log(x.interval[1] / x.interval[0]) / (2 * deviate) for x in pieces]
-    fitted, missed = _interpolated(z, logs)
+
+    def features(u: Array) -> Array:
+        z, numbers = drawn(u)
+        both = zip(ordered.values(), numbers, strict=True)
+        return np.column_stack([z, *(x.places[number] for x, number in both)])
+
+    fitted, missed = _interpolated(features(points), logs)
     tier = float(np.hypot(np.sqrt(np.mean(np.square(widths))), missed))
 
-    def response(x: Array) -> Array:
-        return fitted(x[:-1].T) + tier * x[-1]
+    def response(u: Array) -> Array:
+        return fitted(features(u[:-1].T)) + tier * _normals(u[-1])
 
-    first, total, apart = _indices(response, len(names) + 1, seed)
-    band = response(_normals(len(names) + 1, _BAND, seed + 1).T)
+    first, total, apart = _indices(response, len(every) + 1, seed)
+    band = response(_points(len(every) + 1, _BAND, seed + 1).T)
     tails = (1 - confidence) / 2, 0.5, (1 + confidence) / 2
     low, median, high = np.exp(np.quantile(band, tails)).tolist()
-    every = [*names, TIER]
+    every.append(TIER)
     return Uncertainty(
-        pull_off_force=_in_unit(predict(problem, budget=budget)),
+        pull_off_force=_in_unit(predicted(problem)),
         median=median,
         interval=(low, high),
         confidence=confidence,
@@ -188,9 +243,15 @@ def uncertainty(
     )
 
 
-def _check(deviations: Mapping[str, float], confidence: float, samples: int) -> None:
-    """Raise an error for deviations, confidence or samples that cannot be."""
-    if not deviations:
+def _check(
+    deviations: Mapping[str, float],
+    times: Mapping[str, float],
+    sampled: Mapping[str, Sequence[Any]],
+    confidence: float,
+    samples: int,
+) -> None:
+    """Raise an error for deviations, samples of parts, confidence or samples that cannot be."""
+    if not (deviations or times or sampled):
         raise InputError('give the deviation of an input, for example {"geometry.radius": 0.02}')
     for name, value in deviations.items():
         if not 0 < value <= _LARGEST:
@@ -198,12 +259,53 @@ def _check(deviations: Mapping[str, float], confidence: float, samples: int) -> 
                 f"the relative standard deviation of {name} must be above 0 and at most "
                 f"{_LARGEST:g}, got {value:g}"
             )
+    for name, value in times.items():
+        if not 0 < value < np.inf:
+            raise InputError(
+                f"the standard deviation of ln(times) by {name} must be positive, got {value:g}"
+            )
+    for name, values in sampled.items():
+        if name not in _SAMPLED or len(values) < 2:
+            raise InputError(
+                f"samples replace {' or '.join(_SAMPLED)}, two or more of them; got "
+                f"{len(values)} of {name!r:.60}"
+            )
     if not 0 < confidence < 1:
         raise InputError(f"the confidence must lie between 0 and 1, got {confidence:g}")
-    d = len(deviations)
+    d = len(deviations) + len(times) + len(sampled)
     least = _PER_COEFFICIENT * (d + 1) * (d + 2) // 2
     if samples < least:
         raise InputError(f"{d} inputs need at least {least} samples, got {samples}")
+
+
+@dataclass(frozen=True, eq=False)
+class _Ordered:
+    """Samples of a part of the problem in the order of the forces that they give.
+
+    Attributes
+    ----------
+    values : tuple
+        The samples.
+    places : ndarray
+        ln of their forces over the mean, in standard deviations.
+    """
+
+    values: tuple[Any, ...]
+    places: Array
+
+    def numbers(self, u: Array) -> Any:
+        """Return the numbers of the samples at uniform deviates."""
+        return np.minimum((u * len(self.values)).astype(int), len(self.values) - 1)
+
+
+def _ordered(values: Sequence[Any], force: Callable[[Any], float]) -> _Ordered:
+    """Return samples, evenly thinned, in the order of their forces."""
+    thin = np.linspace(0, len(values) - 1, min(len(values), _MOST_SAMPLES)).astype(int)
+    known = [values[i] for i in thin]
+    logs = np.log([force(x) for x in known])
+    order = np.argsort(logs, kind="stable")
+    spread = float(np.std(logs))
+    return _Ordered(tuple(known[i] for i in order), (logs - logs.mean())[order] / (spread or 1.0))
 
 
 def _number(inputs: Mapping[str, Any], name: str) -> float:
@@ -214,13 +316,19 @@ def _number(inputs: Mapping[str, Any], name: str) -> float:
     return float(value)
 
 
-def _normals(count: int, points: int, seed: int) -> Array:
-    """Return scrambled points of Sobol as cut normal deviates, shape (points, count)."""
-    from scipy.stats import qmc, truncnorm
+def _points(count: int, points: int, seed: int) -> Array:
+    """Return scrambled points of Sobol between 0 and 1, shape (points, count)."""
+    from scipy.stats import qmc
 
     whole = 1 << (points - 1).bit_length()
-    drawn = qmc.Sobol(count, rng=np.random.default_rng(seed)).random(whole)[:points]
-    return truncnorm.ppf(drawn, -_CUT, _CUT)
+    return qmc.Sobol(count, rng=np.random.default_rng(seed)).random(whole)[:points]
+
+
+def _normals(u: Array) -> Array:
+    """Return the cut normal deviates of uniform ones."""
+    from scipy.stats import truncnorm
+
+    return truncnorm.ppf(u, -_CUT, _CUT)
 
 
 def _bounded(found: Prediction) -> Prediction:
@@ -258,13 +366,13 @@ def _indices(
     response: Callable[[Array], Array], count: int, seed: int
 ) -> tuple[Array, Array, float]:
     """Return first-order and total indices, and how far two sets of points are apart."""
-    from scipy.stats import sobol_indices, truncnorm
+    from scipy.stats import sobol_indices, uniform
 
     both = [
         sobol_indices(
             func=response,
             n=_POINTS,
-            dists=[truncnorm(-_CUT, _CUT)] * count,
+            dists=[uniform()] * count,
             rng=np.random.default_rng([seed, number]),
         )
         for number in (1, 2)

@@ -1,7 +1,8 @@
 """Identify the interface from measured curves: work of adhesion and range, with intervals."""
 
 from .contact_time import DwellFit, identify_dwell
-from .forecasting import RateForecast, forecast_rates
+from .forecasting import RateForecast, forecast_rates, interfaces
+from .next_tests import NextTests, RankedTest, Trial, next_tests
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff, pull_offs
 from .rate_series import RateSeriesFit, identify_rates
@@ -13,19 +14,24 @@ __all__ = [
     "DwellFit",
     "Interval",
     "ModelFit",
+    "NextTests",
     "Objective",
     "Parameter",
     "Posterior",
     "PullOff",
+    "RankedTest",
     "RateForecast",
     "RateSeriesFit",
     "SlowTest",
     "SlowTestFit",
+    "Trial",
     "fitted_force",
     "forecast_rates",
     "identify_dwell",
     "identify_rates",
     "identify_slow",
+    "interfaces",
+    "next_tests",
     "posterior",
     "pull_offs",
     "slow_test",

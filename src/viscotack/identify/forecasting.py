@@ -13,6 +13,7 @@ them the model.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -22,10 +23,12 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Layer
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
+from viscotack.materials.passport_uncertainty import allowed
 from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import ModelError, allowed, covariance, log_forces, temperature_effect
+from .covariances import ModelError, covariance, log_forces, temperature_effect
+from .forward import Forward, law_of
 from .pull_off import SAME, History
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
@@ -150,25 +153,9 @@ def forecast_rates(
     for i, why in found.refused.items():
         raise OutOfRange(f"at {readable(v[i], 'm/s', digits=3)}: {why}")
 
-    measured = np.array([one.speed for one in fit.series])
-    m, both = measured.size, _model(fit, theory).joined(found.model)
-    spread = _together(fit, passport, (measured, loads), (v, load), both, spring is not None)
-    # covariance of the fit: noise, theory and material of the measured forces
-    gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
-    left = spread[m:, m:] - gain @ spread[:m, m:]
+    asked = [Tests(known, passport, v, loaded)]
+    moved, left = conditioned(fit, asked, draws, theory, found.model, spring is not None)
     root = _root(left)
-
-    works, gaps = draws[:, :1], draws[:, 1:2]
-    laws = None
-    if fit.growth is not None:
-        laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
-    forecast = np.log(known.pulled(works, gaps, v, load, growth=laws).force)
-    at = fit.forward.pulled(works, gaps, measured, loads, growth=laws).force
-    ratio = fit.yielding
-    if isinstance(fit.ratio, Mixed):
-        ratio = fit.ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
-    force = np.array([one.force.value for one in fit.series])
-    moved = forecast + np.log(force / (at * ratio)) @ gain.T
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
     sample = (np.exp(moved + noise) * found.ratio).reshape(-1, v.size)
@@ -199,6 +186,94 @@ def forecast_rates(
             ]
         ),
     )
+
+
+def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, ...]:
+    """Return traction laws of interfaces sampled from the posterior of a series."""
+    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
+    draws = chain.thinned(count)
+    growth = fit.growth
+    laws = []
+    for w, gap, *more in draws.tolist():
+        grows = None if growth is None else growth.opening.growth(gap, *more)
+        laws.append(law_of(w, gap, grows))
+    return tuple(laws)
+
+
+class Tests(NamedTuple):
+    """Tests of one sphere at one temperature whose forces are predicted.
+
+    Attributes
+    ----------
+    forward : Forward
+        Forward model of the sphere and the material.
+    passport : Passport
+        The material at the temperature of the tests.
+    speed, load : ndarray, shape (n,)
+        Retraction speed [m/s] and preload [N].
+    """
+
+    forward: Forward
+    passport: Passport
+    speed: Array
+    load: Array
+
+
+def conditioned(
+    fit: RateSeriesFit,
+    asked: Sequence[Tests],
+    draws: Array,
+    theory: float,
+    model: ModelError,
+    springy: bool,
+) -> tuple[Array, Array]:
+    """Return ln of the forces of tests for sampled interfaces, given the series, and a covariance.
+
+    Parameters
+    ----------
+    fit : RateSeriesFit
+        Fit of the series.
+    asked : sequence of Tests
+        The n tests.
+    draws : ndarray, shape (K, parameters)
+        Sampled interfaces.
+    theory : float
+        Relative standard error of the forward model at the measured speeds.
+    model : ModelError
+        Errors of the forces of the tests.
+    springy : bool
+        Whether the compliance of the machine counts at the tests.
+
+    Returns
+    -------
+    moved : ndarray, shape (K, n)
+        Mean of ln(force) for each interface.
+    left : ndarray, shape (n, n)
+        Covariance about it, by the errors of theory, material, temperature and machine that the
+        series leaves open.
+    """
+    measured = np.array([one.speed for one in fit.series])
+    loads = np.array([one.preload for one in fit.series], dtype=float)
+    m = measured.size
+    own = Tests(fit.forward, fit.passport, measured, loads)
+    spread = _together(fit, (own, *asked), _model(fit, theory).joined(model), springy)
+    # covariance of the fit: noise, theory and material of the measured forces
+    gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
+    left = spread[m:, m:] - gain @ spread[:m, m:]
+    works, gaps = draws[:, :1], draws[:, 1:2]
+    laws = None
+    if fit.growth is not None:
+        laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
+    forecast = np.concatenate(
+        [np.log(x.forward.pulled(works, gaps, x.speed, x.load, growth=laws).force) for x in asked],
+        axis=1,
+    )
+    at = fit.forward.pulled(works, gaps, measured, loads, growth=laws).force
+    ratio = fit.yielding
+    if isinstance(fit.ratio, Mixed):
+        ratio = fit.ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
+    force = np.array([one.force.value for one in fit.series])
+    return forecast + np.log(force / (at * ratio)) @ gain.T, left
 
 
 def _check(
@@ -287,43 +362,38 @@ def _model(fit: RateSeriesFit, theory: float) -> ModelError:
 
 
 def _together(
-    fit: RateSeriesFit,
-    passport: Passport,
-    measured: tuple[Array, Array],
-    wanted: tuple[Array, float],
-    model: ModelError,
-    springy: bool,
+    fit: RateSeriesFit, tests: Sequence[Tests], model: ModelError, springy: bool
 ) -> Array:
-    """Return the joint covariance of model, material and machine over all speeds.
+    """Return the joint covariance of model, material and machine over all tests.
 
-    These are the measured and the predicted ones; the machine counts at the latter if it is
-    `springy` there.
+    The first are those of the series; the machine counts at the others if it is `springy` there.
     """
-    speed = np.concatenate([measured[0], wanted[0]])
+    speed = np.concatenate([x.speed for x in tests])
+    m = tests[0].speed.size
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
-    load = np.full(wanted[0].size, wanted[1])
-    known = fit.forward.beside(passport.material)
-    both = ((fit.forward, *measured), (known, wanted[0], load))
-    more = [forward.layer_error(w, gap, v, preload) for forward, v, preload in both]
+    more = [x.forward.layer_error(w, gap, x.speed, x.load) for x in tests]
     spread = replace(model, theory=model.theory + np.concatenate(more)).covariance(speed)
     law = None if fit.growth is None else fit.growth.law
     # one thermometer and one machine for all tests
-    shifts = fit.uncertain.shift, replace(fit.uncertain, passport=passport).shift
-    rows = zip(both, shifts, strict=True)
+    shifts = [replace(fit.uncertain, passport=x.passport).shift for x in tests]
     warmer = np.concatenate(
-        [temperature_effect(one, error, w, gap, v, load, law) for (one, v, load), error in rows]
+        [
+            temperature_effect(x.forward, error, w, gap, x.speed, x.load, law)
+            for x, error in zip(tests, shifts, strict=True)
+        ]
     )
-    warmer[: measured[0].size] *= fit.uncertain.shifts(fit.series)
-    softer = _softer(fit, measured[0], wanted[0], springy)
+    warmer[:m] *= fit.uncertain.shifts(fit.series)
+    softer = _softer(fit, speed[:m], speed[m:], springy)
     spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
     solids = allowed(fit.passport)
     if not solids:
         return spread
-    moved = allowed(passport) if passport.allowed else _slowed(fit.passport, passport, solids)
-    first = log_forces(fit.forward, solids, w, gap, *measured, law)
-    second = log_forces(known, moved, w, gap, wanted[0], load, law)
-    rows = np.concatenate([first, second], axis=1)
-    return spread + covariance(rows)
+    rows = []
+    for x in tests:
+        known = x.passport is fit.passport or x.passport.allowed
+        moved = allowed(x.passport) if known else _slowed(fit.passport, x.passport, solids)
+        rows.append(log_forces(x.forward, moved, w, gap, x.speed, x.load, law))
+    return spread + covariance(np.concatenate(rows, axis=1))
 
 
 def _softer(fit: RateSeriesFit, measured: Array, wanted: Array, springy: bool) -> Array:

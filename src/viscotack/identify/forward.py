@@ -128,6 +128,15 @@ class Changed(NamedTuple):
     band: Array
 
 
+def law_of(work: float, gap: float, growth: Growth | None = None) -> Any:
+    """Return the traction law of an interface with work [J/m2], h0 [m] and growth."""
+    law = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
+    if growth is None:
+        return law
+    v0, n = (float(np.asarray(x)) for x in growth)
+    return GentSchultz.of(law, reference_speed=v0, exponent=n) if np.isfinite(v0) else law
+
+
 @dataclass(frozen=True)
 class Forward:
     """Forward model of pull-offs of a sphere on one material.
@@ -190,13 +199,9 @@ class Forward:
         In work [J/m2], h0 [m], preload [N], speed [m/s] and stiffness of the machine [N/m]. With
         moves before the retraction it starts apart.
         """
-        law: Any = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
-        if growth is not None:
-            v0, n = (float(np.asarray(x)) for x in growth)
-            law = GentSchultz.of(law, reference_speed=v0, exponent=n) if np.isfinite(v0) else law
         return Problem(
             material=self.material,
-            traction=law,
+            traction=law_of(work, gap, growth),
             geometry=Sphere(radius=self.radius),
             protocol=Retraction(
                 start=Apart(_APART * gap) if moves else AtForce(preload),

@@ -20,6 +20,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import HalfSpace, Layer
 from viscotack.materials import Material, Passport
+from viscotack.materials.passport_uncertainty import allowed, shift_error
 from viscotack.protocol import Move
 from viscotack.theory.crack.contact.films import ERROR_BY_ZONE, MOST_ZONE
 from viscotack.units import readable, readable_interval
@@ -27,11 +28,9 @@ from viscotack.units import readable, readable_interval
 from .computed import Computed
 from .covariances import (
     ModelError,
-    allowed,
     covariance,
     log_forces,
     shift_covariance,
-    shift_error,
     temperature_effect,
     theory_covariance,
 )

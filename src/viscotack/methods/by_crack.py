@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
@@ -29,6 +30,7 @@ from viscotack.renamed import Renamed
 from viscotack.result.loops import Loop, returned, work_at_indenter
 from viscotack.result.opening import least_between
 from viscotack.result.parts import Span, all_moves, spans_of, waits
+from viscotack.result.trajectory import shares
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
@@ -208,6 +210,35 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
         run = contact.run(state, drives_of(groups))
         series, detached = _series(groups, run), run.detached
     return _answer(problem, groups, crack, series, detached)
+
+
+def unloading(found: CrackContact) -> tuple[Array, Array]:
+    """Return the unloading curve of a retraction from rest that reached its pull-off.
+
+    Returns
+    -------
+    points : ndarray, shape (3, 24)
+        Travel left to the pull-off, force and contact radius at
+        :func:`viscotack.result.trajectory.shares`.
+    steps : ndarray, shape (2, m)
+        Travel from zero force, or from a start in tension, and tension at the steps from there.
+    """
+    assert found.pull_off_force is not None, "the caller knows that there is a pull-off"
+    before = found.time < found.time_at_pull_off
+    ends = found.depth_at_pull_off, -found.pull_off_force, found.contact_radius_at_pull_off
+    depth, force, radius = (
+        np.append(x[before], end)
+        for x, end in zip((found.depth, found.force, found.contact_radius), ends, strict=True)
+    )
+    kept, travel = np.append(np.diff(depth) < 0, True), depth[0] - depth[-1]
+    x, force, radius = (depth[0] - depth[kept]) / travel, force[kept], radius[kept]
+    along, pressed = scipy.interpolate.PchipInterpolator(x, force), np.flatnonzero(force > 0)
+    zero = (
+        float(scipy.optimize.brentq(along, *x[pressed[-1] + np.arange(2)])) if len(pressed) else 0
+    )
+    part, tense = shares(zero), np.append(zero, x[x > zero])
+    points = np.stack([(1 - part) * travel, along(part), np.interp(part, x, radius)])
+    return points, np.stack([(tense - zero) * travel, -along(tense)])
 
 
 def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]:

@@ -44,7 +44,12 @@ class Inputs(Operation):
 
     problem: Annotated[
         Statement,
-        Stated("A problem in SI.", indenters=INDENTERS, spelling="case"),
+        Stated(
+            "A problem in SI, or a rough surface.",
+            indenters=INDENTERS,
+            spelling="case",
+            rough=True,
+        ),
     ]
 
     def answer(self, caller: Caller) -> Answer:

@@ -18,9 +18,11 @@ from .simulate import Accuracy
 class OfDesign(Operation):
     """Find radius, preload, number of pads and speeds that hold and release wanted forces.
 
-    Surrogates or theories with their intervals are searched for the largest margin of the worst
-    target, and simulations of the best designs decide. Out of reach, the answer states the bound.
-    docs/design.md describes the file and the method.
+    Targets are forces, works, loads held for a time and the yield, at all stated speeds and
+    temperatures. Surrogates or theories with their intervals are searched for the largest margin
+    of the worst target, and simulations of the best designs decide. Several targets have a front
+    of designs. Out of reach, the answer states the bound. docs/design.md describes the file and
+    the method.
 
     Example: viscotack design lift_and_let_go.toml --plot design.png
     """
@@ -28,7 +30,9 @@ class OfDesign(Operation):
     word: ClassVar = "design"
     outputs: ClassVar = (
         csv_file("Write a row for each design; - is standard output."),
+        csv_file("Write a row for each design of the front; - is standard output.", "front"),
         picture("Draw forces by speed, and elasticities, to a .png, .pdf or .svg file."),
+        picture("Draw the front of several targets to a .png, .pdf or .svg file.", "trade"),
     )
     takes_own: ClassVar = True
 
@@ -49,7 +53,7 @@ class OfDesign(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Search and simulate, telling ``share``."""
         from viscotack.design import find_design, read_design
-        from viscotack.pictures.design import draw_design
+        from viscotack.pictures.design import draw_design, draw_front
 
         from .parts.tables import rows_as_csv
 
@@ -59,53 +63,88 @@ class OfDesign(Operation):
             stated.traction,
             stated.space,
             stated.targets,
+            stated.conditions,
             confirm=self.confirm,
             seed=self.seed,
             accuracy=self.accuracy,
             time_limit=self.time_limit,
             progress=lambda share: caller.tell({"share": share}),
         )
-        rows = [_row(*pair) for pair in zip(found.candidates, found.simulated, strict=True)]
+        rows = [
+            _row(one, run, part)
+            for one, run, part in zip(found.candidates, found.simulated, found.yields, strict=True)
+        ]
+        front = [_front_row(one) for one in found.front]
         return Answer(
             found,
-            record=lambda: _record(found, rows),
+            record=lambda: _record(found, rows, front),
             words=lambda: _words(found),
-            files={"csv": rows_as_csv(rows)},
-            pictures={"plot": lambda: draw_design(found, stated)},
+            files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
+            pictures={
+                "plot": lambda: draw_design(found, stated),
+                "trade": lambda: draw_front(found),
+            },
         )
 
 
-_FORCE = ("N", "low_N", "high_N")
+# Forces of a design with their units.
+_FORCES = {"hold": "N", "release": "N", "work": "J", "dead_load": "N"}
 
 
-def _row(one: Any, run: Any) -> dict[str, Any]:
-    """Return the row of a design."""
-    choice = one.choice
-    row: dict[str, Any] = {
+def _choice_row(choice: Any) -> dict[str, Any]:
+    """Return the variables of a design as columns."""
+    return {
         "material": choice.material,
         "radius_m": choice.radius,
         "preload_N": choice.preload,
         "pads": choice.pads,
         "hold_speed_m_per_s": choice.hold_speed,
         "release_speed_m_per_s": choice.release_speed,
+        "modulus_Pa": choice.modulus,
+        "thickness_m": choice.thickness,
+        "exponent": choice.exponent,
+        "backing_N_per_m": choice.backing,
     }
-    for name in ("hold", "release"):
-        force = getattr(one, name)
+
+
+def _forces_row(one: Any) -> dict[str, Any]:
+    """Return the forces of a design with their intervals as columns."""
+    row: dict[str, Any] = {}
+    for name, unit in _FORCES.items():
+        force = one.forces.get(name)
         values = (None,) * 3 if force is None else (force.value, force.low, force.high)
-        row |= {f"{name}_{unit}": x for unit, x in zip(_FORCE, values, strict=True)}
+        columns = (unit, f"low_{unit}", f"high_{unit}")
+        row |= {f"{name}_{x}": value for x, value in zip(columns, values, strict=True)}
         row[f"{name}_method"] = None if force is None else force.method
-        row[f"simulated_{name}_N"] = None if run is None else getattr(run, name)
+    return row
+
+
+def _row(one: Any, run: Any, part: float | None) -> dict[str, Any]:
+    """Return the row of a design."""
+    row = _choice_row(one.choice) | _forces_row(one)
+    for name, unit in _FORCES.items():
+        row[f"simulated_{name}_{unit}"] = None if run is None else run.forces.get(name)
+    row["simulated_time_s"] = None if run is None else run.time
     row["margin"] = one.margin
     row["simulated_margin"] = None if run is None else run.margin
+    row["yield"] = part
     row["meets"] = None if run is None else run.meets
     return row | {"why": "" if run is None else run.why}
 
 
-def _record(found: Any, rows: list[dict[str, Any]]) -> dict[str, Any]:
+def _front_row(one: Any) -> dict[str, Any]:
+    """Return the row of a design of the front, with the margins at both ends of the intervals."""
+    low = {f"margin_{name}": x for name, x in one.margins.items()}
+    high = {f"best_margin_{name}": x for name, x in one.best_margins.items()}
+    return _choice_row(one.choice) | _forces_row(one) | low | high
+
+
+def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
     """Return the numbers of the answer."""
     return {
         "meets": found.meets,
         "designs": rows,
+        "front": front,
         "binding": list(found.binding),
         "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
         "limits": [
@@ -134,12 +173,19 @@ _VERDICTS = {
 def _words(found: Any) -> str:
     """Return the answer as lines."""
     lines = [_VERDICTS[found.meets]]
-    for number, (one, run) in enumerate(zip(found.candidates, found.simulated, strict=True), 1):
+    both = zip(found.candidates, found.simulated, found.yields, strict=True)
+    for number, (one, run, part) in enumerate(both, 1):
         lines += [f"design {number}: {_choice_words(one.choice)}", *_force_words(one, run)]
+        if part is not None:
+            wanted = found.judge.conditions.share
+            lines.append(f"  yield {part:.1%}, wanted {wanted:.1%}")
     lines.append(f"binding: {', '.join(found.binding)}")
     for name, slopes in found.elasticities.items():
         known = ", ".join(f"{x} {s:+.2f}" for x, s in slopes.items() if s is not None)
-        lines.append(f"d ln P/d ln x of the force to {name}: {known}")
+        words = {"work": "work", "dead_load": "dead load"}.get(name, f"force to {name}")
+        lines.append(f"d ln P/d ln x of the {words}: {known}")
+    if found.front:
+        lines.append(f"front of {len(found.front)} designs, none better in every target: --front")
     return "\n".join([*lines, *(_limit_words(each) for each in found.excluded), *_apart(found)])
 
 
@@ -149,26 +195,31 @@ def _choice_words(choice: Any) -> str:
         f"R = {readable(choice.radius, 'm')}",
         f"preload {readable(choice.preload, 'N')}",
     ]
-    for name in ("hold", "release"):
-        if (speed := getattr(choice, f"{name}_speed")) is not None:
-            parts.append(f"{name} at {readable(speed, 'm/s')}")
+    for name, unit, words in (
+        ("hold_speed", "m/s", "hold at"),
+        ("release_speed", "m/s", "release at"),
+        ("modulus", "Pa", "E0 ="),
+        ("thickness", "m", "thickness"),
+        ("exponent", "1", "exponent"),
+        ("backing", "N/m", "backing"),
+    ):
+        if (value := getattr(choice, name)) is not None:
+            parts.append(f"{words} {readable(value, unit)}")
     return ", ".join(parts)
 
 
 def _force_words(one: Any, run: Any) -> list[str]:
     """Return the forces and margins of a design as lines."""
     lines = []
-    for name in ("hold", "release"):
-        force = getattr(one, name)
-        if force is None:
-            continue
+    for name, force in one.forces.items():
+        unit = _FORCES[name]
         line = (
-            f"  {name}: {readable(force.value, 'N')} "
-            f"({readable(force.low, 'N', to=force.high)}, {force.method})"
+            f"  {name.replace('_', ' ')}: {readable(force.value, unit)} "
+            f"({readable(force.low, unit, to=force.high)}, {force.method})"
         )
-        value = None if run is None else getattr(run, name)
+        value = None if run is None else run.forces.get(name)
         if run is not None and value is not None:
-            line += f"; {run.method} {readable(value, 'N')} within {run.errors[name]:.1g}"
+            line += f"; {run.method} {readable(value, unit)} within {run.errors[name]:.1g}"
         lines.append(line)
     margin = one.margin if run is None or run.margin is None else run.margin
     by = "the fast tier" if margin is one.margin else "simulation"
@@ -178,13 +229,14 @@ def _force_words(one: Any, run: Any) -> list[str]:
 
 def _limit_words(limit: Any) -> str:
     """Return a bound that excludes a target as a line."""
-    unit = "1" if limit.target == "ratio" else "N"
+    unit = {"ratio": "1", "work": "J"}.get(limit.target, "N")
     end = ("at least", "at most")[limit.target == "release"]
     reach = ("at most", "at least")[limit.target == "release"]
     wanted, reached = (readable(x, unit) for x in (limit.wanted, limit.reach))
     cause = {"solid": "the solid permits", "speeds": "designs between the bounds reach"}
+    target = limit.target.replace("_", " ")
     return (
-        f"out of reach: {limit.target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
+        f"out of reach: {target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
         f"{limit.why}"
     )
 

@@ -182,18 +182,20 @@ class Report(Operation):
 
 
 def _forecast(asked: Forecast | Report, caller: Caller) -> tuple[Any, Any]:
-    """Fit the interface to the files of a study; return it and the forecast.
-
-    Forces are those of the file beside the study, where it has them.
-    """
+    """Fit the interface to the files of a study; return it and the forecast."""
     from viscotack.clock import limited
+
+    with limited(asked.time_limit):
+        found = fitted(asked.study, caller)
+        return found, asked.wish.of(found.fit)
+
+
+def fitted(study: Placed, caller: Caller) -> Any:
+    """Fit the interface to the files of a study, with the forces of the file beside it."""
     from viscotack.identify.computed import SUFFIX
     from viscotack.identify.study import answer
 
-    with limited(asked.time_limit):
-        computed = asked.study.path.with_suffix(SUFFIX)
-        found = answer(_asked(asked.study).study(caller.also), computed)
-        return found, asked.wish.of(found.fit)
+    return answer(_asked(study).study(caller.also), study.path.with_suffix(SUFFIX))
 
 
 def _asked(study: Placed) -> IdentifyRates:

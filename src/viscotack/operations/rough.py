@@ -119,9 +119,7 @@ class OfRough(Operation):
             "rms_slope": spread.rms_slope,
             "rms_curvature_per_m": spread.rms_curvature,
             "pixels_per_zone": problem.zone.pixels,
-            "full_contact_energy_over_work": measures.full_contact,
-            "full_contact_energy_over_work_fast": measures.full_contact_fast,
-            "fuller_tabor": measures.fuller_tabor,
+            **measures.record,
         }
         return Answer(
             found,
@@ -140,8 +138,9 @@ class OfRough(Operation):
 
     def _superposed(self, caller: Caller) -> Answer:
         """Answer by superposition of asperities."""
+        from viscotack.pads import superposed
         from viscotack.pictures.rough import draw_superposition
-        from viscotack.rough import read_rough, superposed
+        from viscotack.rough import read_rough
 
         from .parts.tables import rows_as_csv
 
@@ -177,14 +176,16 @@ class OfRough(Operation):
         )
 
 
-def _words(found: Any, about: dict[str, float]) -> str:
+def _words(found: Any, about: dict[str, Any]) -> str:
     """Return the answer as lines."""
     errors = found.error_estimate or {}
 
     def within(name: str) -> str:
         return f" +- {100 * errors[name]:.2g} %" if name in errors else ""
 
-    at = found.at_pull_off
+    from viscotack.rough import LONGEST_RANGE
+
+    at, bearing = found.at_pull_off, about["bearing_area_stress_Pa"]
     share = 100 * found.area[at] / found.nominal_area
     lines = [
         f"surface: rms height {readable(about['rms_height_m'], 'm')}, rms slope "
@@ -192,9 +193,11 @@ def _words(found: Any, about: dict[str, float]) -> str:
         f"energy of full contact over the work of adhesion: "
         f"{about['full_contact_energy_over_work']:.3g} slow, "
         f"{about['full_contact_energy_over_work_fast']:.3g} fast; Fuller-Tabor parameter "
-        f"{about['fuller_tabor']:.3g}",
+        f"{about['fuller_tabor']:.3g}; Pastewka-Robbins ratio {about['pastewka_robbins']:.3g}"
+        + ("" if about["range_over_gap_at_patches"] < LONGEST_RANGE else " (range too long)"),
         f"pull-off force: {readable(found.pull_off_force, 'N')}{within('force')}, a stress of "
-        f"{readable(found.pull_off_stress, 'Pa')}",
+        f"{readable(found.pull_off_stress, 'Pa')}"
+        + (f" ({readable(bearing, 'Pa')} by the bearing area)" if bearing is not None else ""),
         f"there: depth {readable(float(found.depth[at]), 'm')}, {share:.3g} % of the map in "
         f"contact in {int(found.patches[at])} patches",
     ]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
 from viscotack.errors import TOO_LARGE, InputError
+from viscotack.problem import RoughCase
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
@@ -42,9 +43,10 @@ class Sweep(Operation):
     problem: Annotated[
         Statement,
         Stated(
-            "The problem whose numbers are replaced, in SI.",
+            "The problem whose numbers are replaced, in SI; a case or a rough surface.",
             indenters=INDENTERS,
             spelling="case",
+            rough=True,
         ),
     ]
     cases: Annotated[
@@ -137,16 +139,23 @@ def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def _words(problem: Any, rows: Sequence[Mapping[str, Any]], failed: int) -> str:
+def _shown(problem: Any) -> tuple[str, str, str]:
+    """Return the name of the pull-off among the outputs, its unit and words."""
+    if isinstance(problem, RoughCase):
+        return "pull_off_force_N", "N", "pull-off force"
     kind = problem.outputs
     name = f"pull_off_{kind.name_of('force')}"
     shown = kind.observables[name]
-    in_si = problem.scales() is not None
-    key = f"{name}_{shown.unit.tail}" if in_si else name
-    unit = shown.unit.si if in_si else shown.unit.text
+    if problem.scales() is None:
+        return name, shown.unit.text, shown.words
+    return f"{name}_{shown.unit.tail}", shown.unit.si, shown.words
+
+
+def _words(problem: Any, rows: Sequence[Mapping[str, Any]], failed: int) -> str:
+    key, unit, about = _shown(problem)
     lines = []
     for row in rows:
         inputs = ", ".join(f"{path} {value:.6g}" for path, value in row["inputs"].items())
-        found = row["reason"] or f"{shown.words} {readable(row['outputs'][key], unit, digits=5)}"
+        found = row["reason"] or f"{about} {readable(row['outputs'][key], unit, digits=5)}"
         lines.append(f"  {inputs}: {found}")
     return "\n".join([*lines, f"{len(rows) - failed} of {len(rows)} cases done, {failed} failed"])

@@ -1,15 +1,19 @@
-"""The operation ``uncertainty``: the band of a force from tolerances, and which input matters."""
+"""The operation ``uncertainty``: the band of a force by its inputs, and which of them matters."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import log
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
+from viscotack.materials.passport import Passport
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import Number, Text, Whole
+from .declare.cards import FileOfNames, Named, Number, Placed, Text, Whole
 from .declare.options import Operation
 from .declare.statement import INDENTERS, Stated, Statement
+from .forecast import fitted
+from .parts.solid import passport_of, published
 
 if TYPE_CHECKING:
     from viscotack.forecast.uncertainty import Uncertainty
@@ -17,11 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class OfUncertainty(Operation):
-    """Propagate tolerances of inputs to the pull-off force, and show which input matters.
+    """Propagate uncertainties of inputs to the pull-off force, and show which input matters.
 
     Each --scatter names a number of the problem, as listed by viscotack campaign inputs, and its
-    relative standard deviation. The best tier within the budget predicts drawn problems, and its
-    own error counts too.
+    relative standard deviation. With --passport the solids sampled from its measurement replace
+    the material, and with --study the interfaces sampled from a fitted series replace the
+    interface. The best tier within the budget predicts drawn problems, and its own error counts
+    too.
 
     Example: viscotack uncertainty lens.toml --scatter "geometry.radius 2 %"
     --scatter "traction.work_of_adhesion 15 %"
@@ -41,7 +47,39 @@ class OfUncertainty(Operation):
     scatter: Annotated[
         tuple[str, ...],
         Text('A number and its relative standard deviation, "protocol.speed 5 %".', metavar="TEXT"),
-    ]
+    ] = ()
+    passport: Annotated[
+        str | Passport | None,
+        Named(
+            "A passport, or the name of a published material, in place of the material; its "
+            "sampled solids, or its intervals, are its uncertainty.",
+            metavar="PASSPORT",
+            published=published,
+            objects=(Passport,),
+        ),
+    ] = None
+    temperature: Annotated[
+        float | None,
+        Number('Temperature, "25 degC"; default: that of the passport.', unit="K", metavar="T"),
+    ] = None
+    temperature_uncertainty: Annotated[
+        float | None,
+        Number(
+            'Standard uncertainty of the temperature, "0.5 K". It changes the times of the '
+            "material by the shift of the passport.",
+            unit="K",
+            above=0,
+            metavar="T",
+        ),
+    ] = None
+    study: Annotated[
+        Placed | None,
+        FileOfNames(
+            "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
+            "place of the interface.",
+            metavar="STUDY",
+        ),
+    ] = None
     confidence: Annotated[
         float, Number("Fraction inside the band.", above=0, most=0.999, metavar="PART")
     ] = 0.9
@@ -68,10 +106,12 @@ class OfUncertainty(Operation):
         deviations = dict(deviation_of(text) for text in self.scatter)
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
-        problem: Any = self.problem.problem
+        problem, sampled, times = self._known(caller)
         found = uncertainty(
             problem,
             deviations,
+            sampled=sampled,
+            times=times,
             confidence=self.confidence,
             samples=self.samples,
             seed=self.seed,
@@ -82,7 +122,7 @@ class OfUncertainty(Operation):
         rows = [
             {
                 "input": name,
-                "deviation": deviations.get(name),
+                "deviation": {**deviations, **times}.get(name),
                 "first": x,
                 "total": found.total[name],
             }
@@ -97,8 +137,62 @@ class OfUncertainty(Operation):
             words=lambda: _words(found, rows, force.words, unit),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_uncertainty(found)},
-            notes=self.problem.notes,
         )
+
+    def _known(self, caller: Caller) -> tuple[Any, dict[str, Any], dict[str, float]]:
+        """Return the problem, sampled parts, and the deviations of ln of the material's times."""
+        problem: Any = self.problem.problem
+        sampled: dict[str, Any] = {}
+        times: dict[str, float] = {}
+        given = {"--passport": self.passport, "--study": self.study}
+        stated = [flag for flag, value in given.items() if value is not None]
+        if stated and problem.scales() is None:
+            raise InputError(f"{stated[0]} needs a problem with dimensions, in SI")
+        if self.passport is not None:
+            problem, sampled, times = self._of_passport(problem, caller)
+        elif self.temperature is not None or self.temperature_uncertainty is not None:
+            raise InputError("a temperature needs --passport, which has the shift of the times")
+        elif self.problem.deviation > 0:
+            times["shift"] = self.problem.deviation * log(10.0)
+        if self.study is not None:
+            from viscotack.identify import interfaces
+            from viscotack.identify.forward import law_of
+
+            fit = fitted(self.study, caller).fit
+            growth = None if fit.growth is None else fit.growth.law
+            law = law_of(fit.work_of_adhesion, fit.equilibrium_gap, growth)
+            problem = replace(problem, traction=law)
+            sampled["traction"] = interfaces(fit, _INTERFACES, seed=self.seed)
+        return problem, sampled, times
+
+    def _of_passport(
+        self, problem: Any, caller: Caller
+    ) -> tuple[Any, dict[str, Any], dict[str, float]]:
+        """Return the problem on the material of the passport, its solids, and its times."""
+        from viscotack.materials.passport_uncertainty import allowed, shift_error
+
+        passport = passport_of(self.passport or "", caller.also)
+        if self.temperature is not None:
+            passport = passport.moved_to(self.temperature)
+        problem = replace(problem, material=passport.material)
+        solids, times = allowed(passport), {}
+        if (kelvin := self.temperature_uncertainty) is not None:
+            times["temperature"] = shift_error(passport, kelvin)
+            if not times["temperature"]:
+                raise InputError(
+                    f"{passport.name}: the temperature dependence of its times is unknown; omit "
+                    "--temperature-uncertainty"
+                )
+        if not solids and not times:
+            raise InputError(
+                f"{passport.name}: the uncertainty of this material is unknown (no sampled solids "
+                "and no intervals); omit --passport, or state --scatter of its constants"
+            )
+        return problem, {"material": solids} if solids else {}, times
+
+
+# Number of interfaces sampled from a study.
+_INTERFACES = 64
 
 
 def deviation_of(text: str) -> tuple[str, float]:

@@ -1,6 +1,7 @@
 """Figure of a design: forces by speed with their targets, and elasticities."""
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,7 +9,8 @@ import numpy as np
 
 from viscotack.design import Design, DesignFile
 from viscotack.design.fast import Force
-from viscotack.design.margins import pads_of
+from viscotack.design.margins import pad_of
+from viscotack.errors import InputError
 
 from .plot import axis_unit
 
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
-_COLOURS = {"hold": "#08519c", "release": "#d94801"}
+_COLOURS = {"hold": "#08519c", "release": "#d94801", "work": "#41ab5d", "dead_load": "#6a51a3"}
 # Number of speeds, and factor on both ends of their range.
 _SPEEDS, _WIDER = 25, 2.0
 
@@ -52,8 +54,9 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
     best, run = found.best, found.simulated[0]
     speeds = {"hold": best.choice.hold_speed, "release": best.choice.release_speed}
     known = [speed for speed in speeds.values() if speed is not None]
-    pad = next(iter(pads_of(best.choice, stated.targets).values()))
-    points = np.geomspace(min(known) / _WIDER, max(known) * _WIDER, _SPEEDS).tolist()
+    pad = pad_of(best.choice, 1.0, bonded=stated.space.bonded)
+    ends = (min(known) / _WIDER, max(known) * _WIDER) if known else (1e-6, 1e-3)
+    points = np.geomspace(*ends, _SPEEDS).tolist()
     forces = [found.fast.force(replace(pad, speed=v)) for v in points]
     curve = [(v, f) for v, f in zip(points, forces, strict=True) if isinstance(f, Force)]
     N, (unit, name) = best.choice.pads, axis_unit(_largest(found), "N")
@@ -86,8 +89,7 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
 
 
 def _largest(found: Design) -> float:
-    best = found.best
-    return max(force.value for force in (best.hold, best.release) if force is not None)
+    return max(force.value for name, force in found.best.forces.items() if name != "work")
 
 
 def _draw_slopes(axes, found: Design) -> None:  # noqa: ANN001
@@ -96,10 +98,59 @@ def _draw_slopes(axes, found: Design) -> None:  # noqa: ANN001
     for i, (force, slopes) in enumerate(found.elasticities.items()):
         at = [names.index(x) + (i - 0.5) * height for x in slopes]
         values = [np.nan if s is None else s for s in slopes.values()]
-        axes.barh(at, values, height=height, color=_COLOURS[force], label=f"force to {force}")
+        axes.barh(at, values, height=height, color=_COLOURS[force], label=force.replace("_", " "))
     axes.set_yticks(range(len(names)), [x.replace("_", " ") for x in names])
     axes.invert_yaxis()
     axes.axvline(0, color="0.4", lw=0.8)
     axes.set_xlabel("d ln P/d ln x")
     axes.set_title("what matters")
     axes.legend(frameon=False, fontsize=8)
+
+
+def draw_front(found: Design) -> "Figure":
+    """Draw the front of a design: the margins of each pair of neighbouring targets.
+
+    Parameters
+    ----------
+    found : Design
+        Result of :func:`viscotack.find_design` for several targets.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Dots have the forces over their targets (for the release and the preload the targets over
+        them) by the less favourable ends of the intervals, and lines lead to the more favourable
+        ends. In the upper right quarter, beyond 1, both targets are met. The star is the first
+        design.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    if not found.front:
+        raise InputError("a front needs several targets; this design has one")
+    names = list(found.front[0].margins)
+    pairs = list(pairwise(names))
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(5.2 * len(pairs), 4.6), layout="constrained")
+        panels = np.ravel(figure.subplots(1, len(pairs), squeeze=False))
+        for axes, (x, y) in zip(panels, pairs, strict=True):
+            for one in found.front:
+                low, high = one.margins, one.best_margins
+                axes.plot(*np.exp([[low[x], high[x]], [low[y], high[y]]]), color="0.7", lw=1.5)
+            at = np.exp([[one.margins[x], one.margins[y]] for one in found.front])
+            axes.plot(*at.T, "o", ms=5, color=_COLOURS["hold"])
+            best = found.best.margins
+            axes.plot(*np.exp([best[x], best[y]]), "*", ms=13, color=_COLOURS["release"])
+            axes.axhline(1, color="0.4", lw=0.8)
+            axes.axvline(1, color="0.4", lw=0.8)
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.set_xlabel(_over(x))
+            axes.set_ylabel(_over(y))
+    return figure
+
+
+def _over(target: str) -> str:
+    """Return the label of the margin of a target."""
+    words = target.replace("_", " ")
+    return f"target over {words}" if target in ("release", "preload") else f"{words} over target"

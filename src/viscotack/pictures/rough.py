@@ -13,9 +13,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
+from viscotack.pads.rough_surface import Superposition
 from viscotack.rough.problem import RoughProblem
 from viscotack.rough.result import FieldMap, RoughResult
-from viscotack.rough.superposition import Superposition
 
 from .plot import axis_unit
 
@@ -134,7 +134,7 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     problem : RoughProblem
         The surface.
     found : Superposition
-        Result of :func:`viscotack.rough.superposed`.
+        Result of :func:`viscotack.pads.superposed`.
 
     Returns
     -------

@@ -4,5 +4,15 @@ from .older import PunchGroups
 from .plane import PunchScales
 from .problem import Case, Groups, Problem
 from .revolution import Scales
+from .rough_case import RoughCase, StatedSurface
 
-__all__ = ["Case", "Groups", "Problem", "PunchGroups", "PunchScales", "Scales"]
+__all__ = [
+    "Case",
+    "Groups",
+    "Problem",
+    "PunchGroups",
+    "PunchScales",
+    "RoughCase",
+    "Scales",
+    "StatedSurface",
+]

@@ -34,8 +34,12 @@ _ELSEWHERE = {
 
 
 def refuse_maps(where: str, tables: Iterable[str]) -> None:
-    """Raise an InputError for the tables of a window or an array, which state several contacts."""
-    for word, names in (("window", {"stamp", "donor", "receiver"}), ("array", {"pad", "array"})):
+    """Raise an InputError for the tables of a window, an array or a design."""
+    for word, names in (
+        ("window", {"stamp", "donor", "receiver"}),
+        ("array", {"pad", "array"}),
+        ("design", {"targets", "bounds"}),
+    ):
         if found := names & set(tables):
             raise InputError(
                 f"{where}: [{min(found)}] belongs to a file of `viscotack {word}`, which has "

@@ -63,6 +63,9 @@ class AtDepth:
     def __post_init__(self) -> None:
         conform(self)
 
+    def __str__(self) -> str:
+        return f"{self.word} {self.depth:g}"
+
 
 @dataclass(frozen=True)
 class AtForce:
@@ -95,6 +98,9 @@ class AtForce:
 
     def __post_init__(self) -> None:
         conform(self)
+
+    def __str__(self) -> str:
+        return f"{self.word} {self.force:g}"
 
 
 @dataclass(frozen=True)
@@ -129,6 +135,9 @@ class AtRadius:
 
     def __post_init__(self) -> None:
         conform(self)
+
+    def __str__(self) -> str:
+        return f"{self.word} {self.contact_radius:g}"
 
 
 Start = AtDepth | AtForce | AtRadius
@@ -169,6 +178,9 @@ class Apart:
 
     def __post_init__(self) -> None:
         conform(self)
+
+    def __str__(self) -> str:
+        return f"{self.word} {self.gap:g}"
 
 
 @dataclass(frozen=True)

@@ -1,20 +1,20 @@
 """Rough surfaces in three dimensions, pulled off a soft body at a set rate."""
 
-from .criteria import Stickiness, stickiness
+from .criteria import LONGEST_RANGE, Stickiness, stickiness
 from .problem import RoughProblem, Zone
 from .pulling import pull
 from .result import RoughResult
-from .rough_file import read_rough
-from .superposition import Superposition, superposed
+from .rough_file import problem_of, read_rough, read_rough_case
 
 __all__ = [
+    "LONGEST_RANGE",
     "RoughProblem",
     "RoughResult",
     "Stickiness",
-    "Superposition",
     "Zone",
+    "problem_of",
     "pull",
     "read_rough",
+    "read_rough_case",
     "stickiness",
-    "superposed",
 ]

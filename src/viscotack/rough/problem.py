@@ -111,7 +111,8 @@ class RoughProblem:
                 "at rest"
             )
         if not isinstance(self.body, HalfSpace | Layer):
-            raise InputError(f"a map of heights lies on a half-space or a layer, not {self.body}")
+            body = getattr(self.body, "word", type(self.body).__name__)
+            raise InputError(f"a map of heights lies on a half-space or a layer, got {body}")
         if (slope := self.roughness.rms_slope) > _STEEPEST:
             raise InputError(
                 f"the rms slope of the map is {slope:.3g}, and small strain holds up to "

@@ -6,26 +6,21 @@ table [surface] names a file of heights or states a generated map.
 
 import os
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.problem.case_file import parts_of_tables
 from viscotack.problem.case_table import Table, refuse_unknown
-from viscotack.surfaces import HeightMap, bumps, pillars, read_map, self_affine, sphere
+from viscotack.problem.rough_case import KINDS, RoughCase, StatedSurface, hash_of
 
 from .problem import RoughProblem
 
 _TABLES = ("surface", "material", "interface", "protocol", "layer")
 _TOML = (".toml", "")
-# Generated maps: their function, lengths that are needed, lengths and numbers that may be given.
-_KINDS: dict[str, tuple[Any, tuple[str, ...], tuple[str, ...]]] = {
-    "sphere": (sphere, ("radius",), ()),
-    "self-affine": (self_affine, ("rms_height",), ("roll_off", "shortest")),
-    "bumps": (bumps, ("radius", "spacing", "height"), ("scatter",)),
-    "pillars": (pillars, ("radius", "spacing", "height"), ()),
-}
 
 
 def read_rough(
@@ -50,6 +45,23 @@ def read_rough(
     ValueError
         If it is not TOML, or a table or key is missing, unknown or invalid.
     """
+    case = read_rough_case(path, also=also, beside=beside)
+    try:
+        return problem_of(case)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def read_rough_case(
+    path: str | os.PathLike[str],
+    *,
+    also: Iterable[Any] = (),
+    beside: Callable[[str], Path] | None = None,
+) -> RoughCase:
+    """Read a rough surface and its test as they are stated, without making the map.
+
+    The parameters are those of :func:`read_rough`. A measured map is stated by its file and hash.
+    """
     path = Path(path)
     if path.suffix.lower() not in _TOML and path.is_file():
         raise InputError(
@@ -60,73 +72,57 @@ def read_rough(
     refuse_unknown(f"{path}", tables, _TABLES, "table")
     beside = beside or path.parent.joinpath
     parts = parts_of_tables(path, tables, also=also, beside=beside)
-    surface = _surface(Table(path, "surface", tables, beside))
-    try:
-        return RoughProblem(surface=surface, **parts)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+    return RoughCase(surface=_surface(Table(path, "surface", tables, beside)), **parts)
 
 
-def _surface(table: Table) -> HeightMap:
-    """Return the map stated by the table [surface]; several generated maps may be added."""
-    if "file" in table.values:
-        found = _measured(table)
-    else:
-        kinds = table.get("kind", '"self-affine"')
-        names = kinds if isinstance(kinds, list) else [kinds]
-        if not names or any(name not in _KINDS for name in names):
-            raise InputError(f"{table.name} kind must be one of {', '.join(_KINDS)}, got {kinds!r}")
-        maps = [_generated(table, name) for name in names]
-        found = maps[0]
-        for other in maps[1:]:
-            found = table.make(found.__add__, other)
-    if _switch(table, "level", False):
-        found = table.make(found.levelled, curvature=_switch(table, "remove_curvature", False))
-    table.finish()
-    return found
-
-
-def _measured(table: Table) -> HeightMap:
-    file = table.beside("file", '"scan.npy"')
-    table.known |= {"pixel", "height_unit"}
-
-    def stated(key: str) -> float | None:
-        return table.quantity(key, "m", '"1 nm"') if key in table.values else None
-
-    pixel, unit = stated("pixel"), stated("height_unit")
-    return table.make(
-        read_map, file, pixel=pixel, unit=unit, periodic=_switch(table, "periodic", False)
+def problem_of(case: RoughCase) -> RoughProblem:
+    """Return the problem that is stated, with its map of heights."""
+    return RoughProblem(
+        surface=case.surface.map(),
+        material=case.material,
+        traction=case.traction,
+        protocol=case.protocol,
+        body=case.body,
     )
 
 
-def _generated(table: Table, name: str) -> HeightMap:
-    kind, needed, optional = _KINDS[name]
-    table.known.add("kind")
-    values: dict[str, Any] = {key: table.quantity(key, "m", '"10 um"') for key in needed}
-    table.known |= set(optional)
-    values |= {key: table.quantity(key, "m") for key in optional if key in table.values}
-    if name == "self-affine":
-        values["hurst"] = table.quantity("hurst", "1", "0.8")
-        values["seed"] = _whole(table, "seed", 0)
-        values["periodic"] = _switch(table, "periodic", True)
-    elif "scatter" in values:
-        values["seed"] = _whole(table, "seed", 0)
-    pixels = _whole(table, "pixels", None)
-    return table.make(kind, pixels, table.quantity("pixel", "m", '"1 um"'), **values)
+def _surface(table: Table) -> StatedSurface:
+    """Return the surface stated by the table [surface]; several generated maps may be added."""
+    given: dict[str, Any] = {}
+    if "file" in table.values:
+        file = table.beside("file", '"scan.npy"').resolve()
+        given |= {"file": str(file), "sha256": hash_of(file)}
+        names = ("pixel", "height_unit")
+    else:
+        kinds = table.get("kind", '"self-affine"')
+        kinds = kinds if isinstance(kinds, list) else [kinds]
+        if not kinds or any(kind not in KINDS for kind in kinds):
+            raise InputError(f"{table.name} kind must be one of {', '.join(KINDS)}, got {kinds!r}")
+        given["kind"] = tuple(kinds)
+        needed = {"pixels", "pixel", *(name for kind in kinds for name in KINDS[kind][1])}
+        names = (*needed, *(name for kind in kinds for name in KINDS[kind][2]))
+        stated = cards(StatedSurface)
+        table.require(stated[name] for name in stated if name in needed)
+        for name in stated:
+            if name in needed:
+                table.get(name)
+    if "file" in given or "self-affine" in given["kind"]:
+        given["periodic"] = _switch(table, "periodic")
+    given["level"] = bool(_switch(table, "level"))
+    given["remove_curvature"] = bool(_switch(table, "remove_curvature"))
+    table.known |= set(names)
+    given |= {
+        name: table.number(field)
+        for name, field in cards(StatedSurface).items()
+        if name in names and name in table.values
+    }
+    table.finish()
+    return table.make(partial(StatedSurface, **given))
 
 
-def _whole(table: Table, key: str, default: int | None) -> int:
-    """Return a whole number, the default without the key."""
+def _switch(table: Table, key: str) -> bool | None:
     table.known.add(key)
-    given = table.get(key, "128") if default is None else table.values.get(key, default)
-    if not isinstance(given, int) or isinstance(given, bool) or given < 0:
-        raise InputError(f"{table.name} {key} must be a whole number, got {given!r}")
-    return given
-
-
-def _switch(table: Table, key: str, default: bool) -> bool:
-    table.known.add(key)
-    given = table.values.get(key, default)
-    if not isinstance(given, bool):
+    given = table.values.get(key)
+    if given is not None and not isinstance(given, bool):
         raise InputError(f"{table.name} {key} must be true or false, got {given!r}")
     return given

@@ -28,7 +28,7 @@ from viscotack.arrays import Array
 from .answers import Answers
 from .line import Curves, curves
 from .network import Networks
-from .trust import disagreement_inputs, error_inputs
+from .trust import error_inputs
 
 # A network's output is zero where the fraction is one half.
 STEEP = 4.0
@@ -225,10 +225,7 @@ class Contact:
 
     def told_of_errors(self, answers: Answers) -> Array:
         """Return the inputs of the networks of the errors, shape (n, columns)."""
-        told = error_inputs(self.scaled, answers)
-        if "second" not in self.networks:
-            return told
-        return np.column_stack([told, *disagreement_inputs(answers, self.second)])
+        return error_inputs(self.scaled, answers, self.second)
 
     # Start, work and curve ------------------------------------------------------------------
 

@@ -7,7 +7,7 @@ import io
 import json
 import os
 import zlib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 from zipfile import BadZipFile
@@ -39,15 +39,15 @@ def write(
 
 @contextmanager
 def opened(
-    path: str | os.PathLike[str], forms: Collection[str], what: str, most: float
+    path: str | os.PathLike[str], form: str, what: str, most: float
 ) -> Iterator[tuple[dict[str, npt.NDArray[Any]], dict[str, Any]]]:
     """Yield the arrays and metadata of a file written by :func:`write`.
 
     Parameters
     ----------
     path : path
-    forms : collection of str
-        Accepted format names, the newest first.
+    form : str
+        Accepted format name.
     what : str
         Description of the expected content, for error messages.
     most : float
@@ -64,9 +64,8 @@ def opened(
         with open_regular(path) as stream:
             arrays = read_arrays(stream, lambda _: True, most)
         words = json.loads(arrays.pop(_WORDS).tobytes())
-        if words["form"] not in forms:
-            known = ", ".join(map(repr, forms))
-            raise InputError(f"its format is {words['form']!r}, but this version reads {known}")
+        if words["form"] != form:
+            raise InputError(f"its format is {words['form']!r}, but this version reads {form!r}")
         if words["sha256"] != checksum(arrays):
             raise InputError("the checksum of its arrays differs from the stored one")
         yield arrays, words

@@ -27,9 +27,12 @@ import scipy
 
 from viscotack.arrays import Array
 
+from ..theory import jkr, lennard_jones
 from . import physics
 from .answers import Answers
 from .contact import Contact, Further
+from .line import OUTPUTS
+from .trust import OF
 
 # Tabor number, modulus ratio and exponent; the start's depth over the Tabor number, in heights of a
 # contact beta^2/R; and the rate over it, in these heights per time of the material.
@@ -40,6 +43,11 @@ LEAST = 1e-3
 # The theory holds from an effective Tabor number of 2 and 1.5 zones; margin for the error of the
 # networks.
 _LEAST_TABOR, _LEAST_ZONES, _SLOW = 2.2, 1.8, 1.1
+# Parameters of JKR whose units are R dg for forces, beta for radii and beta^2/R for depths; these
+# over the units of forces and radii here.
+_UNIT, _LOAD, _ROOT = ("radius", "contact_modulus", "work_of_adhesion"), 1.5 * np.pi, np.cbrt(np.pi)
+# Largest standard deviation of log10 of the work between its networks.
+_AGREED = 0.01
 # Best length of a zone in crossing times, number of bisections of its energy's logarithm, and the
 # decades of the largest energy.
 _ZONE, _HALVINGS, _DECADES = 0.3, 25, 4.0
@@ -84,12 +92,20 @@ class ShortRangeContact(Contact):
     Further outputs, in :attr:`.answers.Answers.more`, are ``amplification``, the energy of the
     crack at pull-off over the work of adhesion; ``zones``, the travel of the edge to the pull-off
     in zones of the crack; and ``effective``, the effective Tabor number of the zone. The constant
-    ``error`` is the relative difference between networks and theory in 9 and in 98 of 100 cases of
-    solids that are not in the training data.
+    ``error`` is the difference between networks and theory, of each quantity in ``trust.OF``, in 9
+    and in 98 of 100 cases of solids that are not in the training data: of a curve over the
+    pull-off force, the others relative.
     """
 
     name, inputs, low, high, ends = "short range", physics.INPUTS, LOW, HIGH, _ENDS
-    shapes, sizes = {"force": (10, 1), "state": (10, 2)}, {"error": (2,)}
+    shapes = {
+        "force": (10, 1),
+        "state": (10, 2),
+        "work": (14, 1),
+        "give": (15, 1),
+        "line": (15, OUTPUTS),
+    }
+    sizes, start_inputs = {"error": (len(OF), 2)}, physics.START
 
     @staticmethod
     def unit(rows: Array) -> Array:
@@ -128,13 +144,40 @@ class ShortRangeContact(Contact):
             ]
         )
 
+    @cached_property
+    def start(self) -> tuple[Array, Array]:
+        """Force and contact radius of the relaxed starts by JKR, shape (n,) each."""
+        mu, unit = self.rows[:, physics.TABOR], dict.fromkeys(_UNIT, 1.0)
+        depth = self.rows[:, physics.PRELOAD] / mu
+        radius = np.asarray(jkr.contact_radius_at_depth(depth, **unit))
+        force = np.asarray(jkr.force(radius, **unit)) / _LOAD
+        tension = np.where(force < 0, lennard_jones.pull_off_ratio(mu), 1.0)
+        return tension * force, radius / _ROOT
+
+    def knowing(self, force: Array) -> Array:
+        """Return the inputs of networks that depend on start and force, shape (n, 14)."""
+        return physics.with_start(self.told, *self.start, force)
+
     def further(self, output: Array) -> Further:
-        """Return energy and zones at pull-off."""
+        """Return the unit of work over force, and energy and zones at pull-off."""
         state = 10 ** self.networks["state"](self.told)[0]
         most = 1 / self.rows[:, physics.MODULUS_RATIO] - 1
         energy = np.clip(state[:, 0] - LEAST, 0.0, most) + 1
         effective = self.rows[:, physics.TABOR] * energy ** (-1 / 3)
-        return Further(more={"amplification": energy, "zones": state[:, 1], "effective": effective})
+        more = {"amplification": energy, "zones": state[:, 1], "effective": effective}
+        # the networks predict work over force in heights of a contact
+        return Further(work=np.log10(self.rows[:, physics.TABOR]), more=more)
+
+    def give(self, said: Array) -> Array:
+        """Return (travel to zero force) * radius / force, from the output of its networks."""
+        return self.rows[:, physics.TABOR] * super().give(said)
+
+    def agree(self, said: Answers) -> npt.NDArray[np.bool_]:
+        """Return a mask of the works that both networks predict alike, shape (n,).
+
+        They differ where the force has two maxima of about the same height.
+        """
+        return said.work_spread < _AGREED
 
     def holds(self, said: Answers) -> npt.NDArray[np.bool_]:
         """Return a mask of the tests to which the theory applies, as predicted, shape (n,)."""

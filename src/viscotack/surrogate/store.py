@@ -19,7 +19,7 @@ from .network import Networks, from_arrays
 from .physics import SphereContact
 from .punch_physics import PunchContact
 from .short_range import ShortRangeContact
-from .trust import CONFIDENCES, DIFFERENCES, OF, Trust
+from .trust import CONFIDENCES, OF, Trust
 
 _FOLDER = Path(__file__).parent
 # Files of the package, by the names of their contacts.
@@ -34,18 +34,6 @@ _CONTACTS: dict[str, type[Contact]] = {
     each.name: each for each in (SphereContact, SolidContact, PunchContact, ShortRangeContact)
 }
 _FORM = "viscotack surrogate 4"
-# The format without second networks; and earlier ones, each of one contact, with the prefixes of
-# names that have changed since.
-_WITHOUT_SECOND = "viscotack surrogate 3"
-_BEFORE = {
-    "viscotack surrogate 2": ("sphere", {}),
-    "viscotack solids 2": ("solids", {"force.": "bend_force.", "work.": "bend_work."}),
-    "viscotack punch 1": ("punch", {"stress.": "force."}),
-    "viscotack short range 1": (
-        "short range",
-        {"centre": "state.centre", "spread": "state.spread"},
-    ),
-}
 # Largest accepted file [bytes unpacked]; the largest one of the package has less than one
 # megabyte.
 _MOST = 50e6
@@ -119,14 +107,12 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 
 
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
-    forms = (_FORM, _WITHOUT_SECOND, *_BEFORE)
-    with sealed.opened(path, forms, "the file of a surrogate", _MOST) as (found, words):
-        arrays, words = _upgraded(found, words)
+    with sealed.opened(path, _FORM, "the file of a surrogate", _MOST) as (arrays, words):
         contact = _CONTACTS[words["contact"]]
         _check_numbers(arrays)
         networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes if _stored(n, arrays)}
         for name, each in networks.items():
-            _check_layers(name, each, *_ends(contact, name, "second" in networks))
+            _check_layers(name, each, *contact.shapes[name])
         trust = None
         if reach := networks.pop("trust", None):
             trust = Trust(reach, arrays["trust.levels"], arrays.get("trust.joint"))
@@ -145,28 +131,9 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
         return Surrogate(contact, networks, trust, constants), words
 
 
-def _ends(contact: type[Contact], name: str, with_second: bool) -> tuple[int, int]:
-    """Return the numbers of inputs and outputs of networks."""
-    inputs, outputs = contact.shapes[name]
-    return inputs - (DIFFERENCES if name == "trust" and not with_second else 0), outputs
-
-
 def _stored(name: str, arrays: Arrays) -> bool:
-    """Return whether a file must have networks; those that may abstain came later."""
-    return name != "second" or f"{name}.weight.0" in arrays
-
-
-def _upgraded(arrays: Arrays, words: dict[str, Any]) -> tuple[Arrays, dict[str, Any]]:
-    """Rename arrays and metadata of a file of an earlier format to the current names."""
-    if words["form"] in (_FORM, _WITHOUT_SECOND):
-        return arrays, words
-    contact, renamed = _BEFORE[words["form"]]
-
-    def name(old: str) -> str:
-        begin = next((each for each in renamed if old.startswith(each)), "")
-        return renamed.get(begin, "") + old.removeprefix(begin)
-
-    return {name(old): each for old, each in arrays.items()}, {**words, "contact": contact}
+    """Return whether a file must have networks; those of intervals are trained last."""
+    return name not in ("second", "trust") or f"{name}.weight.0" in arrays
 
 
 def _checksum(networks: Mapping[str, Networks], names: tuple[str, ...]) -> str:

@@ -23,9 +23,8 @@ from .network import Networks
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
 # Outputs of the network, and number of its inputs: five groups, their proximity to the ends of
 # their ranges, the spreads of two predictions, position and slope of the force between its limits,
-# and the differences of two predictions from those of the second networks, which older files lack.
-OF, DIFFERENCES = ("force", "work", "curve", "travel"), 2
-INPUTS = 10 + DIFFERENCES
+# and the differences of two predictions from those of the second networks.
+OF, INPUTS = ("force", "work", "curve", "travel"), 12
 # Distance from an end below which an input is near it, relative to half its range.
 _NEAR = 0.03
 # Spreads of log10 below this have no effect; their logarithms are of order one.
@@ -33,14 +32,15 @@ _LEAST_SPREAD, _DECADES = 1e-5, 2.0
 # Differences of log10 below this have no effect, and their columns in the inputs.
 _LEAST_DIFFERENCE, _COMPARED = 1e-3, slice(10, INPUTS)
 # Differences of log10 of force and work between both models below which they agree, and the
-# largest half widths of the 90 % intervals of a prediction that is given.
-AGREED, WIDEST = np.log10([1.02, 1.06]), np.log10([1.05, 1.15])
+# largest predicted errors of a number that is given. Errors of works reach twice this prediction
+# in 98 of 100 fresh cases, so that of a given work 10 % are rarely exceeded.
+AGREED, WIDEST = np.log10([1.02, 1.06]), np.log10([1.03, 1.05])
 # Smallest distinguished distance of the fraction from 0 and 1, and smallest slope.
 _LEAST_SHARE = 1e-6
 
 
-def error_inputs(scaled: Array, answers: Answers) -> Array:
-    """Return the inputs of the network of the errors but the differences, shape (n, 10).
+def error_inputs(scaled: Array, answers: Answers, second: tuple[Array, Array]) -> Array:
+    """Return the inputs of the network of the errors, shape (n, INPUTS).
 
     An error of the output of the network for the fraction s changes the force by s (1 - s) times
     the distance between its limits.
@@ -51,6 +51,8 @@ def error_inputs(scaled: Array, answers: Answers) -> Array:
         Inputs of the cases, each scaled to [-1, 1] over its range.
     answers : Answers
         Predictions for the cases.
+    second : pair of ndarray, shape (n,)
+        log10 of force and work by the second networks.
     """
     spreads = answers.force_spread, answers.work_spread
     apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
@@ -60,14 +62,12 @@ def error_inputs(scaled: Array, answers: Answers) -> Array:
     share = np.minimum(np.maximum(answers.share, _LEAST_SHARE), 1 - _LEAST_SHARE)
     climb = np.log10(np.maximum(share * (1 - share) * answers.way, _LEAST_SHARE)) / 3 + 1
     place = np.log(share / (1 - share)) / 5
-    return np.column_stack([scaled, faces - 1, *apart, climb, place])
-
-
-def disagreement_inputs(answers: Answers, second: tuple[Array, Array]) -> list[Array]:
-    """Return the inputs that compare force and work with the second networks, shape (n,) each."""
     values = answers.pull_off_force, answers.work_to_pull_off
-    apart = [np.abs(other - np.log10(x)) for x, other in zip(values, second, strict=True)]
-    return [np.log10(x + _LEAST_DIFFERENCE) + 2 for x in apart]
+    differ = [
+        np.log10(np.abs(other - np.log10(x)) + _LEAST_DIFFERENCE) + 2
+        for x, other in zip(values, second, strict=True)
+    ]
+    return np.column_stack([scaled, faces - 1, *apart, climb, place, *differ])
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,15 +93,14 @@ class Trust:
     def doubtful(self, inputs: Array) -> npt.NDArray[np.bool_]:
         """Return a mask of the forces and works that are not certain, shape (n, 2).
 
-        A number is doubtful if that of the second networks, which have other inputs, another form
-        and further training rows, lies outside of its 90 % interval widened to at least
-        ``AGREED``, or if half of this interval exceeds ``WIDEST``; a work also if its force is.
-        Where the force has two maxima of about the same height, both models are wrong in
-        different ways.
+        A number is doubtful if its predicted error exceeds ``WIDEST``, or if it differs from that
+        of the second networks, which have other inputs, another form and further training rows, by
+        more than this error and ``AGREED``; a work also if its force is. Where the force has two
+        maxima of about the same height, both models are wrong in different ways.
         """
-        half = np.column_stack(self.widths(inputs, 0.9)[:2])
+        error = 10.0 ** self.reach(inputs).mean(axis=0)[:, :2]
         apart = 10 ** (inputs[:, _COMPARED] - 2) - _LEAST_DIFFERENCE
-        excess = np.maximum(apart / np.maximum(half, AGREED), half / WIDEST)
+        excess = np.maximum(apart / np.maximum(error, AGREED), error / WIDEST)
         return np.column_stack([excess[:, 0], np.maximum(excess[:, 0], excess[:, 1])]) > 1
 
     def widths(self, inputs: Array, confidence: float, *, joint: bool = False) -> tuple[Array, ...]:

@@ -14,11 +14,11 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import estimate_by
-from viscotack.forecast.closed_forms import edge_curve
 from viscotack.forecast.prediction import Prediction
 from viscotack.forecast.prediction_table import predict_table
 from viscotack.forecast.punches import inputs_of
 from viscotack.forecast.question import Question
+from viscotack.forecast.theories import forms_of
 from viscotack.forecast.tiers import AT_ONCE, TIERS
 from viscotack.geometry import Disc, FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
@@ -150,13 +150,14 @@ def _elastic(problem: Problem, found: dict[str, Any]) -> None:
 
 def _edge(problem: Problem, found: dict[str, Any]) -> None:
     """Add the curve of a moving edge on a relaxed bulk, and whether it applies."""
+    question = Question(problem)
     try:
-        curve = edge_curve(problem)
+        curve = question.once(forms_of).curve
     except InputError:  # of another test or shape; the advisor gives the reason
         return
     if curve is None:
         return
-    estimate = estimate_by(UNLOADING, Question(problem))
+    estimate = estimate_by(UNLOADING, question)
     scales = problem.scales()
     keep = np.unique(np.linspace(0, len(curve.depth) - 1, 2 * _POINTS).astype(int))
     found["curves"]["edge"] = _curve(

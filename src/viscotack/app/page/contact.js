@@ -4,7 +4,7 @@ import { Plot, element, save } from "./plot.js";
 import { digits, percent, pulled, pulledBy, said, shown, workOf } from "./numbers.js";
 import { bandOf } from "./answer.js";
 import { reportOf } from "./report.js";
-import { setUp, surface } from "./drawing.js";
+import { learned, setUp, surface } from "./drawing.js";
 import { curveOf } from "./store.js";
 
 const ENERGY = { drive: ["work of the drive", "c6"], interface: ["interface", "c0"], elastic: ["elastic energy", "c1"], spring: ["spring of the machine", "c5"], heat: ["heat in the solid", "c2"], interface_heat: ["heat in the interface", "c4"], jumps: ["lost in jumps", "c3"], transfer: ["lost in mesh moves", "c6"] };
@@ -107,12 +107,7 @@ export class Contact {
     const crack = theory && theory.version === now ? theory.crack : null;
     if (edge && !crack) series.push({ kind: "line", x: edge.depth, y: edge.force, colour: "c2", dash: !edge.applies, faint: !edge.applies, beside: !edge.applies, words: `theory: ${edge.words}${edge.applies ? "" : " (does not apply here)"}` });
     if (crack) series.push({ kind: "line", x: crack.depth, y: crack.force, colour: "c2", dash: !crack.applies, words: `theory: ${crack.words}` });
-    if (surrogate) {
-      const ends = [Math.min(...surrogate.depth), Math.max(...surrogate.depth)];
-      const place = surrogate.depth[surrogate.depth.length - 1], reach = 0.22 * (ends[1] - ends[0]);
-      series.push({ kind: "band", x: [place - reach, place + reach], low: surrogate.interval.map(() => -surrogate.interval[1]), high: surrogate.interval.map(() => -surrogate.interval[0]), colour: "c1", words: `learned: pull-off, ${Math.round(100 * surrogate.confidence)} % of cases` });
-      series.push({ kind: "line", x: surrogate.depth, y: surrogate.force, colour: "c1", width: 7, soft: true, words: surrogate.words });
-    }
+    if (surrogate) series.push(...learned(surrogate));
     if (simulated.depth.length) series.push({ kind: "line", x: simulated.depth, y: simulated.force, colour: "c0", faint: stale, beside: stale, width: 2.8, words: stale ? "simulation of the case before" : growing ? "simulation, as it runs" : "simulation" });
     if (this.store.rig) for (const one of this.store.rig.curves.slice(0, 3)) series.push({ kind: "points", x: one.depth, y: one.force, colour: "c3", size: 1.5, words: `measured: ${one.file}` });
     this.plot.cursor = null;

@@ -96,6 +96,15 @@ function spoken(shape, tables) {
   return `Set-up: a ${shape} on a soft body of ${words(tables.material?.rubbery_modulus)}, pulled at ${words(tables.protocol?.speed)}`;
 }
 
+// The predicted curve, and the band of its pull-off.
+export function learned({ depth, force, interval, confidence, words: told }) {
+  const place = depth[depth.length - 1], reach = 0.22 * (Math.max(...depth) - Math.min(...depth));
+  return [
+    { kind: "band", x: [place - reach, place + reach], low: interval.map(() => -interval[1]), high: interval.map(() => -interval[0]), colour: "c1", words: `learned: pull-off, ${Math.round(100 * confidence)} % of cases` },
+    { kind: "line", x: depth, y: force, colour: "c1", width: 7, soft: true, words: told },
+  ];
+}
+
 // The surface at one instant, as simulated: the body below, the indenter above, pressure between.
 export function surface(profile, depth, quick) {
   const radius = profile.radius, gap = profile.gap, pressure = profile.pressure;

@@ -10,10 +10,11 @@ import { Compare } from "./compare.js";
 import { Record } from "./record.js";
 import { Operations, some } from "./operations.js";
 import { ask } from "./server.js";
+import { theme } from "./theme.js";
 import { element } from "./plot.js";
 
 // A view more is a line more: its class draws into an element, and listens to the store.
-const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["design", "Design", some("design", "design")], ["window", "Pick and print", some("window", "window")], ["array", "Arrays", some("array", "array", "theory rectangle")], ["rough", "Rough surfaces", some("rough", "rough")], ["report", "Reports", some("report", "report", "forecast")], ["operations", "All operations", Operations]];
+const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["design", "Design", some("design", "design", "uncertainty")], ["window", "Pick and print", some("window", "window")], ["array", "Arrays", some("array", "array", "theory rectangle")], ["rough", "Rough surfaces", some("rough", "rough")], ["report", "Reports", some("report", "report", "forecast", "next-test")], ["operations", "All operations", Operations]];
 
 async function begin() {
   theme();
@@ -112,18 +113,6 @@ function tabs(store) {
   });
   show(all.find(({ id }) => id === shown) || all[0]);
   return all;
-}
-
-function theme() {
-  const root = document.documentElement;
-  const set = (name) => { root.dataset.theme = name; dispatchEvent(new Event("resize")); };
-  let known = null;
-  try { known = localStorage.getItem("theme"); } catch { /* a browser that keeps nothing */ }
-  set(known || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"));
-  document.getElementById("theme").addEventListener("click", () => {
-    set(root.dataset.theme === "dark" ? "light" : "dark");
-    try { localStorage.setItem("theme", root.dataset.theme); } catch { /* the same */ }
-  });
 }
 
 begin().catch((error) => {

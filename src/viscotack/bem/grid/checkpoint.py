@@ -28,7 +28,7 @@ from viscotack.files.whole import writing_whole
 EVERY = 30.0
 # Most bytes of a file: 2048 x 2048 pixels and 100 modes.
 _LARGEST = 8e9
-_NAME = re.compile(r"key|(start|main|light)\.[a-z_]{1,20}")
+_NAME = re.compile(r"key|(loading|start|main|light)\.[a-z_]{1,20}")
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -97,8 +97,9 @@ class Checkpoint:
         """Whether it is time to write again."""
         return perf_counter() - self.written >= self.every
 
-    def keep(self, name: str, arrays: Arrays) -> None:
-        """Write the file with new arrays of a part, whole or not at all."""
+    def keep(self, name: str, arrays: Arrays, *, instead_of: str = "") -> None:
+        """Write the file with new arrays of a part, whole or not at all; drop another part."""
+        self.parts.pop(instead_of, None)
         self.parts[name] = arrays
         flat = {f"{part}.{own}": a for part, held in self.parts.items() for own, a in held.items()}
         with writing_whole(self.path) as file:

@@ -44,7 +44,7 @@ _SHARE = 0.1
 # Largest relative closing of a gap per iteration; the repulsion diverges beyond.
 _LARGEST_CLOSING = 0.3
 # Smallest mean of the tractions to which the unbalanced ones are related [strength of the law].
-_LEAST = 1e-9
+_LEAST = 1e-6
 # Length of a step out of an equilibrium that is not stable [range of the law], and iterations after
 # which it is taken.
 _KICK, _LINGERED = 0.05, 5

@@ -19,6 +19,9 @@ from viscotack.bem.place import Place, Run
 # Without types, which SciPy states for several libraries of arrays.
 _label: Any = ndimage.label
 
+# Largest gap of a frame [h0], in single precision; a dead load opens gaps without end.
+_LARGEST_GAP = 1e30
+
 
 @dataclass(frozen=True)
 class Fixed:
@@ -88,7 +91,7 @@ class GridRun(Run):
         close = (state.gap < contact.law.edge_gap).reshape(shape)
         self.touching.append((int(close.sum()), patches(close, contact.plane.periodic)))
         pressure = (state.nodal / contact.area).astype(np.float32).reshape(shape)
-        gap = state.gap.astype(np.float32).reshape(shape)
+        gap = np.minimum(state.gap, _LARGEST_GAP).astype(np.float32).reshape(shape)
         self.frames.take(Frame(seen.time, seen.depth, seen.force, gap, pressure))
         self.told(at)
 

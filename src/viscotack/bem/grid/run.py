@@ -13,7 +13,14 @@ from viscotack.bem.grid.checkpoint import Checkpoint
 from viscotack.bem.grid.descent import Found, equilibrium
 from viscotack.bem.grid.map_contact import MapContact
 from viscotack.bem.grid.recorded import Fixed, Frames, GridRun
-from viscotack.bem.grid.stored import continued, found_arrays, found_of, run_arrays
+from viscotack.bem.grid.stored import (
+    continued,
+    found_arrays,
+    found_of,
+    loading_arrays,
+    loading_of,
+    run_arrays,
+)
 from viscotack.bem.machine import Hold, Leg
 from viscotack.bem.march import through
 from viscotack.bem.place import Place
@@ -39,15 +46,15 @@ def relaxed(
     Under a tensile force it is the contact that is left when a compressed one is unloaded.
     """
     if checkpoint is None:
-        return _relaxed(contact, start)
+        return _relaxed(contact, start, None)
     found = checkpoint.part("start", found_of)
     if found is None:
-        found = _relaxed(contact, start)
-        checkpoint.keep("start", found_arrays(found))
+        found = _relaxed(contact, start, checkpoint)
+        checkpoint.keep("start", found_arrays(found), instead_of="loading")
     return found
 
 
-def _relaxed(contact: MapContact, start: Start | Apart) -> Found:
+def _relaxed(contact: MapContact, start: Start | Apart, checkpoint: Checkpoint | None) -> Found:
     plane, law, span = contact.plane, contact.law, contact.span
     apart = _APART * span
 
@@ -55,25 +62,36 @@ def _relaxed(contact: MapContact, start: Start | Apart) -> Found:
         moved = np.zeros(plane.domain) if guess is None else guess.moved
         return _balanced(contact, moved, Hold(np.inf, depth=depth), depth)
 
+    def keep(found: Found, number: int, depth: float, step: float) -> None:
+        if checkpoint is not None and checkpoint.due:
+            checkpoint.keep("loading", loading_arrays(found, number, depth, step))
+
     if isinstance(start, Apart):
         return _checked(at(1 - start.gap, None))
     if isinstance(start, AtRadius):
         raise InputError("a map has no contact radius to start at; give a depth or a force")
+    begun = None if checkpoint is None else checkpoint.part("loading", loading_of)
     if isinstance(start, AtDepth):
-        found = None
-        for depth in np.linspace(-apart, start.depth, _LOADINGS):
-            found = at(float(depth), found)
+        found, first = (None, 0) if begun is None else begun[:2]
+        depths = np.linspace(-apart, start.depth, _LOADINGS)
+        for number in range(first, _LOADINGS):
+            found = at(float(depths[number]), found)
+            keep(found, number + 1, start.depth, 0.0)
         assert found is not None
         return _checked(found)
     deepest = np.inf if not plane.mean_is_zero else float(contact.rigid_gap.mean()) - 1
-    found, depth, step = None, min(-apart, deepest), 0.25 * contact.travel
-    for _ in range(_MOST_LOADINGS):
+    found, first = None, 0
+    depth, step = min(-apart, deepest), 0.25 * contact.travel
+    if begun is not None:
+        found, first, depth, step = begun
+    for number in range(first, _MOST_LOADINGS):
         found = at(depth, found)
         force = contact.force_under(found.tension, depth)
         touches = np.any(found.gap < law.edge_gap)
         if depth >= deepest or (touches and force >= max(start.force, 0.0)):
             break
         depth, step = min(depth + step, deepest), 1.2 * step
+        keep(found, number + 1, depth, step)
     assert found is not None
     load = (start.force - contact.tail_force(depth)) / (contact.unit * contact.area)
     return _checked(_balanced(contact, found.moved, Hold(0.0, load=load), depth))

@@ -41,6 +41,18 @@ def found_of(arrays: Arrays) -> Found:
     return Found(**{name: arrays[name] for name in _FIELDS_OF_FOUND}, **_values(arrays["about"]))
 
 
+def loading_arrays(found: Found, number: int, depth: float, step: float) -> Arrays:
+    """Return a state on the way to the relaxed start as arrays, with its place on the way."""
+    way = {"number": number, "depth": depth, "step": step}
+    return found_arrays(found) | {"way": _text(way)}
+
+
+def loading_of(arrays: Arrays) -> tuple[Found, int, float, float]:
+    """Reconstruct the state and its place from the output of :func:`loading_arrays`."""
+    way = _values(arrays["way"])
+    return found_of(arrays), way["number"], way["depth"], way["step"]
+
+
 def run_arrays(run: GridRun, at: Place, counted: tuple[int, int, int]) -> Arrays:
     """Return a run and its present place as arrays.
 

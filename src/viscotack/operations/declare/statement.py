@@ -1,7 +1,7 @@
 """Problems as options: defined by numbers, a case file, its tables, or a Python object."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -75,6 +75,8 @@ class Stated(Card):
         a case file is accepted ("case").
     whole : bool
         Whether a case file with any indenter is accepted.
+    rough : bool
+        Whether a file of ``viscotack rough`` is accepted, which states a map of heights.
     table, expected : str
         Option that receives the name of a CSV file given in place of the problem, and the text of
         the error message for other arguments.
@@ -89,6 +91,7 @@ class Stated(Card):
     whole: bool = field(default=True, kw_only=True)
     table: str = field(default="", kw_only=True)
     expected: str = field(default="", kw_only=True)
+    rough: bool = field(default=False, kw_only=True)
 
     def read(self, value: Any, place: Place) -> Statement:
         """Return the problem."""
@@ -97,7 +100,7 @@ class Stated(Card):
         if isinstance(value, str | Path):
             return self._of_case({_CASE: value}, place)
         if not isinstance(value, Mapping):
-            return Statement(_checked(value), given=value)
+            return Statement(self._checked(value), given=value)
         if _CASE in value:
             return self._of_case(value, place)
         if _INDENTER in value:
@@ -105,7 +108,9 @@ class Stated(Card):
         if "type" in value:
             from viscotack.problem.record import from_dict
 
-            return Statement(_checked(from_dict(value, place.also)), given=value)
+            return Statement(
+                _placed(self._checked(from_dict(value, place.also)), place), given=value
+            )
         from .state import State
 
         return Statement(State(value, place.also).problem, given=value)
@@ -144,8 +149,20 @@ class Stated(Card):
         """The tables of a case, a record, or the numbers of an indenter."""
         return {"$ref": "#/components/schemas/Stated"}
 
+    def _checked(self, problem: Any) -> Any:
+        from viscotack.problem import Groups, Problem, RoughCase
+
+        if not isinstance(problem, (Problem, Groups, *((RoughCase,) if self.rough else ()))):
+            raise InputError(
+                "problem must be a Problem or Groups, a case file or its tables, got a "
+                f"{type(problem).__name__}"
+            )
+        return problem
+
     def _of_case(self, value: Mapping[str, Any], place: Place) -> Statement:
+        from viscotack.files.toml import read_toml
         from viscotack.problem.case_file import read_case, shift_deviation
+        from viscotack.rough import read_rough_case
 
         from .questions import given_of, temperature_of
 
@@ -156,6 +173,10 @@ class Stated(Card):
             raise InputError(f"{case} defines the whole problem; remove {', '.join(flags)}")
         kelvin = temperature_of(given)
         beside = place.within(case).file
+        if self.rough and "surface" in read_toml(case):
+            if given.keys() - {_CASE}:
+                raise InputError(f"{case} states the whole test of a map; remove the options")
+            return Statement(read_rough_case(case, also=place.also, beside=beside), given=case)
         problem = read_case(case, also=place.also, temperature=kelvin, beside=beside)
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
@@ -202,15 +223,12 @@ def indenter_of(problem: Any) -> str:
     return "profile" if is_profile else problem.geometry.word
 
 
-def _checked(problem: Any) -> Any:
-    from viscotack.problem import Groups, Problem
-
-    if not isinstance(problem, Problem | Groups):
-        raise InputError(
-            "problem must be a Problem or Groups, a case file or its tables, got a "
-            f"{type(problem).__name__}"
-        )
-    return problem
+def _placed(problem: Any, place: Place) -> Any:
+    """Return a problem of a record, whose map must be a file that the request may read."""
+    surface = getattr(problem, "surface", None)
+    if surface is None or not surface.file:
+        return problem
+    return replace(problem, surface=replace(surface, file=str(place.file(surface.file))))
 
 
 def _answered(question: "Question", answer: Any) -> Any:

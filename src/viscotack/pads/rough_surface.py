@@ -33,16 +33,16 @@ from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import Elastic
 from viscotack.methods import solve
-from viscotack.pads.curve import Curve, side_by_side
-from viscotack.pads.family import Family, Pull, pad_curve
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import Apart, Approach, AtDepth, Retraction
+from viscotack.rough import RoughProblem
 from viscotack.surfaces import Asperities, summits
 from viscotack.theory.elastic import jkr
 from viscotack.traction import has_rest
 
-from .problem import RoughProblem
+from .curve import Curve, side_by_side
+from .family import Family, Pull, pad_curve
 
 # Largest share of the surface for which results are given (benchmarks/grid.py superposition).
 LARGEST_SHARE = 0.15

@@ -1,0 +1,177 @@
+"""Numbers of pages that are computed when the pages are compared, each in less than a second.
+
+A function returns a number, names with numbers, or the lines of a table; `records.py` says how a
+page names it. To add one, write it and name it in `COMPUTED`.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from steady_crack import LAWS, SPEEDS, standard
+
+from viscotack import datasets as sets
+from viscotack.theory import SteadyCrack, punch
+from viscotack.theory.crack.steady import best_strength_ratio, compared
+
+ROOT = Path(__file__).resolve().parents[1]
+# Versions in the table of costs.
+LINES = 4
+
+
+def steady_crack() -> list[str]:
+    """Return the energies of the steady crack, a row for opening and one for closing."""
+    crack = SteadyCrack(standard(), LAWS["Lennard-Jones"])
+    opening, closing = (crack.amplification(sign * SPEEDS) for sign in (1, -1))
+    return [
+        f"| V | {' | '.join(f'{v:,g}' for v in SPEEDS)} |",
+        "|---" * (len(SPEEDS) + 1) + "|",
+        f"| opening | {' | '.join(f'{x:.{_decimals(x)}f}' for x in opening)} |",
+        f"| closing | {' | '.join(f'{x:.4f}' for x in closing)} |",
+    ]
+
+
+def other_cracks() -> list[str]:
+    """Return how far closed forms are off the steady crack, a row for each law."""
+    rows = []
+    for name, law in LAWS.items():
+        crack = SteadyCrack(standard(), law)
+        others, (alpha, off) = compared(crack, SPEEDS), best_strength_ratio(crack)
+        spans = [_span(others.off(theory)) for theory in ("persson_brener", "greenwood")]
+        name = name.replace(", ", ", decay ")
+        his = ": it is his crack" if name == "Dugdale" else ""
+        rows.append(f"| {name} | {spans[0]} | {alpha:.3f}, {100 * off:.1f} % | {spans[1]}{his} |")
+    return [
+        "| law | Persson-Brener, α = π/9 | its best α, and off by | Greenwood, length of the "
+        "strength |",
+        "|---|---|---|---|",
+        *rows,
+    ]
+
+
+def punch_envelope() -> list[str]:
+    """Return the exact pull-off stress of a layer over the larger of its two limits."""
+    b = np.array([0.05, 0.2, 0.5, 1.0, 4 / np.pi, 2.0, 5.0, 10.0])
+    kind = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+    exact = punch.crossover.pull_off_stress(b, half_width=1.0, base=punch.Frictionless(), **kind)
+    thin = punch.laws.thin_layer_pull_off_stress(b, base=punch.Frictionless(), **kind)
+    wide = punch.laws.half_plane_pull_off_stress(1.0, **kind)
+    ratio = exact / np.maximum(thin, wide)
+    heads = ["4/pi" if abs(x - 4 / np.pi) < 1e-9 else f"{x:g}" for x in b]
+    return [
+        f"| b/a | {' | '.join(heads)} |",
+        "|---" * (len(b) + 1) + "|",
+        f"| exact over envelope | {' | '.join(f'{x:.3f}' for x in ratio)} |",
+    ]
+
+
+def published() -> dict[str, float]:
+    """Return what the page of the published table, which its command writes, states of all rows."""
+    text = " ".join((ROOT / "replication/published/README.md").read_text("utf-8").split())
+    found = re.search(
+        r"([\d,]+) rows of the table .*?differs by (\S+) % in the median; 95 % of the rows are "
+        r"below (\S+) %, the largest is (\S+) %.*?took (\d+) s .*?(\d+) rows are off by more than "
+        r"2 %.*?is off by \S+ % in the median and (\S+) % at most",
+        text,
+    )
+    assert found is not None
+    rows, median, below, largest, seconds, apart, ours = (
+        float(each.replace(",", "")) for each in found.groups()
+    )
+    shares = {"median": median, "below": below, "largest": largest, "ours": ours}
+    counts = {"rows": rows, "seconds": seconds, "apart": apart}
+    return counts | {name: percent / 100 for name, percent in shares.items()}
+
+
+def replication() -> dict[str, float]:
+    """Return figures and minutes of processor time of the kept numbers of the replication."""
+    kept = [json.loads(x.read_text("utf-8")) for x in (ROOT / "replication/kept").glob("*.json")]
+    seconds = sum(each["processor_seconds"] for each in kept)
+    return {"parts": len(kept), "minutes": seconds / 60}
+
+
+def datasets() -> dict[str, dict[str, float]]:
+    """Return rows and size of each published set."""
+    from pyarrow.parquet import read_metadata
+
+    found = {}
+    for name in sets.NAMES:
+        path = sets.path(name)
+        size = path.stat().st_size / 1e6
+        found[name] = {"rows": read_metadata(path).num_rows, "megabytes": size}
+    return found
+
+
+def coverage_of_spheres() -> list[str]:
+    """Return least, median and largest value of each input and of the force, a row for each set."""
+    columns = ("tabor", "modulus_ratio", "exponent", "preload", "rate", "pull_off_force")
+    return _coverage(("thesis", "broad", "chosen", "fast", "solids", "rough"), columns)
+
+
+def coverage_of_punches() -> list[str]:
+    """Return least, median and largest value of each input and of the stress, a row a set."""
+    columns = ("size", "thickness", "cohesion", "modulus_ratio", "preload", "rate")
+    names = ("punch", "punch_limits", "punch_starts")
+    return _coverage(names, (*columns, "pull_off_stress"))
+
+
+def _coverage(names: tuple[str, ...], columns: tuple[str, ...]) -> list[str]:
+    from pyarrow.parquet import read_table
+
+    rows = []
+    for name in names:
+        table, cells = read_table(sets.path(name)), []
+        for column in columns:
+            values = np.zeros(0)
+            if column in table.column_names:
+                values = table[column].to_numpy().astype(float)
+            values = values[np.isfinite(values)]
+            three = (values.min(), np.median(values), values.max()) if len(values) else ()
+            # one number where all rows have it
+            cells.append(", ".join(dict.fromkeys(f"{x:.3g}" for x in three)))
+        rows.append(f"| `{name}` | {' | '.join(cells)} |")
+    heads = " | ".join(f"`{column}`" for column in columns)
+    return [f"| set | {heads} |", "|---" * (len(columns) + 1) + "|", *rows]
+
+
+def history() -> list[str]:
+    """Return a table of the last lines of the history of costs, a column each."""
+    lines = [json.loads(x) for x in (ROOT / "benchmarks/history.jsonl").read_text().splitlines()]
+    lines = lines[-LINES:]
+    rows = []
+    for kind, unit in (("times", ""), ("instructions", ", 1e9 instructions")):
+        for name in lines[-1][kind]:
+            found = (f"{x[kind][name]:.3g}" if name in x[kind] else "-" for x in lines)
+            rows.append(f"| {name}{unit} | {' | '.join(found)} |")
+    heads = " | ".join(f"`{line['commit']}`, {line['date']}" for line in lines)
+    return [f"| | {heads} |", "|---" + "|---:" * len(lines) + "|", *rows]
+
+
+COMPUTED: dict[str, Any] = {
+    function.__name__: function
+    for function in (
+        steady_crack,
+        other_cracks,
+        punch_envelope,
+        published,
+        replication,
+        datasets,
+        coverage_of_spheres,
+        coverage_of_punches,
+        history,
+    )
+}
+
+
+def _decimals(value: float) -> int:
+    return 4 if value < 1.1 else 3
+
+
+def _span(off: Any) -> str:
+    ends = (100 * float(x) for x in (np.min(off), np.max(off)))
+    low, high = (f"{x:+.{1 if abs(x) < 9.5 else 0}f}".replace("-", "−") for x in ends)
+    return f"{low} to {high} %"

@@ -1,0 +1,300 @@
+"""Records of benchmarks, and the numbers of pages that quote them.
+
+A record, `benchmarks/records/NAME.json`, holds what a benchmark measured, with its command, date,
+commit and processor. A page names the source of a number in a comment, which readers do not see:
+
+    134<!-- = speed.median --> times faster, 0.14 %<!-- = published.force.median --> apart
+
+The comment stands behind the number that it names, in the same line; a percentage is a hundred
+times the recorded share, and `* 1e3` is any other factor. A comment on a line of its own names the
+source of all numbers of the paragraph or table below it, which are lines of text in the record:
+
+    <!-- = speed.table -->
+    | case | times faster |
+
+Sources are values of records; `computed.NAME`, what a function of `computed.py` computes now;
+`kept.NAME.PATH` of replication/kept; and `viscotack.MODULE.NAME`, a constant of the package.
+`python benchmarks/docs_check.py` compares them, with `--write` renews the page, and with `--count`
+says how many numbers have a source. `--quote PAGE` puts marked blocks that no record has into a
+record, as the page states them: for what takes hours to measure anew.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import date
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "benchmarks/records"
+KEPT = ROOT / "replication/kept"
+DIGITS = 5
+NUMBER = re.compile(r"(?<![\w.])[-+−]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
+MARK = re.compile(r" ?<!-- = ([\w.-]+)(?: \* ([\d.e+-]+))? -->")
+# Lines below a mark that has a line of its own.
+BLOCK = re.compile(r"((?: *(?!<!-- =)\S.*(?:\n|\Z))+)")
+# What a command writes between two comments, and is compared by a test of its own.
+WRITTEN = re.compile(r"(?s)<!-- (?!= )[^>]+ -->\n.*?<!-- end[^>]*-->")
+_CODE = re.compile(r"(?ms)^ *(```|~~~).*?^ *\1 *$")
+# Code, targets of links, comments and names of files are no prose.
+_NO_PROSE = re.compile(r"(?s)`[^`\n]*`|\]\([^)\n]*\)|<!--.*?-->|<[^>\n]*>|https?://\S+")
+AS_STATED = "as the page stated it on that day; not measured anew"
+
+
+@dataclass(frozen=True)
+class Quote:
+    """A number, or the numbers of a block, and what their source has.
+
+    Attributes
+    ----------
+    source : str
+        As the comment names it.
+    place : tuple of int
+        Where the text begins and ends in the page.
+    shown, found : str
+        Text of the page, and of the source in the digits of the page.
+    """
+
+    source: str
+    place: tuple[int, int]
+    shown: str
+    found: str
+
+    @property
+    def agrees(self) -> bool:
+        """Whether every number is that of the source, rounded."""
+        return not self.difference
+
+    @property
+    def difference(self) -> str:
+        """The first number of the page that its source does not have."""
+        here, there = numbers(self.shown), numbers(self.found)
+        if len(here) != len(there):
+            return f"{len(here)} numbers shown, {len(there)} recorded"
+        first = next((pair for pair in zip(here, there, strict=True) if len({*pair}) > 1), None)
+        return f"shown: {first[0]}, recorded: {first[1]}" if first else ""
+
+    @property
+    def as_stated(self) -> bool:
+        """Whether the source is a record of what the page stated."""
+        path = FOLDER / f"{self.source.partition('.')[0]}.json"
+        return path.exists() and _content(path).get("origin") == AS_STATED
+
+
+def write(name: str, values: dict[str, Any], *, command: str = "", origin: str = "") -> Path:
+    """Write a record with command, date, commit and processor, or add values to one.
+
+    Values of another origin are dropped.
+    """
+    path = FOLDER / f"{name}.json"
+    script = Path(sys.argv[0])
+    facts = {
+        "command": command or " ".join(["python", f"benchmarks/{script.name}", *sys.argv[1:]]),
+        "date": date.today().isoformat(),
+    }
+    facts |= {"origin": origin} if origin else {"commit": commit(), "processor": processor()}
+    before = _content(path) if path.exists() else {}
+    kept = before["values"] if before.get("origin", "") == origin and before else {}
+    content = facts | {"values": kept | _plain(values)}
+    FOLDER.mkdir(exist_ok=True)
+    path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    return path
+
+
+def value(source: str) -> Any:
+    """Return the value of a source.
+
+    Raises
+    ------
+    LookupError
+        If there is no such record or no such value in it.
+    """
+    first, *rest = source.split(".")
+    if first == "viscotack":
+        return _constant(source)
+    if first == "computed":
+        return _part(computed(rest[0]), rest[1:], source)
+    path = FOLDER / f"{first}.json"
+    key = "values"
+    if first == "kept":
+        name, *rest = rest
+        path, key = KEPT / f"{name}.json", "numbers"
+    if not path.exists():
+        raise LookupError(f"{source}: there is no record {path.name}")
+    return _part(_content(path)[key], rest, source)
+
+
+@cache
+def computed(name: str) -> Any:
+    """Return what a function of `computed.py`, beside this file, computes."""
+    from computed import COMPUTED
+
+    if name not in COMPUTED:
+        raise LookupError(f"computed.{name}: computed.py has {', '.join(COMPUTED)}")
+    return COMPUTED[name]()
+
+
+def quotes(page: str, *, missing: bool = False) -> Iterator[Quote]:
+    """Yield the numbers and blocks of a page that name a source.
+
+    With `missing`, blocks whose source has no value are yielded without one.
+    """
+    bare = _blank(_CODE, page)
+    prose = _blank(_NO_PROSE, bare)
+    for mark in MARK.finditer(bare):
+        source, line = mark[1], bare.rfind("\n", 0, mark.start()) + 1
+        if not bare[line : mark.start()].strip():
+            block = BLOCK.match(bare, mark.end() + 1)
+            if block is None:
+                raise LookupError(f"no lines stand below the comment of {source}")
+            yield Quote(source, block.span(), block[0], _lines(source, missing))
+            continue
+        before = [*NUMBER.finditer(prose, line, mark.start())]
+        if not before:
+            raise LookupError(f"no number stands before the comment of {source}")
+        share = "%" in prose[before[-1].end() : mark.start()]
+        number = float(value(source)) * float(mark[2] or (100 if share else 1))
+        yield Quote(source, before[-1].span(), before[-1][0], rounded(number, before[-1][0]))
+
+
+def renewed(page: str) -> str:
+    """Return a page with the numbers of its sources, in the digits that it has."""
+    for quote in reversed([*quotes(page)]):
+        if not (quote.agrees or quote.as_stated):
+            page = page[: quote.place[0]] + quote.found + page[quote.place[1] :]
+    return page
+
+
+def rounded(number: float, shown: str) -> str:
+    """Return a number in the digits, and with the signs, of a number that is shown."""
+    digits, _, power = shown.partition("e")
+    decimals = len(digits.partition(".")[2])
+    if power:
+        found = f"{number:.{decimals}e}".split("e")
+        text = f"{found[0]}e{int(found[1])}"
+    else:
+        text = f"{number:{',' if ',' in digits else ''}.{decimals}f}"
+    if shown[0] in "+-−":
+        return text.replace("-", "−") if shown[0] == "−" else f"{'+' if number >= 0 else ''}{text}"
+    return text.lstrip("-")
+
+
+def numbers(text: str) -> list[str]:
+    """Return the numbers of a text, as they are written, but for those in code and links."""
+    return NUMBER.findall(_blank(_NO_PROSE, _blank(_CODE, text)))
+
+
+def count(page: str) -> dict[str, int]:
+    """Return how many numbers the prose of a page has, and of them those with a source, by kind."""
+    found = dict.fromkeys(("all", "written", "measured", "as stated"), 0)
+    found["all"] = len(numbers(page))
+    found["written"] = found["all"] - len(numbers(WRITTEN.sub("", page)))
+    for quote in quotes(page):
+        found["as stated" if quote.as_stated else "measured"] += len(numbers(quote.shown))
+    return found
+
+
+def quoted(page: Path) -> list[str]:
+    """Put blocks of a page that no record has into their records, and return their sources."""
+    found: dict[str, dict[str, Any]] = {}
+    for quote in quotes(page.read_text("utf-8"), missing=True):
+        if not quote.found:
+            name, _, key = quote.source.partition(".")
+            lines = (" ".join(numbers(line)) for line in quote.shown.splitlines())
+            found.setdefault(name, {})[key] = [line for line in lines if line]
+    for name, values in found.items():
+        path = FOLDER / f"{name}.json"
+        if path.exists() and _content(path).get("origin") != AS_STATED:
+            raise LookupError(f"{path.name} was measured: a benchmark writes it")
+        script = ROOT / f"benchmarks/{name}.py"
+        words = script if script.exists() else page
+        write(name, values, command=str(words.relative_to(ROOT)), origin=AS_STATED)
+    return [f"{name}.{key}" for name, values in found.items() for key in values]
+
+
+def processor() -> str:
+    """Return the kind of processor."""
+    try:
+        words = Path("/proc/cpuinfo").read_text("utf-8")
+        return next(x.split(":")[1].strip() for x in words.splitlines() if "model name" in x)
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
+def _blank(what: re.Pattern[str], text: str) -> str:
+    """Return a text of the same length with spaces in the place of what a pattern finds."""
+    return what.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
+
+
+def _lines(source: str, missing: bool) -> str:
+    """Return the text of a block's source, or "" where it may be missing."""
+    try:
+        lines = value(source)
+    except LookupError:
+        if missing:
+            return ""
+        raise
+    if not isinstance(lines, list):
+        raise LookupError(f"{source}: a block needs lines of text, the record has {lines!r}")
+    return "\n".join(lines) + "\n"
+
+
+def _constant(source: str) -> Any:
+    """Return a constant of a module of the package, or an element of one."""
+    module, names = source, list[str]()
+    while find_module(module) is None:
+        module, _, name = module.rpartition(".")
+        names.insert(0, name)
+    if not names or not hasattr(import_module(module), names[0]):
+        raise LookupError(f"{source}: {module} has no constant {'.'.join(names)}")
+    found = getattr(import_module(module), names[0])
+    return _part(list(found) if isinstance(found, tuple) else found, names[1:], source)
+
+
+def find_module(name: str) -> Any:
+    """Return the specification of a module, None if there is none."""
+    try:
+        return find_spec(name)
+    except ModuleNotFoundError:  # its parent is a module and no package
+        return None
+
+
+def _part(found: Any, names: list[str], source: str) -> Any:
+    for name in names:
+        try:
+            found = found[int(name) if isinstance(found, list) else name]
+        except (LookupError, ValueError, TypeError):
+            raise LookupError(f"{source}: its source has no {name!r}") from None
+    return found
+
+
+def _content(path: Path) -> dict[str, Any]:
+    return json.loads(path.read_text("utf-8"))
+
+
+def commit() -> str:
+    """Return the commit of this checkout."""
+    command = ["git", "rev-parse", "--short", "HEAD"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=os.environ)
+    return done.stdout.strip()
+
+
+def _plain(found: Any) -> Any:
+    if isinstance(found, dict):
+        return {str(key): _plain(part) for key, part in found.items()}
+    if isinstance(found, list | tuple):
+        return [_plain(part) for part in found]
+    if isinstance(found, str | bool | int):
+        return found
+    return float(f"{float(found):.{DIGITS}g}")

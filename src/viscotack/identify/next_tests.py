@@ -1,0 +1,356 @@
+r"""Rank tests by how much each narrows a forecast, or the interface, before it is made.
+
+Interfaces sampled from the posterior of a rate series give ln of the force of each candidate test
+(c) and of each wanted answer (q); with the errors of theory, material and machine their joint
+covariance is known. A test with the relative noise :math:`\sigma` leaves of a wanted variance
+
+.. math:: V_{q|c} = V_{qq} - \frac{V_{qc}^2}{V_{cc} + \sigma^2} ,
+
+the linear update of a normal distribution (Lindley 1956, doi:10.1214/aoms/1177728069). The best
+test leaves the smallest mean variance; the next one follows from the covariance that it leaves.
+No test is simulated or fitted for this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError, OutOfRange
+from viscotack.units import readable
+
+from .covariances import ModelError
+from .forecasting import Tests, conditioned
+from .forward import Forward
+from .pull_off import History
+from .rate_series import RateSeriesFit
+from .sampling import posterior
+from .search import LEAST_TABOR
+
+# Number of sampled interfaces, step of logarithms for slopes, and most candidates.
+_DRAWS, _STEP, _MOST = 100, 0.05, 500
+# Least noise of a test [-]; a rig without scatter would make every test decisive.
+_QUIET = 1e-3
+INTERFACE = "interface"
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A test: a sphere that is pulled off at a speed.
+
+    Parameters
+    ----------
+    speed : float
+        Retraction speed [m/s].
+    preload : float or None
+        Force under which the contact rests [N]; by default the mean preload of the series.
+    radius : float or None
+        Radius of the sphere [m]; by default that of the series.
+    dwell, approach_speed : float or None
+        Time under the preload [s] after an approach at this speed [m/s]; by default the contact
+        relaxes fully.
+
+    Examples
+    --------
+    >>> Trial(1e-4, preload=2e-3).dwell is None
+    True
+    """
+
+    speed: float
+    preload: float | None = None
+    radius: float | None = None
+    dwell: float | None = None
+    approach_speed: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("speed", "preload", "radius", "approach_speed"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < np.inf:
+                raise InputError(f"the {name} of a test must be positive, got {value!r}")
+        if (self.dwell is None) != (self.approach_speed is None):
+            raise InputError("a dwell needs the speed of the approach, and the other way round")
+        if self.dwell is not None and not self.dwell >= 0:
+            raise InputError(f"a dwell must not be negative, got {self.dwell!r} s")
+
+
+@dataclass(frozen=True)
+class RankedTest:
+    """A test and what it leaves of the uncertainty.
+
+    Attributes
+    ----------
+    trial : Trial
+        The test, with its preload and radius.
+    force : float
+        Predicted pull-off force [N].
+    uncertain : float
+        Relative standard uncertainty of this prediction.
+    left : float
+        Standard deviation of ln of the wanted answers after the test, root mean square.
+    """
+
+    trial: Trial
+    force: float
+    uncertain: float
+    left: float
+
+
+@dataclass(frozen=True)
+class NextTests:
+    """Tests in the order of what they leave of the uncertainty, the best first.
+
+    Attributes
+    ----------
+    ranked : tuple of RankedTest
+        All tests, each alone.
+    sequence : tuple of RankedTest
+        The best test, the best after it, and so on; `left` counts all up to it.
+    now : float
+        Standard deviation of ln of the wanted answers today, root mean square.
+    noise : float
+        Relative noise of a test.
+    refused : tuple of (Trial, str)
+        Tests for which the theory does not hold, with the reason.
+    words : tuple of str
+        Remarks.
+    """
+
+    ranked: tuple[RankedTest, ...]
+    sequence: tuple[RankedTest, ...]
+    now: float
+    noise: float
+    refused: tuple[tuple[Trial, str], ...]
+    words: tuple[str, ...]
+
+
+def next_tests(
+    fit: RateSeriesFit,
+    candidates: Sequence[Trial],
+    *,
+    wanted: Sequence[Trial] | str = INTERFACE,
+    noise: float | None = None,
+    repeats: int = 1,
+    count: int = 3,
+    seed: int = 0,
+) -> NextTests:
+    """Rank tests by how much each narrows a wanted answer.
+
+    Parameters
+    ----------
+    fit : RateSeriesFit
+        Fit of the series measured so far.
+    candidates : sequence of Trial
+        Tests that can be made, at the temperature of the series.
+    wanted : sequence of Trial, or "interface"
+        Tests whose forces are forecast, or work of adhesion and range themselves.
+    noise : float, optional
+        Relative standard deviation of the force of one test; by default that of the series.
+    repeats : int
+        Number of repetitions of each test.
+    count : int
+        Length of the sequence.
+    seed : int
+        Of the sampled interfaces.
+
+    Returns
+    -------
+    NextTests
+        The tests in order.
+
+    Raises
+    ------
+    OutOfRange
+        If the theory holds for no candidate, or not for a wanted test.
+    ValueError
+        If an argument is invalid.
+    """
+    about_interface = isinstance(wanted, str)
+    if isinstance(wanted, str) and wanted != INTERFACE:
+        raise InputError(f"wanted must be tests or {INTERFACE!r}, got {wanted!r}")
+    asked = [] if isinstance(wanted, str) else [_stated(fit, one) for one in wanted]
+    tests = [_stated(fit, one) for one in candidates]
+    if not 0 < len(tests) <= _MOST or len(asked) > _MOST or not (about_interface or asked):
+        raise InputError(
+            f"give 1 to {_MOST} candidates and 1 to {_MOST} wanted tests; got {len(tests)} and "
+            f"{len(asked)}"
+        )
+    if repeats < 1 or count < 1:
+        raise InputError(f"repeats and count must be at least 1, got {repeats} and {count}")
+    if noise is not None and not 0 < noise < 1:
+        raise InputError(f"the noise must lie between 0 and 1, got {noise:g}")
+    one = max(noise or noise_of(fit), _QUIET)
+    own = {each: _valid(fit, each) for each in dict.fromkeys([*tests, *asked])}
+    for each in asked:
+        if own[each]:
+            raise OutOfRange(f"no forecast of {trial_words(each)}: {own[each]}")
+    refused = tuple((each, own[each]) for each in tests if own[each])
+    tests = [each for each in tests if not own[each]]
+    if not tests:
+        raise OutOfRange(f"the theory holds for none of the tests: {refused[0][1]}")
+    mean, covariance = _joint(fit, [*tests, *asked], about_interface, seed)
+    n, variance = len(tests), one**2 / repeats
+    now = _left(covariance, n)
+    ranked = [
+        RankedTest(
+            each,
+            float(np.exp(mean[i])),
+            float(np.sqrt(covariance[i, i])),
+            _left(_measured(covariance, i, variance), n),
+        )
+        for i, each in enumerate(tests)
+    ]
+    sequence: list[RankedTest] = []
+    for _ in range(min(count, n)):
+        after = [_measured(covariance, i, variance) for i in range(n)]
+        best = int(np.argmin([_left(x, n) for x in after]))
+        covariance = after[best]
+        sequence.append(replace(ranked[best], left=_left(covariance, n)))
+    return NextTests(
+        ranked=tuple(sorted(ranked, key=lambda x: x.left)),
+        sequence=tuple(sequence),
+        now=now,
+        noise=one,
+        refused=refused,
+        words=tuple(_words(fit, about_interface)),
+    )
+
+
+def noise_of(fit: RateSeriesFit) -> float:
+    """Return the relative noise of a test of a series: median over its speeds."""
+    rows = [
+        (x.force.uncertainty / x.force.value, fit.between_tests, fit.between_speeds)
+        for x in fit.series
+    ]
+    return float(np.median([np.linalg.norm(row) for row in rows]))
+
+
+def trial_words(trial: Trial) -> str:
+    """Return a test in words."""
+    parts = [readable(trial.speed, "m/s", digits=3)]
+    for value, unit, words in (
+        (trial.preload, "N", "under"),
+        (trial.radius, "m", "R ="),
+        (trial.dwell, "s", "dwell"),
+    ):
+        if value is not None:
+            parts.append(f"{words} {readable(value, unit, digits=3)}")
+    return ", ".join(parts)
+
+
+def _stated(fit: RateSeriesFit, trial: Trial) -> Trial:
+    """Return a test with preload and radius."""
+    load = float(np.mean([one.preload for one in fit.series]))
+    return replace(
+        trial,
+        preload=load if trial.preload is None else trial.preload,
+        radius=fit.forward.radius if trial.radius is None else trial.radius,
+    )
+
+
+def _forward(fit: RateSeriesFit, radius: float) -> Forward:
+    """Return the forward model of another sphere."""
+    return fit.forward if radius == fit.forward.radius else replace(fit.forward, radius=radius)
+
+
+def _valid(fit: RateSeriesFit, trial: Trial) -> str:
+    """Return why the theory does not hold for a test, or ""."""
+    known = _forward(fit, trial.radius or 0.0)
+    law = None if fit.growth is None else fit.growth.law
+    one, load = np.array([trial.speed]), np.array([trial.preload])
+    try:
+        known.check(moves=_moves(trial))
+        found = known.pulled(fit.work_of_adhesion, fit.equilibrium_gap, one, load, growth=law)
+    except InputError as error:
+        return str(error)
+    effective = float(found.effective_tabor[0])
+    if effective < LEAST_TABOR:
+        return (
+            f"the cohesive zone is as large as the contact: effective Tabor number {effective:.3g},"
+            f" valid from {LEAST_TABOR:g}"
+        )
+    return "" if np.isfinite(found.force[0]) else "there is no pull-off"
+
+
+def _moves(trial: Trial) -> Any:
+    if trial.dwell is None or trial.approach_speed is None or trial.preload is None:
+        return ()
+    return (History(trial.approach_speed, trial.preload, trial.dwell).moves(trial.preload),)
+
+
+def _joint(
+    fit: RateSeriesFit, tests: Sequence[Trial], about_interface: bool, seed: int
+) -> tuple[Array, Array]:
+    """Return mean and joint covariance of ln of the forces, and of work and range if wanted."""
+    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
+    draws = chain.thinned(_DRAWS)
+    order, groups = [], []
+    for radius in dict.fromkeys(each.radius or 0.0 for each in tests):
+        numbers = [i for i, each in enumerate(tests) if each.radius == radius]
+        some = [tests[i] for i in numbers]
+        speed, load = (
+            np.array([getattr(x, name) for x in some], float) for name in ("speed", "preload")
+        )
+        groups.append(Tests(_forward(fit, radius), fit.passport, speed, load))
+        order += numbers
+    none = np.zeros(len(tests))
+    model = ModelError(none + fit.theory, none)
+    springy = fit.stiffness is not None
+    moved, left = conditioned(fit, groups, draws, fit.theory, model, springy)
+    back = np.argsort(order)
+    moved, left = moved[:, back], left[np.ix_(back, back)]
+    for i, each in enumerate(tests):
+        if each.dwell is not None:
+            moved[:, i] += _history_effect(fit, each, draws)
+    if about_interface:
+        moved = np.concatenate([moved, np.log(draws[:, :2])], axis=1)
+        left = np.pad(left, (0, 2))
+    return moved.mean(axis=0), np.cov(moved.T) + left
+
+
+def _history_effect(fit: RateSeriesFit, trial: Trial, draws: Array) -> Array:
+    """Return ln of the ratio of the force after a dwell to that of a relaxed contact.
+
+    It is linear in ln of work and range about the most likely interface.
+    """
+    known, moves = _forward(fit, trial.radius or 0.0), _moves(trial)
+    middle = np.log([fit.work_of_adhesion, fit.equilibrium_gap])
+    law = None if fit.growth is None else fit.growth.law
+
+    def ratio(at: Array) -> float:
+        w, gap = np.exp(at).tolist()
+        speed, load = np.array([trial.speed]), np.array([trial.preload])
+        found = known.changed(w, gap, speed, load, stiffness=fit.stiffness, moves=moves, growth=law)
+        if found.refused:
+            raise OutOfRange(f"{trial_words(trial)}: {found.refused[0]}")
+        return float(np.log(found.ratio[0]))
+
+    own = ratio(middle)
+    slopes = np.array([(ratio(middle + step) - own) / _STEP for step in _STEP * np.eye(2)])
+    return own + (np.log(draws[:, :2]) - middle) @ slopes
+
+
+def _measured(covariance: Array, number: int, noise: float) -> Array:
+    """Return the covariance after a test with a variance of its noise."""
+    column = covariance[:, number]
+    return covariance - np.outer(column, column) / (column[number] + noise)
+
+
+def _left(covariance: Array, tests: int) -> float:
+    """Return the root mean square deviation of what stands behind the tests."""
+    return float(np.sqrt(max(np.mean(np.diag(covariance)[tests:]), 0.0)))
+
+
+def _words(fit: RateSeriesFit, about_interface: bool) -> list[str]:
+    said = []
+    if len(fit.solutions) > 1:
+        said.append(
+            f"{len(fit.solutions)} separate interfaces fit the series; the ranking takes their "
+            "samples as one normal distribution"
+        )
+    if about_interface:
+        said.append("ranked by the mean variance of ln(work of adhesion) and ln(range)")
+    return said

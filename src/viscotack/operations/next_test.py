@@ -1,0 +1,207 @@
+"""The operation ``next-test``: which test narrows a forecast or the interface most."""
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Annotated, Any, ClassVar
+
+from viscotack.errors import InputError
+from viscotack.units import readable
+
+from .declare.answer import Answer, Caller, csv_file, picture
+from .declare.cards import Number, Whole
+from .declare.options import Operation
+from .forecast import Speeds, StudyFile, fitted
+from .parts.rig import refusals
+from .simulate import HowLong
+
+Loads = Annotated[
+    tuple[float, ...],
+    Number(
+        "Preload of a test; can be repeated. Default: that of the series.",
+        unit="N",
+        above=0,
+        metavar="FORCE",
+    ),
+]
+Radii = Annotated[
+    tuple[float, ...],
+    Number(
+        "Radius of the sphere of a test; can be repeated. Default: that of the series.",
+        unit="m",
+        above=0,
+        metavar="LENGTH",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextTest(Operation):
+    """Rank tests by how much each narrows a forecast or the interface.
+
+    Candidates are all combinations of --speed, --preload, --radius and --dwell. The posterior of
+    the study gives the variance that each would leave, with the noise of the rig, before any is
+    made. The wanted answer is the force at --forecast-speed; without it, work of adhesion and
+    range. The answer also lists the best sequence of tests.
+
+    Example: viscotack next-test study.toml --speed "0.1 um/s..10 mm/s" --preload "0.5 mN"
+    --preload "5 mN" --forecast-speed "50 mm/s" --plot next.png
+    """
+
+    word: ClassVar = "next-test"
+    outputs: ClassVar = (
+        csv_file("Write a row for each test; - is standard output."),
+        picture("Draw what each test leaves of the uncertainty to a .png, .pdf or .svg file."),
+    )
+
+    study: StudyFile
+    speed: Annotated[
+        tuple[tuple[float, ...], ...],
+        Speeds(
+            'Speeds of the tests, "30 um/s" or a range "1 um/s..1 mm/s"; can be repeated.',
+            metavar="SPEED|FROM..TO",
+        ),
+    ]
+    preload: Loads = ()
+    radius: Radii = ()
+    dwell: Annotated[
+        tuple[float, ...],
+        Number(
+            "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
+            "--approach-speed.",
+            unit="s",
+            metavar="TIME",
+        ),
+    ] = ()
+    approach_speed: Annotated[
+        float | None,
+        Number("Approach speed; needs --dwell.", unit="m/s", above=0, metavar="SPEED"),
+    ] = None
+    forecast_speed: Annotated[
+        tuple[tuple[float, ...], ...],
+        Speeds(
+            "Speed of the wanted forecast, or a range; can be repeated. Default: the interface "
+            "is wanted.",
+            metavar="SPEED|FROM..TO",
+        ),
+    ] = ()
+    forecast_preload: Annotated[
+        float | None,
+        Number("Preload of the wanted forecast.", unit="N", above=0, metavar="FORCE"),
+    ] = None
+    forecast_radius: Annotated[
+        float | None,
+        Number("Sphere radius of the wanted forecast.", unit="m", above=0, metavar="LENGTH"),
+    ] = None
+    noise: Annotated[
+        float | None,
+        Number(
+            'Relative standard deviation of the force of one test, "3 %"; default: that of the '
+            "series.",
+            above=0,
+            metavar="PART",
+        ),
+    ] = None
+    repeats: Annotated[int, Whole("Repetitions of each test.", least=1, most=1000)] = 1
+    count: Annotated[int, Whole("Length of the best sequence.", least=1, most=20)] = 3
+    time_limit: HowLong = None
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the series of the study and rank the tests."""
+        from viscotack.clock import limited
+        from viscotack.identify import Trial, next_tests
+        from viscotack.identify.next_tests import INTERFACE
+        from viscotack.pictures.next_tests import draw_next_tests
+
+        from .parts.tables import rows_as_csv
+
+        if not self.speed:
+            raise InputError("needs the speeds of the tests: --speed")
+        candidates = [
+            Trial(v, load, radius, dwell, None if dwell is None else self.approach_speed)
+            for v, load, radius, dwell in product(
+                [v for some in self.speed for v in some],
+                self.preload or (None,),
+                self.radius or (None,),
+                self.dwell or (None,),
+            )
+        ]
+        if self.approach_speed is not None and not self.dwell:
+            raise InputError("--approach-speed needs --dwell")
+        wanted = [
+            Trial(v, self.forecast_preload, self.forecast_radius)
+            for some in self.forecast_speed
+            for v in some
+        ]
+        if not wanted and (self.forecast_preload or self.forecast_radius):
+            raise InputError("the wanted forecast needs its speed: --forecast-speed")
+        with limited(self.time_limit):
+            study = fitted(self.study, caller)
+            found = next_tests(
+                study.fit,
+                candidates,
+                wanted=wanted or INTERFACE,
+                noise=self.noise,
+                repeats=self.repeats,
+                count=self.count,
+            )
+        rows = [_row(each) for each in found.ranked]
+        return Answer(
+            found,
+            record=lambda: {
+                "now": found.now,
+                "noise": found.noise,
+                "tests": rows,
+                "sequence": [_row(each) for each in found.sequence],
+                "refused": [_trial(each) | {"why": why} for each, why in found.refused],
+                "words": [*study.fit.words, *found.words],
+            },
+            words=lambda: _words(found, bool(wanted)),
+            files={"csv": rows_as_csv(rows)},
+            pictures={"plot": lambda: draw_next_tests(found)},
+            notes=refusals(study.survey),
+        )
+
+
+def _trial(trial: Any) -> dict[str, Any]:
+    return {
+        "speed_m_per_s": trial.speed,
+        "preload_N": trial.preload,
+        "radius_m": trial.radius,
+        "dwell_s": trial.dwell,
+        "approach_speed_m_per_s": trial.approach_speed,
+    }
+
+
+def _row(one: Any) -> dict[str, Any]:
+    """Return the row of a ranked test."""
+    forecast = {"force_N": one.force, "force_deviation": one.uncertain, "left": one.left}
+    return _trial(one.trial) | forecast
+
+
+_SHOWN = 8  # tests in words
+
+
+def _words(found: Any, forecast: bool) -> str:
+    """Return the answer as lines."""
+    from viscotack.identify.next_tests import trial_words
+
+    what = "the forecast" if forecast else "ln(work) and ln(range)"
+    lines = [
+        f"standard deviation of {what}: {found.now:.2%} now; noise of a test {found.noise:.2%}",
+        "after one test:",
+    ]
+    lines += [
+        f"  {x.left:7.2%}  {trial_words(x.trial)} (force {readable(x.force, 'N', digits=3)} "
+        f"within {x.uncertain:.1%})"
+        for x in found.ranked[:_SHOWN]
+    ]
+    if len(found.ranked) > _SHOWN:
+        last = found.ranked[-1]
+        lines.append(f"  ... of {len(found.ranked)}; the last leaves {last.left:.2%}")
+    lines.append("best sequence:")
+    lines += [f"  {x.left:7.2%}  {trial_words(x.trial)}" for x in found.sequence]
+    reasons: dict[str, int] = {}
+    for _, why in found.refused:
+        reasons[why] = reasons.get(why, 0) + 1
+    lines += [f"not ranked ({count}): {why}" for why, count in reasons.items()]
+    return "\n".join([*lines, *found.words])

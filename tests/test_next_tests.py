@@ -1,0 +1,172 @@
+"""The next test: what it leaves of the uncertainty, before and after it is made."""
+
+import json
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from front_ends import Http, Question, through_all
+from viscotack.errors import InputError
+from viscotack.identify import PullOff, Trial, forecast_rates, identify_rates, next_tests
+from viscotack.identify.forward import Forward
+from viscotack.identify.next_tests import noise_of
+from viscotack.lab.tack import Measured
+from viscotack.materials import Passport
+from viscotack.materials.shift import WLF
+from viscotack.pictures.next_tests import draw_next_tests
+
+SOLID = vt.RetardationPowerLaw(
+    rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
+)
+RUBBER = Passport(
+    name="rubber",
+    material=SOLID,
+    temperature=293.15,
+    shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0),
+    allowed=tuple(replace(SOLID, tau0=1.3**n * 1e-2) for n in range(-2, 3)),
+)
+RADIUS, PRELOAD, NOISE = 5e-3, 1e-3, 0.02
+SPEEDS, WANTED = np.geomspace(1e-6, 1e-4, 3), Trial(3e-2)
+FORWARD = Forward(SOLID, RADIUS)
+RIG = Path(__file__).parents[1] / "examples" / "from_rig"
+
+
+def measured(trial):
+    force = float(FORWARD.pulled(0.1, 50e-9, trial.speed, PRELOAD).force)
+    return PullOff(trial.speed, Measured(force, NOISE * force), PRELOAD)
+
+
+SERIES = [measured(Trial(float(v))) for v in SPEEDS]
+
+
+@pytest.fixture(scope="module")
+def fit():
+    return identify_rates(SERIES, material=RUBBER, radius=RADIUS)
+
+
+@pytest.fixture(scope="module")
+def found(fit):
+    some = [Trial(v) for v in (1e-5, 1e-3, 3e-2)]
+    return next_tests(fit, some, wanted=[WANTED], count=3)
+
+
+def test_a_test_of_the_wanted_force_leaves_the_variance_of_its_noise(found):
+    """V - V^2/(V + s^2) = V s^2/(V + s^2)."""
+    best = found.ranked[0]
+    assert best.trial.speed == WANTED.speed
+    assert best.uncertain == pytest.approx(found.now, rel=1e-9)
+    V, noise = found.now**2, found.noise**2
+    assert best.left == pytest.approx(np.sqrt(V * noise / (V + noise)), rel=1e-6)
+
+
+def test_tests_are_in_order_and_each_leaves_less(found):
+    left = [one.left for one in found.ranked]
+    assert left == sorted(left) and left[-1] <= found.now
+    steps = [found.now, *(one.left for one in found.sequence)]
+    assert np.all(np.diff(steps) < 0) and len(found.sequence) == 3
+    # a repeated test is one of less noise
+    assert found.sequence[0] == found.ranked[0]
+
+
+def test_a_hundred_repeats_of_ten_times_the_noise_are_one_test(fit, found):
+    several = next_tests(fit, [Trial(1e-3)], wanted=[WANTED], noise=10 * found.noise, repeats=100)
+    alone = next(one for one in found.ranked if one.trial.speed == 1e-3)
+    assert several.ranked[0].left == pytest.approx(alone.left, rel=1e-6)
+    assert noise_of(fit) == pytest.approx(NOISE, rel=0.3)
+
+
+def test_the_deviation_today_is_that_of_the_forecast(fit, found):
+    band = forecast_rates(fit, [WANTED.speed])
+    assert found.now == pytest.approx(np.log(band.high / band.low)[0] / 2 / 1.645, rel=0.1)
+
+
+@pytest.mark.slow
+def test_a_test_that_is_made_leaves_about_what_was_predicted(found):
+    for one in found.ranked[1:]:
+        fit = identify_rates([*SERIES, measured(one.trial)], material=RUBBER, radius=RADIUS)
+        band = forecast_rates(fit, [WANTED.speed])
+        after = np.log(band.high / band.low)[0] / 2 / 1.645
+        assert one.left == pytest.approx(after, rel=0.25)
+
+
+def test_the_interface_may_be_wanted_and_a_dwell_be_a_test(fit):
+    dwelt = Trial(1e-3, dwell=1.0, approach_speed=1e-5)
+    found = next_tests(fit, [Trial(1e-3), dwelt, Trial(1e-3, radius=2 * RADIUS)])
+    assert {one.trial.radius for one in found.ranked} == {RADIUS, 2 * RADIUS}
+    force = {one.trial.dwell: one.force for one in found.ranked if one.trial.radius == RADIUS}
+    assert force[1.0] != force[None] and force[1.0] == pytest.approx(force[None], rel=0.3)
+    assert all(one.left < found.now for one in found.ranked)
+
+
+def test_a_test_beyond_the_theory_is_not_ranked(fit):
+    soft = Trial(1e-3, radius=1e-9)
+    found = next_tests(fit, [Trial(1e-3), soft], wanted=[WANTED])
+    assert len(found.ranked) == 1
+    assert found.refused[0][0].radius == 1e-9 and "Tabor number" in found.refused[0][1]
+    with pytest.raises(vt.OutOfRange, match="Tabor number"):
+        next_tests(fit, [Trial(1e-3)], wanted=[soft])
+
+
+@pytest.mark.parametrize(
+    "given, words",
+    [
+        ({"candidates": []}, "1 to 500 candidates"),
+        ({"wanted": "work"}, "must be tests or 'interface'"),
+        ({"wanted": []}, "wanted tests"),
+        ({"noise": 2.0}, "between 0 and 1"),
+        ({"count": 0}, "at least 1"),
+    ],
+)
+def test_what_cannot_be_is_refused(fit, given, words):
+    with pytest.raises(InputError, match=words):
+        next_tests(fit, **({"candidates": [Trial(1e-3)]} | given))
+
+
+def test_a_trial_is_checked():
+    for given in ({"speed": 0.0}, {"speed": 1.0, "dwell": 1.0}, {"speed": 1.0, "radius": -1.0}):
+        with pytest.raises(InputError):
+            Trial(**given)
+
+
+def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
+    from types import SimpleNamespace
+
+    study = SimpleNamespace(fit=fit, survey=SimpleNamespace(reasons=()))
+    monkeypatch.setattr("viscotack.operations.next_test.fitted", lambda *given: study)
+    (tmp_path / "study.toml").write_text("")
+    asked = {"study": str(tmp_path / "study.toml"), "speed": ["1 mm/s", "10 um/s"]}
+    answer = vt.ask("next-test", **asked, forecast_speed=["30 mm/s"], preload=["1 mN", "4 mN"])
+    record = answer.record()
+    assert len(record["tests"]) == 4 and record["tests"][0]["speed_m_per_s"] == 1e-3
+    assert "best sequence:" in answer.words()
+    answer.files["csv"](tmp_path / "tests.csv")
+    assert (tmp_path / "tests.csv").read_text().count("\n") == 5
+    assert len(draw_next_tests(answer.found).axes) == 2
+    json.dumps(record)
+    for more, words in (
+        ({"approach_speed": "1 um/s"}, "needs dwell"),
+        ({"forecast_preload": "1 mN"}, "needs its speed: forecast_speed"),
+    ):
+        with pytest.raises(InputError, match=words):
+            vt.ask("next-test", **asked, **more)
+
+
+@pytest.mark.slow
+def test_every_door_answers_alike(tmp_path, monkeypatch):
+    for name in ("lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"):
+        shutil.copy(RIG / name, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    files = sorted(str(each.name) for each in tmp_path.glob("*.csv"))
+    given = {"files": files, "material": "pdms-10-1", "radius": "5.19 mm"}
+    vt.ask("identify rates", **given).files["output"]("study.toml")
+    asked = {"study": "study.toml", "speed": ["1 mm/s", "10 um/s"], "forecast_speed": ["10 mm/s"]}
+    http = Http()
+    found = through_all(Question("next-test", asked), http)
+    http.close()
+    first = found["Python"].record
+    assert len(first["tests"]) == 2
+    assert all(each.record == first for each in found.values())

@@ -1,0 +1,143 @@
+"""Campaigns and sweeps of rough surfaces: inputs, plans, rows, and what is refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from front_ends import Http, Question, through_all
+from test_rough_file import BUMPS, MAP, SMALL
+from viscotack.campaign import CaseSettings, Store, inputs_of, measure, read_plan, run
+from viscotack.errors import InputError
+from viscotack.operations import ask
+from viscotack.problem import StatedSurface
+from viscotack.problem.record import from_dict, to_dict
+from viscotack.rough import pull, read_rough, read_rough_case
+
+PLAN = """
+problem = "bumps.toml"
+settings = {accuracy = 0.02}
+[[grid]]
+surface.scatter = ["0 um", "1 um"]
+protocol.speed = ["10 um/s", 1e-4]
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Return a folder to work in, with a plan, a rough surface and a measured map."""
+    monkeypatch.chdir(tmp_path)
+    Path("plan.toml").write_text(PLAN)
+    Path("bumps.toml").write_text(SMALL.replace(MAP, BUMPS))
+    Path("measured.toml").write_text(SMALL)
+    x = np.linspace(-1, 1, 16)
+    np.savetxt("map.csv", 2 - 2 * np.add.outer(x**2, x**2), delimiter=",")
+    return tmp_path
+
+
+def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(folder):
+    plan = read_plan("plan.toml")
+    assert plan.kind.columns == ("protocol.speed", "surface.scatter")
+    assert len(plan.cases) == 4 and plan.rejected == 0
+    last = list(plan.cases)[-1]
+    case = plan.kind.problem(last.inputs)
+    assert case.surface.scatter == 1e-6 and case.protocol.speed == 1e-4
+    row = measure(case, plan.settings)
+    found = pull(read_rough("bumps.toml"), accuracy=0.02)
+    assert row["pull_off_force_N"] != found.pull_off_force
+    same = measure(read_rough_case("bumps.toml"), plan.settings)
+    assert same["pull_off_force_N"] == found.pull_off_force
+    assert same["work_of_separation_J"] == found.work_of_separation
+    assert same["hysteresis_J"] == found.hysteresis and same["status"] == found.status
+    assert {"contact_share_at_pull_off", "pastewka_robbins", "steps", "versions"} <= same.keys()
+
+
+def test_a_case_is_restored_from_its_record_and_lists_its_own_numbers(folder):
+    for name in ("bumps.toml", "measured.toml"):
+        case = read_rough_case(name)
+        assert from_dict(to_dict(case)) == case
+        paths = {path for path in inputs_of(case) if path.startswith("surface.")}
+        own = "pixel height_unit" if case.surface.file else "pixels pixel radius seed spacing"
+        assert {f"surface.{word}" for word in own.split()} <= paths
+        assert "surface.hurst" not in paths
+
+
+def test_a_map_that_has_changed_since_is_refused(folder):
+    case = read_rough_case("measured.toml")
+    assert len(case.surface.sha256) == 64
+    np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
+    with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):
+        measure(case, CaseSettings())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("surface.scatter", "surface.hurst", "no number 'surface.hurst'"),
+        ('"1 um"]', '"-1 um"]', "scatter must be at least 0"),
+        ("problem =", 'temperature = "0 degC"\nproblem =', "temperature of its material"),
+        ('surface.scatter = ["0 um", "1 um"]', "surface.seed = [1.5]", "seed must be a whole"),
+        ("bumps.toml", "measured.toml", "scatter"),
+    ],
+)
+def test_a_wrong_plan_is_refused(folder, old, new, words):
+    assert old in PLAN
+    Path("plan.toml").write_text(PLAN.replace(old, new))
+    with pytest.raises(InputError, match=words):
+        read_plan("plan.toml")
+
+
+def test_files_that_state_several_contacts_are_refused_in_words(folder):
+    Path("bumps.toml").write_text("[pad]\nradius = 1\n[array]\n")
+    with pytest.raises(InputError, match="a file of `viscotack array`"):
+        read_plan("plan.toml")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [
+        ({"kind": ("cones",)}, "kind must be one of"),
+        ({}, "either a kind"),
+        ({"kind": ("sphere",), "pixels": 16, "pixel": 1e-6}, "needs radius"),
+        ({"file": "a.npy", "kind": ("sphere",)}, "either a kind"),
+    ],
+)
+def test_a_surface_that_is_not_stated_is_refused(numbers, words):
+    with pytest.raises(InputError, match=words):
+        StatedSurface(**numbers)
+
+
+@pytest.mark.slow
+def test_all_front_ends_sweep_a_rough_surface(folder):
+    rows = [{"surface.seed": 1.0}, {"surface.seed": 1.5}]
+    question = Question("sweep", {"problem": "bumps.toml", "cases": rows, "accuracy": 0.02})
+    client = Http()
+    try:
+        found = through_all(question, client)
+    finally:
+        client.close()
+    first = found["Python"].record["rows"]
+    assert first[0]["outputs"]["pull_off_force_N"] > 0
+    assert "whole number" in first[1]["reason"]
+    for other in found.values():
+        assert [row["outputs"] for row in other.record["rows"]] == [row["outputs"] for row in first]
+
+
+def test_a_record_does_not_read_files_of_a_server(folder):
+    record = to_dict(read_rough_case("measured.toml"))
+    assert ask("campaign inputs", problem=record).record()["surface.pixel"]["value"] == 1e-5
+    client = Http()
+    try:
+        answer = client("/api/campaign/inputs", json={"problem": record})
+    finally:
+        client.close()
+    assert answer.status_code == 422 and "was sent" in answer.text
+
+
+@pytest.mark.slow
+def test_a_campaign_of_rough_surfaces_runs(folder):
+    assert run(read_plan("plan.toml"), "out").done == 4
+    table = Store("out").results().to_pydict()
+    forces = np.array(table["pull_off_force_N"])
+    # elastic: the speed of two of the four changes nothing
+    assert len(np.unique(forces.round(12))) == 2
