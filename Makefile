@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz \
-	fuzz-files farm verification history docs docs-check lock sbom release audit clean
+	fuzz-files farm verification history docs docs-check paper lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -132,6 +132,11 @@ docs: $(VENV)/.demo
 # Runs the commands whose output the pages show, and compares; WRITE=1 renews the pages. Two minutes.
 docs-check: $(VENV)/.installed
 	$(BIN)/python benchmarks/docs_check.py $(if $(WRITE),--write)
+
+# The manuscript: out/paper/html, and out/paper/manuscript.pdf where latexmk and pdflatex are. One minute.
+paper: $(VENV)/.demo
+	$(INSTALL) --editable ".[docs]"
+	$(BIN)/python -m paper.build
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

@@ -21,7 +21,7 @@ import numpy as np
 from benchmarks.labs import lab_of
 from viscotack import InputError, LennardJones, Problem, Retraction, Sphere, crack_contact
 from viscotack.identify import PullOff, forecast_rates, identify_rates
-from viscotack.identify.next_tests import Trial, next_tests
+from viscotack.identify.ranked_tests import Trial, next_tests
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport
 from viscotack.materials.scaling import scaled

@@ -52,4 +52,11 @@ CONTENTS = (
         source="the table of the thesis's authors, 9,005 rows",
         time="15 min of processor time; two with --count 1000",
     ),
+    Part(
+        room="replication.second_code",
+        options="--keep",
+        claim="Steady cracks and pull-offs of this package, by other formulations",
+        source="this package; the manuscript in the folder `paper`",
+        time="two minutes of processor time",
+    ),
 )

@@ -13,7 +13,7 @@ from front_ends import Http, Question, through_all
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, Trial, forecast_rates, identify_rates, next_tests
 from viscotack.identify.forward import Forward
-from viscotack.identify.next_tests import noise_of
+from viscotack.identify.ranked_tests import noise_of
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport
 from viscotack.materials.shift import WLF

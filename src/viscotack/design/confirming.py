@@ -17,7 +17,8 @@ from .fast import FastTier, Pad
 from .margins import Candidate, Judge, pad_of
 from .space import HOLD, LOAD, RELEASE, WORK
 
-# A dead load is applied within this part of the holding time, and simulated for this multiple.
+# A dead load is applied within this part of the holding time; the simulation lasts this
+# number of holding times.
 _APPLIED, _LONGEST = 0.01, 3.0
 
 

@@ -88,8 +88,9 @@ def predict_table(
         One row per input row: `pull_off_force` [1.5 pi R dg0] and `work_to_pull_off`
         [1.5 pi R dg0 h0], for punches `pull_off_stress` [sigma0] and the work [dg0], their
         intervals `..._low` and `..._high`, `method`, `inside` (the training range), `band`
-        (measured or not) and `why` it is not inside. Spheres outside are predicted by a theory. If no theory applies, the surrogate is not certain, or the case is invalid,
-        numbers are nan, `method` is "" and `why` states the reason; nothing is simulated.
+        (measured or not) and `why` it is not inside. Spheres outside are predicted by a theory.
+        If no theory applies, the surrogate is not certain, or the case is invalid, numbers are
+        nan, `method` is "" and `why` states the reason; nothing is simulated.
 
     Raises
     ------

@@ -2,9 +2,9 @@
 
 from .contact_time import DwellFit, identify_dwell
 from .forecasting import RateForecast, forecast_rates, interfaces
-from .next_tests import NextTests, RankedTest, Trial, next_tests
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff, pull_offs
+from .ranked_tests import NextTests, RankedTest, Trial, next_tests
 from .rate_series import RateSeriesFit, identify_rates
 from .sampling import Posterior, posterior
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test

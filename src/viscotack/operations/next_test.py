@@ -109,7 +109,7 @@ class NextTest(Operation):
         """Fit the series of the study and rank the tests."""
         from viscotack.clock import limited
         from viscotack.identify import Trial, next_tests
-        from viscotack.identify.next_tests import INTERFACE
+        from viscotack.identify.ranked_tests import INTERFACE
         from viscotack.pictures.next_tests import draw_next_tests
 
         from .parts.tables import rows_as_csv
@@ -183,7 +183,7 @@ _SHOWN = 8  # tests in words
 
 def _words(found: Any, forecast: bool) -> str:
     """Return the answer as lines."""
-    from viscotack.identify.next_tests import trial_words
+    from viscotack.identify.ranked_tests import trial_words
 
     what = "the forecast" if forecast else "ln(work) and ln(range)"
     lines = [

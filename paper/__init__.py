@@ -1,0 +1,1 @@
+"""Manuscript on the steady crack: its computations, numbers, figures and build."""

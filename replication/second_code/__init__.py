@@ -1,0 +1,1 @@
+"""Steady cracks and pull-offs by other formulations than those of the package."""

@@ -1,0 +1,107 @@
+"""Agreement of the second code with the package: plane cracks, zones, and pull-offs of spheres."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viscotack import LennardJones, RetardationPowerLaw, StandardSolid
+from viscotack.theory import SteadyCrack, lennard_jones
+
+from .half_plane import Solid, cracks
+from .sphere import pull_off
+
+OPENING = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+CLOSING = (-0.1, -1.0, -10.0, -100.0)
+# Modulus ratio and exponent of a power law (None: standard solid), and speeds.
+PLANE = (
+    (0.1, None, OPENING),
+    (0.01, None, (*OPENING, 1e4)),
+    (0.1, 0.6, OPENING),
+    (0.1, None, CLOSING),
+)
+# Gaps between which zones are compared [h0].
+ZONE = (1.1, 20.0)
+ELASTIC_TABOR = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
+# Tabor numbers and speeds of spheres whose edge moves, modulus ratio 0.1.
+MOVING = ((10.0, 1.0), (10.0, 10.0), (30.0, 10.0), (30.0, 100.0), (100.0, 100.0), (200.0, 10.0))
+_REFINED = (1.0, 2.0)
+
+
+def solids(modulus_ratio, exponent):
+    """Return the same solid for this code and for the package."""
+    common = dict(
+        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
+    )
+    if exponent is None:
+        return Solid.standard(modulus_ratio), StandardSolid(**common)
+    return (
+        Solid.power_law(modulus_ratio, exponent),
+        RetardationPowerLaw(exponent=exponent, **common),
+    )
+
+
+def plane(modulus_ratio, exponent, speeds, **mesh):
+    """Return rows of energies by both codes, and how far gaps and tractions of the zones differ."""
+    own, theirs = solids(modulus_ratio, exponent)
+    crack = SteadyCrack(theirs, LennardJones(1.0, 1.0))
+    rows = []
+    for speed, found in zip(speeds, cracks(own, speeds, **mesh), strict=True):
+        profile = crack.at(speed)
+        inside = (profile.gap > ZONE[0]) & (profile.gap < ZONE[1])
+        gap = np.interp(profile.position[inside], found.position, found.gap)
+        middle = np.interp(profile.middle, profile.position, profile.gap)
+        there = (middle > ZONE[0]) & (middle < ZONE[1])
+        traction = np.interp(profile.middle[there], found.position, found.traction)
+        rows.append(
+            {
+                "modulus_ratio": modulus_ratio,
+                "exponent": exponent,
+                "speed": speed,
+                "energy": found.energy,
+                "package": profile.amplification,
+                "energy_off": found.energy / profile.amplification - 1,
+                "gap_off": float(np.max(np.abs(gap / profile.gap[inside] - 1))),
+                "traction_off": float(np.max(np.abs(traction - profile.traction[there]))),
+            }
+        )
+    return rows
+
+
+def extrapolated(tabor, **options):
+    """Return the pull-off force without the error of the mesh, which is of second order."""
+    coarse, fine = (pull_off(tabor, refined=r, **options).force for r in _REFINED)
+    ratio = (_REFINED[1] / _REFINED[0]) ** 2
+    return (ratio * fine - coarse) / (ratio - 1)
+
+
+def elastic(tabor):
+    """Return a row of an elastic pull-off beside the table of the package."""
+    force, package = extrapolated(tabor), float(lennard_jones.pull_off_ratio(tabor))
+    return {"tabor": tabor, "force": force, "package": package, "off": force / package - 1}
+
+
+def moving(tabor, speed, modulus_ratio=0.1):
+    """Return a row of a pull-off at a steady speed of the edge beside the rule of the package."""
+    own, theirs = solids(modulus_ratio, None)
+    energy = float(np.asarray(SteadyCrack(theirs, LennardJones(1.0, 1.0)).amplification(speed)))
+    effective = tabor * energy ** (-1 / 3)
+    force = extrapolated(tabor, solid=own, speed=speed, energy=energy) / energy
+    rule = float(lennard_jones.pull_off_ratio(effective))
+    return {
+        "tabor": tabor,
+        "speed": speed,
+        "energy": energy,
+        "effective": effective,
+        "factor": force,
+        "rule": rule,
+        "off": force / rule - 1,
+    }
+
+
+def agreement():
+    """Return all rows."""
+    return {
+        "plane": [row for case in PLANE for row in plane(*case)],
+        "elastic": [elastic(tabor) for tabor in ELASTIC_TABOR],
+        "moving": [moving(*case) for case in MOVING],
+    }
