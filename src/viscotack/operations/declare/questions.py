@@ -536,7 +536,7 @@ def _refuse_large(name: str, start: Start | Apart, tabor: float, exponent: float
 
 
 def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
-    """Return the problem in SI; `unit` is the unit of time, or "1" where --tau0 must tell it."""
+    """Return the problem in SI; `unit` is the unit of time, or "1" where --tau0 must state it."""
     lengths = [name for name in ("equilibrium-gap", "work-of-adhesion") if name in given]
     if len(lengths) != 1:
         raise InputError(
