@@ -3,9 +3,10 @@
     python -m release && python benchmarks/follow.py [--extra lab] [PAGE ...]
 
 A page begins in an environment with the package alone, installed from the release folder; below a
-line that installs `viscotack[EXTRA]` its commands run with that extra. Commands of `viscotack` and
-Python are run, in order, in a folder with the examples; what needs a checkout, a server or a
-cluster is not. Simulations are coarse without --exact. Where uv is installed, it installs.
+line that installs `viscotack[EXTRA]` or `.[EXTRA]` its commands run with that extra. Commands of
+`viscotack` and Python are run, in order, in a folder with the examples; what needs a checkout, a
+server or a cluster is not. Simulations are coarse without --exact. Where uv is installed, it
+installs.
 """
 
 import argparse
@@ -24,7 +25,7 @@ from pathlib import Path
 from docs_check import PAGES, ROOT, stage
 
 BLOCK = re.compile(r"```(console|sh|python)\n(.*?)```", re.DOTALL)
-INSTALL = re.compile(r"pip install [^\n]*viscotack\[([\w,]+)\]")
+INSTALL = re.compile(r"pip install [^\n]*?(?:viscotack|\.)\[([\w,]+)\]")
 # What a folder with the examples and an installed package do not have.
 ELSEWHERE = re.compile(r"viscotack app|tcp://|tls://|localhost|benchmarks|replication|training")
 COARSE = ["--until", "pull-off", "--accuracy", "1e-2"]
