@@ -22,6 +22,8 @@ KEPT = Path(__file__).with_name("kept") / "line_tension.json"
 RATIOS, SPEEDS = (0.1, 0.01), tuple(10.0 ** np.arange(-1.5, 4.6, 0.5))
 # Radius within which the kept coefficients are computed, over Gamma E0* h0^2/dg.
 RADIUS = 32.0
+# Radii of the elastic crack, in E0* h0^2/dg.
+RADII = (1e2, 1e3, 1e4, 1e5)
 
 ELEMENTS, DEGREE = 160, 14
 # Relative difference of the speeds of the derivative by the speed.
@@ -92,10 +94,28 @@ def kept_rows():
     return rows
 
 
+def elastic_rows():
+    """Return the coefficient of the elastic crack within radii, which grows as their logarithm."""
+    solid, rows = half_plane.Solid(1.0, ()), []
+    for radius in RADII:
+        elements = int(18 * np.log10(radius)) + 54
+        rows.append(
+            {
+                "radius": radius,
+                "T": float(coefficients(solid, 0.0, largest=radius, elements=elements)[1]),
+            }
+        )
+    return rows
+
+
 def main():
     """Compute and keep all rows."""
-    rows = [{key: float(f"{x:.6g}") for key, x in row.items()} for row in kept_rows()]
-    KEPT.write_text(json.dumps({"rows": rows}, indent=1) + "\n")
+    found = {"elastic": elastic_rows(), "rows": kept_rows()}
+    found = {
+        name: [{key: float(f"{x:.6g}") for key, x in row.items()} for row in rows]
+        for name, rows in found.items()
+    }
+    KEPT.write_text(json.dumps(found, indent=1) + "\n")
 
 
 if __name__ == "__main__":

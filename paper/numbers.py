@@ -11,7 +11,7 @@ import numpy as np
 
 import viscotack as vt
 from replication.second_code.compare import elastic, plane
-from viscotack.theory import SteadyCrack, jkr, lennard_jones
+from viscotack.theory import SteadyCrack, jkr, lennard_jones, maugis
 
 from . import closed_forms
 from .quasi_steady import CUT
@@ -27,6 +27,8 @@ SOLIDS = ((0.1, None), (0.01, None), (0.1, 0.6))
 BINS = ((2.0, 3.0), (3.0, 5.0), (5.0, 9.0))
 # Energies, over 1 and times k, between which neither the elastic nor the glassy tail dominates.
 MOVING, NOT_GLASSY = 1.6, 0.8
+# The first draw that was simulated after these limits and the derived factor were settled.
+FRESH = 49
 LENS = dict(rubbery_modulus=1.0, tau0=1.0, poisson_ratio=0.0)
 
 
@@ -104,9 +106,13 @@ def trajectory(row):
     return 2 / (2 + g + (1 - g) * g / n)
 
 
-def coefficient(row):
-    """Return the derived first-order coefficient of a row, over its size Gamma lambda/a."""
-    return trajectory(row) * (row["T"] + row["g"] * row["T_g"] + row["n"] * row["T_n"])
+def coefficient(row, cut=1.0, terms="gn"):
+    """Return the derived first-order coefficient of a row, over its size Gamma lambda/a.
+
+    ``cut`` multiplies the radius up to which the tail counts; ``terms`` are those beside geometry.
+    """
+    T = row["T"] + row["growth"] * np.log(cut)
+    return trajectory(row) * (T + sum(row[x] * row[f"T_{x}"] for x in terms))
 
 
 def bounded(first):
@@ -114,10 +120,18 @@ def bounded(first):
     return 1 + first / (1 + 3 * first)
 
 
-def factors():
-    """Return arrays of the simulated spheres: effective Tabor number, size, factors, and mask."""
+def dugdale(strength):
+    """Return l/a and (f - 1) a/l of Maugis' solution at a strength, radius and energy being 1."""
+    case = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+    force = float(maugis.pull_off_force(**case, strength=strength)) / (1.5 * np.pi)
+    size = np.pi / (4 * strength**2) / (9 * np.pi / 8) ** (1 / 3)
+    return size, (force - 1) / size
+
+
+def factors(cut=1.0):
+    """Return arrays of the simulated spheres: effective Tabor number, size, factors, and masks."""
     rows = kept("range_factor")["rows"]
-    first = np.array([coefficient(row) * row["size"] for row in rows])
+    first = np.array([coefficient(row, cut) * row["size"] for row in rows])
     energy = np.array([row["energy"] for row in rows])
     k = np.array([row["k"] for row in rows])
     return {
@@ -126,6 +140,9 @@ def factors():
         "simulated": np.array([row["simulated"] for row in rows]),
         "rule": np.array([row["package"] for row in rows]),
         "first": 1 + first,
+        "geometry": 1 + np.array([trajectory(row) * row["T"] * row["size"] for row in rows]),
+        "glassy": energy * k >= NOT_GLASSY,
+        "fresh": np.array([row["i"] >= FRESH for row in rows]),
         "bounded": bounded(first),
         "inside": (energy > MOVING) & (energy * k < NOT_GLASSY),
         "energy": energy,
@@ -203,7 +220,11 @@ def tables():
         "|---" * 5 + "|",
     ]
     groups = [(f"{low:g} to {high:g}", low, high, data["inside"]) for low, high in BINS]
+    every = np.full(data["energy"].shape, True)
     groups += [("all of these", 0, 99, data["inside"]), ("the others", 0, 99, ~data["inside"])]
+    groups += [("all cases", 0, 99, every)]
+    if np.any(data["fresh"]):
+        groups += [("drawn later", 0, 99, data["fresh"])]
     for name, low, high, mask in groups:
         here = mask & (data["effective"] >= low) & (data["effective"] < high)
         off = [data[name][here] / data["simulated"][here] - 1 for name in ("rule", "bounded")]
@@ -211,6 +232,37 @@ def tables():
         means = ", ".join(_signed(x.mean(), 2) for x in off)
         lines.append(f"| {name} | {here.sum()} | {parts[0]} | {parts[1]} | {means} |")
     found["factors"] = lines
+    lines = ["| cut over a | median error | worst error |", "|---" * 3 + "|"]
+    for part in (0.5, 1.0, 2.0):
+        here = factors(part)
+        off = abs(here["bounded"] / here["simulated"] - 1)[here["inside"]]
+        median, worst = _percent(np.median(off), 2), _percent(off.max(), 2)
+        lines.append(f"| {part * CUT:g} | {median} | {worst} |")
+    found["cuts"] = lines
+    lines = ["| coefficients | mean error | median | worst |", "|---" * 4 + "|"]
+    rows, inside = kept("range_factor")["rows"], data["inside"]
+    for name, terms in (
+        ("geometry alone", ""),
+        ("with the change of the energy", "g"),
+        ("with the change of the speed", "n"),
+        ("all three", "gn"),
+    ):
+        first = np.array([coefficient(row, terms=terms) * row["size"] for row in rows])
+        off = (bounded(first) / data["simulated"] - 1)[inside]
+        parts = _signed(off.mean(), 2), _percent(np.median(abs(off)), 2)
+        lines.append(f"| {name} | {parts[0]} | {parts[1]} | {_percent(abs(off).max(), 2)} |")
+    found["terms"] = lines
+    lines = [
+        "| rate | Γ | finest mesh | order | extrapolated | simulated | difference | contact |",
+        "|---" * 8 + "|",
+    ]
+    for row in kept("agreement")["marched"]:
+        lines.append(
+            f"| {row['rate']:g} | {row['energy']:.3g} | {row['finest']:.4f} | {row['order']:.2f} "
+            f"| {row['force']:.4f} | {row['simulated']:.4f} | {_signed(row['off'], 2)} "
+            f"| {_signed(row['contact_off'], 2)} |"
+        )
+    found["marched"] = lines
     return {name: "\n".join(lines) + "\n" for name, lines in found.items()}
 
 
@@ -227,6 +279,10 @@ def numbers():
     off = {name: abs(data[name] / data["simulated"] - 1)[inside] for name in ("rule", "bounded")}
     far = inside & (data["effective"] > 5)
     bound = kept("work-bound")["numbers"]
+    elastic_T = kept("line_tension")["elastic"]
+    slopes = np.diff([r["T"] for r in elastic_T]) / np.diff(
+        np.log([r["radius"] for r in elastic_T])
+    )
     form = {
         name: closed_forms.deviations(
             name,
@@ -266,6 +322,22 @@ def numbers():
         "derived_worst": _percent(off["bounded"].max(), 2),
         "rule_far": _signed((data["rule"] / data["simulated"] - 1)[far].mean(), 2),
         "derived_far": _signed((data["bounded"] / data["simulated"] - 1)[far].mean(), 2),
+        "geometry_far": _signed((data["geometry"] / data["simulated"] - 1)[far].mean(), 2),
+        "fresh_words": (
+            f", and {data['fresh'].sum()} cases were drawn after it" if any(data["fresh"]) else ""
+        ),
+        "marched_best": _percent(min(abs(r["off"]) for r in agreement["marched"]), 3),
+        "marched_off": _percent(max(abs(r["off"]) for r in agreement["marched"]), 2),
+        "marched_contact": " and ".join(_signed(r["contact_off"], 2) for r in agreement["marched"]),
+        "near_glassy": str(int(data["glassy"].sum())),
+        "glassy_rule": _percent(
+            np.max(np.abs(data["rule"] / data["simulated"] - 1)[data["glassy"]]), 2
+        ),
+        "dugdale_far": f"{dugdale(40.0)[1]:.5f}",
+        "dugdale_size": f"{dugdale(40.0)[0]:.4f}",
+        "dugdale_near": f"{dugdale(5.0)[1]:.4f}",
+        "dugdale_large": f"{dugdale(5.0)[0]:.3f}",
+        "log_slope": f"{min(slopes):.3f} to {max(slopes):.3f}",
         "first_far": _signed((data["first"] / data["simulated"] - 1)[far].mean(), 2),
         "cut": f"{CUT:g}",
         "accuracy": f"{kept('range_cases')['accuracy']:g}",

@@ -21,7 +21,7 @@ KEPT = Path(__file__).with_name("kept") / "range_cases.json"
 SEED = 431
 # Effective Tabor numbers, modulus ratios, and position of ln Gamma between 0 and ln(1/k).
 EFFECTIVE, RATIO, PART = (2.0, 8.0), (0.01, 0.3), (0.15, 0.97)
-ACCURACY, TIME_LIMIT, LEAST_ZONES = 3e-4, 120.0, 8.0
+ACCURACY, TIME_LIMIT, LEAST_ZONES = 3e-4, 1200.0, 8.0
 
 
 def solid_of(row):

@@ -16,7 +16,7 @@ def rounded(value):
 
 def main():
     """Print the rows, and keep them if asked for."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--keep", action="store_true", help="write agreement.json")
     asked = parser.parse_args()
     found = {

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+import viscotack as vt
 from viscotack import LennardJones, RetardationPowerLaw, StandardSolid
 from viscotack.theory import SteadyCrack, lennard_jones
 
 from .half_plane import Solid, cracks
-from .sphere import pull_off
+from .sphere import pull_off, retraction
 
 OPENING = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 CLOSING = (-0.1, -1.0, -10.0, -100.0)
@@ -25,6 +28,10 @@ ELASTIC_TABOR = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
 # Tabor numbers and speeds of spheres whose edge moves, modulus ratio 0.1.
 MOVING = ((10.0, 1.0), (10.0, 10.0), (30.0, 10.0), (30.0, 100.0), (100.0, 100.0), (200.0, 10.0))
 _REFINED = (1.0, 2.0)
+# Retractions in time at a Tabor number of 10: depth [beta^2/R], rate [beta^2/R per tau], coarsest
+# spacing [beta]. Accuracy of the simulations of the package.
+MARCHED = ((8.0, 5.0, 0.03), (8.0, 1.0, 0.02))
+_MARCHED_TABOR, _ACCURACY = 10.0, 3e-4
 
 
 def solids(modulus_ratio, exponent):
@@ -98,10 +105,45 @@ def moving(tabor, speed, modulus_ratio=0.1):
     }
 
 
+def marched(depth, rate, spacing, tabor=_MARCHED_TABOR, modulus_ratio=0.1):
+    """Return a row of a retraction in time by both codes, and by the contact with a steady crack.
+
+    The second code is extrapolated from three spacings.
+    """
+    own, theirs = solids(modulus_ratio, None)
+    groups = vt.Groups(
+        tabor=tabor, material=theirs, start=vt.AtDepth(depth * tabor), rate=rate * tabor
+    )
+    contact: Any = vt.crack_contact(groups)
+    options: dict[str, Any] = {"until": "pull-off", "accuracy": _ACCURACY, "estimate_error": False}
+    simulated = vt.pull_off(vt.solve(groups, **options)).force
+    least = 0.75 * contact.contact_radius_at_pull_off * np.pi ** (1 / 3)
+    forces = [
+        retraction(tabor, own, depth=depth, rate=rate, least=least, spacing=spacing / part).force
+        for part in (1, 2, 4)
+    ]
+    first, second = np.diff(forces)
+    force = forces[-1] + second**2 / (first - second)
+    return {
+        "tabor": tabor,
+        "depth": depth,
+        "rate": rate,
+        "finest": forces[-1],
+        "order": float(np.log2(first / second)),
+        "force": force,
+        "simulated": simulated,
+        "contact": contact.pull_off_force,
+        "energy": contact.amplification_at_pull_off,
+        "off": force / simulated - 1,
+        "contact_off": contact.pull_off_force / simulated - 1,
+    }
+
+
 def agreement():
     """Return all rows."""
     return {
         "plane": [row for case in PLANE for row in plane(*case)],
         "elastic": [elastic(tabor) for tabor in ELASTIC_TABOR],
         "moving": [moving(*case) for case in MOVING],
+        "marched": [marched(*case) for case in MARCHED],
     }

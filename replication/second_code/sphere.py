@@ -19,12 +19,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from .half_plane import Solid, half_gap, lennard_jones, memory
 
 # Spacing at the edge over the zone, growth of the elements, largest radius over the contact's.
 SPACING, GROWTH, OUTER = 0.06, 0.07, 30.0
 _GAUSS, _ROUNDS, _CLOSE, _LEAST_GAP = 4, 80, 1e-10, 0.6
+# Of the march: tolerance of a gap [h0], largest way of the edge in a step [spacings], and largest
+# step of the depth.
+_MARCHED, _MOVED, _LARGEST_STEP = 1e-7, 3.0, 0.05
 # Places of the edge around the guess, for the parabola through the largest tension.
 _PLACES = (-0.12, -0.04, 0.04, 0.12)
 
@@ -126,3 +130,114 @@ def _contact(tabor, edge, zone, solid, speed, energy, refined):
             tension = 2 * np.pi * float(mass @ (tabor * traction))
             return tension, float(depth), r, gap, traction
     raise RuntimeError(f"no contact was found with its edge at {edge:.4g} at {tabor:g}")
+
+
+class Receded(NamedTuple):
+    """A retraction from rest up to a little beyond its largest tension."""
+
+    force: float
+    time: float
+    depths: np.ndarray
+    forces: np.ndarray
+
+
+def retraction(tabor, solid, *, depth, rate, least, spacing):
+    """Return the retraction of a relaxed contact at a constant rate, marched in time.
+
+    Lengths in beta, depths in beta^2/R, the rate in beta^2/R per unit of time; the force is over
+    1.5 pi R dg. ``least`` is the smallest radius that the edge may reach, ``spacing`` that of the
+    nodes from there to the start. The displacement of the solid lags behind that of the relaxed
+    solid, node by node; the memory is exact for displacements linear in time.
+    """
+    start = _hertzian_radius(depth)
+    inner = _graded(least, spacing)[::-1]
+    outer = _graded(OUTER * start, spacing)
+    fine = np.linspace(least, start + 40 * spacing, int(round((start - least) / spacing)) + 41)
+    r = np.concatenate([least - inner[:-1], fine[:-1], fine[-1] + outer])
+    r[0] = 0.0
+    rise, mass = operator(r)
+    weights, times = (np.array(x) for x in zip(*solid.modes, strict=True))
+
+    def settled(D, lag, compliance, e):
+        """Return relaxed openings e for which the law holds, with w = compliance e + lag."""
+        known = r**2 / 2 - D
+        for _ in range(_ROUNDS):
+            # gap: the shape less the rise of the solid, of which a part is given
+            w = known - lag - compliance * (known - e)
+            gap = 1 + tabor * w
+            traction, stiffness = lennard_jones(np.maximum(gap, _LEAST_GAP / 2))
+            rest = e - known + rise @ (tabor * traction)
+            matrix = np.eye(r.size) + rise @ np.diag(tabor**2 * stiffness * compliance)
+            step = np.linalg.solve(matrix, -rest)
+            part = 1.0
+            while part > 1e-3:
+                trial = known - lag - compliance * (known - e - part * step)
+                if np.min(1 + tabor * trial) > _LEAST_GAP:
+                    break
+                part /= 2
+            e = e + part * step
+            if part == 1 and np.max(np.abs(step)) * tabor < _MARCHED:
+                return e, 1 + tabor * (known - lag - compliance * (known - e))
+        return None
+
+    j = np.sqrt(2 * np.pi * start)
+    outside = np.maximum(r, start)
+    angle = np.arccos(start / outside)
+    shape = start * np.sqrt(outside**2 - start**2) + (outside**2 - 2 * start**2) * angle
+    found = settled(depth, 0.0, 1.0, (shape + 2 * j * angle) / np.pi)
+    if found is None:
+        raise RuntimeError("no relaxed contact was found")
+    e, gap = found
+    u = r**2 / 2 - depth - e
+    memory = np.repeat(u[:, None], times.size, axis=1)
+    time, dt = 0.0, 1e-4 / rate
+    edge = r[np.argmax(gap > half_gap())]
+    depths, forces, instants = [depth], [_force(mass, gap, tabor)], [0.0]
+    while True:
+        x = dt / times
+        decay, mean = np.exp(-x), -np.expm1(-x) / x
+        lag = memory @ (weights * decay) + u * (weights @ (mean - decay))
+        compliance = solid.instantaneous + weights @ (1 - mean)
+        D = depth - rate * (time + dt)
+        found = settled(D, lag, compliance, e - (D - depths[-1]))
+        if found is None or (now := r[np.argmax(found[1] > half_gap())]) < edge - _MOVED * spacing:
+            dt /= 2
+            continue
+        e, gap = found
+        new = r**2 / 2 - D - e
+        memory = memory * decay + u[:, None] * (mean - decay) + new[:, None] * (1 - mean)
+        u, time = new, time + dt
+        dt *= 1.5 if edge - now < _MOVED / 3 * spacing else 1.0
+        dt = min(dt, _LARGEST_STEP / rate)
+        edge = now
+        depths.append(D)
+        forces.append(_force(mass, gap, tabor))
+        instants.append(time)
+        if forces[-1] < 0.98 * max(forces) and max(forces) > 0:
+            break
+        if edge < least + 5 * spacing:
+            raise RuntimeError("the edge left the fine mesh before the pull-off")
+    i = int(np.argmax(forces))
+    curve = np.polynomial.Polynomial.fit(instants[i - 2 : i + 3], forces[i - 2 : i + 3], 4)
+    grid = np.linspace(instants[i - 1], instants[i + 1], 400)
+    best = grid[np.argmax(curve(grid))]
+    return Receded(float(curve(best)), float(best), np.array(depths), np.array(forces))
+
+
+def _force(mass, gap, tabor):
+    return 2 * np.pi * float(mass @ (tabor * lennard_jones(gap)[0])) / (1.5 * np.pi)
+
+
+def _hertzian_radius(depth):
+    """Return the radius of the larger relaxed contact without range at a depth."""
+    # a^2 - sqrt(2 pi a) rises beyond the radius at which it is least
+    least, most = (np.pi / 8) ** (1 / 3), 3 + np.sqrt(3 * max(depth, 1.0))
+    return scipy.optimize.brentq(lambda a: a**2 - np.sqrt(2 * np.pi * a) - depth, least, most)
+
+
+def _graded(length, spacing):
+    """Return distances from 0 to a length, geometric beyond the first ones."""
+    found = [0.0]
+    while found[-1] < length:
+        found.append(found[-1] + np.hypot(spacing, GROWTH * found[-1]))
+    return np.array(found) * (length / found[-1])
