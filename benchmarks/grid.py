@@ -5,6 +5,8 @@ python benchmarks/grid.py pixels            # errors of the force by pixels per 
 python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres
 python benchmarks/grid.py random --count 50 # drawn problems: endings, residuals and times
 python benchmarks/grid.py superposition     # asperities by themselves beside the grid
+python benchmarks/grid.py places            # errors by the place of the apex within a pixel
+python benchmarks/grid.py criteria --seed 5 --count 24  # the bearing area beside the grid
 python benchmarks/grid.py areas             # contact of hard rough maps by the pressure
 python benchmarks/grid.py peer              # elastic spheres beside the package Adhesion, in pairs
 python benchmarks/grid.py size              # time and memory by the number of pixels
@@ -128,6 +130,29 @@ def pixels(given):
             f"{found.statistics['steps']:6.0f} {len(found.events):5d}",
             flush=True,
         )
+
+
+def places(given):
+    """Show errors of the force by the place of the apex of a sphere within a pixel."""
+    apexes = ((0, 0), (0.5, 0), (0.31, 0.12), (0.21, 0.07), (0.4, 0.2))
+    print("mu    k    px/zone", *(f"{a:g},{b:g}" for a, b in apexes), sep="    ")
+    for (tabor, k), many in product(((1.0, 1), (1.0, 0.1), (1.5, 1), (0.7, 1)), (2.0, 2.3, 3.0)):
+        side = round(14 / (0.75 * tabor**-1.5 / many))
+
+        def test(F):
+            return Retraction(start=AtForce(0.3 * F), speed=1e-5)
+
+        problem, exact, unit = of_sphere(tabor, solid(k), test, side, 7.0)
+        result = vt.solve(exact, until="detached", estimate_error=False, accuracy=3e-4)
+        pixel, x = problem.surface.pixel, np.arange(side) + 0.5 - side / 2
+        errors = []
+        for a, b in apexes:
+            heights = -(pixel**2) * np.add.outer((x - a) ** 2, (x - b) ** 2) / (2 * RADIUS)
+            moved = replace(problem, surface=replace(problem.surface, heights=heights))
+            found = pull(moved, estimate_error=False, force_coarse=True)
+            errors.append(found.pull_off_force / (unit * vt.pull_off_force(result)) - 1)
+        shown = " ".join(f"{100 * error:+8.3f} %" for error in errors)
+        print(f"{tabor:<5g} {k:<4g} {problem.zone.pixels:7.2f} {shown}", flush=True)
 
 
 def drawn_map(rng, pixels, law_length):
@@ -352,6 +377,40 @@ def superposition(given):
         plt.savefig(given.plot, dpi=150)
 
 
+def criteria(given):
+    """Compare the pull-off of drawn elastic maps by the bearing area with the grid."""
+    rng = np.random.default_rng(given.seed)
+    print("energy of full contact  Pastewka-Robbins  stress over strength  bearing area over grid")
+    done = 0
+    while done < given.count:
+        zone, pixel = rng.uniform(4, 40), rng.uniform(2e-6, 10e-6)
+        rms = GAP * 10 ** rng.uniform(-0.3, 0.9)
+        work = solid(1).contact_modulus * GAP**2 * 0.75 / (zone * pixel)
+        law = vt.LennardJones(work_of_adhesion=work, equilibrium_gap=GAP)
+        surface = self_affine(
+            48,
+            pixel,
+            hurst=rng.uniform(0.3, 1),
+            rms_height=rms,
+            seed=int(rng.integers(1 << 30)),
+            roll_off=48 * pixel * rng.choice([0.5, 1]),
+            shortest=pixel * rng.choice([8, 12, 16]),
+        )
+        test = Retraction(start=AtForce(0.01 * law.strength * surface.area), speed=1e-6)
+        try:
+            problem = RoughProblem(surface=surface, material=solid(1), traction=law, protocol=test)
+        except InputError:  # too steep
+            continue
+        measures, found = stickiness(problem), pull(problem, estimate_error=False)
+        done += 1
+        print(
+            f"{measures.full_contact:22.2f} {measures.pastewka_robbins:17.2f} "
+            f"{found.pull_off_stress / law.strength:21.4f} "
+            f"{(measures.bearing_area_stress or 0) / found.pull_off_stress:23.3f}",
+            flush=True,
+        )
+
+
 def hard(surface, share):
     """Return a hard, weakly adhesive body for a map, with its slope and modulus.
 
@@ -554,10 +613,12 @@ def of_size(side, periodic=True):
 PARTS = (
     "spheres",
     "pixels",
+    "places",
     "trust",
     "rough",
     "random",
     "superposition",
+    "criteria",
     "areas",
     "peer",
     "size",
