@@ -21,6 +21,8 @@ _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 _COLOURS = {"hold": "#08519c", "release": "#d94801", "work": "#41ab5d", "dead_load": "#6a51a3"}
 # Number of speeds, and factor on both ends of their range.
 _SPEEDS, _WIDER = 25, 2.0
+# Ticks of forces over their targets.
+_TICKS = [m * 10.0**e for e in range(-3, 4) for m in (1, 3)]
 
 
 def draw_design(found: Design, stated: DesignFile) -> "Figure":
@@ -156,6 +158,10 @@ def draw_front(found: Design) -> "Figure":
             axes.axvline(1, color="0.4", lw=0.8)
             axes.set_xscale("log")
             axes.set_yscale("log")
+            for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+                ticks = [x for x in _TICKS if ends[0] <= x <= ends[1]]
+                axis.set_ticks(ticks, [f"{x:g}" for x in ticks])
+                axis.set_ticks([], minor=True)
             axes.set_xlabel(_over(x))
             axes.set_ylabel(_over(y))
     return figure
