@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz \
-	fuzz-files farm verification history docs docs-check paper lock sbom release audit clean
+	fuzz-files farm verification history docs docs-pages docs-check follow paper lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -129,9 +129,20 @@ docs: $(VENV)/.demo
 	$(BIN)/python -m sphinx -q -W --keep-going -b html -c docs -d out/site-cache . out/site
 	$(BIN)/python -m release.links out/site
 
+# Whether every page is read without a warning and every link between pages leads somewhere, without the reference
+# and the examples: five seconds of a processor. The next `make docs` writes the reference again.
+docs-pages: $(VENV)/.demo
+	$(INSTALL) "sphinx>=9.0" "myst-parser>=5.0"
+	$(BIN)/python -m sphinx -q -W --keep-going -t pages -b dummy -c docs -d out/pages-cache . out/pages
+
 # Runs the commands whose output the pages show, and compares; WRITE=1 renews the pages. Two minutes.
 docs-check: $(VENV)/.installed
 	$(BIN)/python benchmarks/docs_check.py $(if $(WRITE),--write)
+
+# Follows the commands of the pages as a stranger does, in an environment for each extra, from the release folder
+# that `make release` writes; an hour. EXTRA=lab follows those with one extra.
+follow: $(VENV)/.installed
+	$(BIN)/python benchmarks/follow.py $(if $(EXTRA),--extra $(EXTRA))
 
 # The manuscript: out/paper/html, and out/paper/manuscript.pdf where latexmk and pdflatex are. One minute.
 paper: $(VENV)/.demo

@@ -175,7 +175,8 @@ def suspects(design: int, count: int, seed: int) -> list[Case]:
             strict=True,
         ):
             apart.append(np.abs(other - np.log10(value)) / np.log10(pair[:, 1] / value))
-        given = ~made.doubtful(tests, said) & tests.inside().all(axis=1)[:, None]
+        inside = np.asarray(tests.inside().all(axis=1))
+        given = ~made.doubtful(tests, said) & inside[:, None]
         worst = np.where(given, np.array(apart).T, 0.0).max(axis=1)
         found += zip(worst.tolist(), cases, strict=True)
     return [case for _, case in sorted(found, key=lambda pair: -pair[0])[:count]]

@@ -1,6 +1,6 @@
 """What the package costs from version to version, in numbers that do not depend on the machine.
 
-`python benchmarks/history.py` appends a line to `history.jsonl`: date, commit, processor, processor
+`python benchmarks/history.py` adds a line to `history.jsonl`: date, commit, processor, processor
 times as ratios measured in the same minute, and the instructions of three answers, counted by
 Valgrind (`apt-get install valgrind`; without it that part is left out). Five minutes. `--source
 CHECKOUT/src --commit ID --date DAY` measures another version. `--check` compares the last line with
@@ -130,7 +130,9 @@ def counted(program: str, source: Path) -> int:
 
 
 def read() -> list[dict[str, Any]]:
-    """Return the lines of the history."""
+    """Return the lines of the history, none where there is no file."""
+    if not HISTORY.exists():
+        return []
     return [json.loads(line) for line in HISTORY.read_text("utf-8").splitlines()]
 
 
@@ -194,8 +196,9 @@ def main() -> int:
         "times": {name: float(f"{x:.4g}") for name, x in times(given.source).items()},
         "instructions": {name: float(f"{x:.5g}") for name, x in instructions(given.source).items()},
     }
-    with HISTORY.open("a", encoding="utf-8") as file:
-        file.write(json.dumps(found) + "\n")
+    # an earlier version stands before later ones
+    lines = sorted([*read(), found], key=lambda line: line["date"])
+    HISTORY.write_text("".join(f"{json.dumps(line)}\n" for line in lines), "utf-8")
     print(json.dumps(found, indent=1))
     return 0
 

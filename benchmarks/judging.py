@@ -83,6 +83,8 @@ def judge(labels: Path) -> dict[str, Any]:
     if "table" in record:
         raise SystemExit(f"{path.name} was judged on {record['judged']}")
     pairs = list(known(record, labels, missing=False))
+    # labels are made in order; what follows the last one was not reached
+    pairs = pairs[: max(i for i, (_, label) in enumerate(pairs, 1) if label)]
     found = [judged(case, label) for case, label in pairs if "failed" not in label]
     _write_cases(path.with_suffix(".csv"), found)
     record |= {
@@ -98,9 +100,14 @@ def judge(labels: Path) -> dict[str, Any]:
 
 
 def leaves(found: list[Judged]) -> str:
-    """Return what intervals hold in the leaves of trees grown on the other half, in words."""
+    """Return what intervals hold in the leaves of trees grown on the other half, in words.
+
+    "" for too few cases.
+    """
     from sklearn.tree import DecisionTreeRegressor
 
+    if len(found) < 4 * LEAF:
+        return ""
     place = physics.scaled(np.array([[x.case.inputs[n] for n in physics.INPUTS] for x in found]))
     ratio = np.array([one.ratio for one in found])
     words = []
@@ -133,17 +140,38 @@ def words(one: Judged) -> str:
 
 
 def page() -> str:
-    """Return the record in words."""
-    record = json.loads(record_path().read_text(encoding="utf-8"))
+    """Return the records in words; each design as its newest record has it."""
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in FOLDER.glob("*.json")]
+    records.sort(key=lambda record: record["drawn"], reverse=True)
+    known = [record for record in records if "table" in record]
+    head, rows, said, worst_cases = "", {}, [], []
+    for record in known:
+        first, line, *others = record["table"].splitlines()
+        head = f"{first}\n{line}"
+        new = {row.split(" | ")[0]: row for row in others if not row.startswith("| all")}
+        fresh = {name: row for name, row in new.items() if name not in rows}
+        rows |= fresh
+        if not fresh:
+            continue
+        said.append(
+            f"Drawn {record['drawn']}, seed {record['seed']}, simulated at "
+            f"{record['accuracy']:g}: the first {record['cases']} of {sum(record['counts'])} in an "
+            f"order at random; {record['without a label']} without an answer of the simulation."
+            + (f" {_of_leaves(record['leaves'])}" if record["leaves"] else "")
+        )
+        of = tuple(name.removeprefix("| ") for name in fresh)
+        worst_cases += [words_ for words_ in record["worst"] if words_.startswith(of)]
+    table_ = "\n".join([head, *rows.values()])
+    cases = "\n".join(f"- {each}" for each in worst_cases)
     return (
-        f"Drawn {record['drawn']}, seed {record['seed']}, simulated at {record['accuracy']:g}: "
-        f"the first {record['cases']} of {sum(record['counts'])} in an order at random; "
-        f"{record['without a label']} without an answer of the simulation:\n\n{record['table']}\n\n"
+        "\n\n".join([*said, table_]) + f"\n\nThe cases furthest out of their intervals:\n\n{cases}"
+    )
+
+
+def _of_leaves(held: str) -> str:
+    return (
         f"Trees with leaves of {LEAF} spheres on power laws or more, grown on one half to find "
-        "where intervals fail; in the other half, intervals hold in each leaf: "
-        f"{record['leaves']}.\n\n"
-        "The cases furthest out of their intervals:\n\n"
-        + "\n".join(f"- {each}" for each in record["worst"])
+        f"where intervals fail; in the other half, intervals hold in each leaf: {held}."
     )
 
 

@@ -108,7 +108,8 @@ def _with_default(row: tuple[str, ...]) -> str:
 
 def _output(words: str) -> str:
     """Describe an output without the words that all outputs share."""
-    return words.removesuffix("; - is standard output").removesuffix(".")
+    words = words.removesuffix(".").removesuffix("; - is standard output")
+    return words.replace(" to a .png, .pdf or .svg file", "").rstrip(",")
 
 
 def _by_part(kind: type[Operation]) -> tuple[list[Option], dict[type, list[Option]]]:

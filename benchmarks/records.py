@@ -16,7 +16,8 @@ Sources are values of records; `computed.NAME`, what a function of `computed.py`
 `kept.NAME.PATH` of replication/kept; and `viscotack.MODULE.NAME`, a constant of the package.
 `python benchmarks/docs_check.py` compares them, with `--write` renews the page, and with `--count`
 says how many numbers have a source. `--quote PAGE` puts marked blocks that no record has into a
-record, as the page states them: for what takes hours to measure anew.
+record of the folder `stated`, as the page states them: for what takes hours to measure again. A
+value that a benchmark writes comes before it.
 """
 
 from __future__ import annotations
@@ -49,7 +50,6 @@ WRITTEN = re.compile(r"(?s)<!-- (?!= )[^>]+ -->\n.*?<!-- end[^>]*-->")
 _CODE = re.compile(r"(?ms)^ *(```|~~~).*?^ *\1 *$")
 # Code, targets of links, comments and names of files are no prose.
 _NO_PROSE = re.compile(r"(?s)`[^`\n]*`|\]\([^)\n]*\)|<!--.*?-->|<[^>\n]*>|https?://\S+")
-AS_STATED = "as the page stated it on that day; not measured anew"
 
 
 @dataclass(frozen=True)
@@ -88,28 +88,35 @@ class Quote:
     @property
     def as_stated(self) -> bool:
         """Whether the source is a record of what the page stated."""
-        path = FOLDER / f"{self.source.partition('.')[0]}.json"
-        return path.exists() and _content(path).get("origin") == AS_STATED
+        name, _, key = self.source.partition(".")
+        return key not in _values(FOLDER / f"{name}.json") and key in _values(_stated(name))
 
 
-def write(name: str, values: dict[str, Any], *, command: str = "", origin: str = "") -> Path:
-    """Write a record with command, date, commit and processor, or add values to one.
+def write(name: str, values: dict[str, Any]) -> None:
+    """Write what this program measured, with command, date, commit and processor.
 
-    Values of another origin are dropped.
+    Values of the record that are not given are kept.
     """
-    path = FOLDER / f"{name}.json"
-    script = Path(sys.argv[0])
-    facts = {
-        "command": command or " ".join(["python", f"benchmarks/{script.name}", *sys.argv[1:]]),
-        "date": date.today().isoformat(),
-    }
-    facts |= {"origin": origin} if origin else {"commit": commit(), "processor": processor()}
-    before = _content(path) if path.exists() else {}
-    kept = before["values"] if before.get("origin", "") == origin and before else {}
-    content = facts | {"values": kept | _plain(values)}
-    FOLDER.mkdir(exist_ok=True)
+    command = " ".join(["python", f"benchmarks/{Path(sys.argv[0]).name}", *sys.argv[1:]])
+    facts = {"commit": commit(), "processor": processor()}
+    _write(FOLDER / f"{name}.json", {"command": command}, facts, values)
+
+
+def _write(
+    path: Path, origin: dict[str, str], facts: dict[str, str], values: dict[str, Any]
+) -> None:
+    kept = _values(path) | _plain(values)
+    content = origin | {"date": date.today().isoformat()} | facts | {"values": kept}
+    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
-    return path
+
+
+def _values(path: Path) -> dict[str, Any]:
+    return _content(path)["values"] if path.exists() else {}
+
+
+def _stated(name: str) -> Path:
+    return FOLDER / "stated" / f"{name}.json"
 
 
 def value(source: str) -> Any:
@@ -125,14 +132,13 @@ def value(source: str) -> Any:
         return _constant(source)
     if first == "computed":
         return _part(computed(rest[0]), rest[1:], source)
-    path = FOLDER / f"{first}.json"
-    key = "values"
     if first == "kept":
-        name, *rest = rest
-        path, key = KEPT / f"{name}.json", "numbers"
-    if not path.exists():
-        raise LookupError(f"{source}: there is no record {path.name}")
-    return _part(_content(path)[key], rest, source)
+        path = KEPT / f"{rest[0]}.json"
+        return _part(_content(path)["numbers"] if path.exists() else {}, rest[1:], source)
+    measured, stated = _values(FOLDER / f"{first}.json"), _values(_stated(first))
+    if not measured and not stated:
+        raise LookupError(f"{source}: there is no record {first}.json")
+    return _part(stated | measured, rest, source)
 
 
 @cache
@@ -197,7 +203,7 @@ def numbers(text: str) -> list[str]:
 
 def count(page: str) -> dict[str, int]:
     """Return how many numbers the prose of a page has, and of them those with a source, by kind."""
-    found = dict.fromkeys(("all", "written", "measured", "as stated"), 0)
+    found: dict[str, int] = dict.fromkeys(("all", "written", "measured", "as stated"), 0)
     found["all"] = len(numbers(page))
     found["written"] = found["all"] - len(numbers(WRITTEN.sub("", page)))
     for quote in quotes(page):
@@ -214,12 +220,9 @@ def quoted(page: Path) -> list[str]:
             lines = (" ".join(numbers(line)) for line in quote.shown.splitlines())
             found.setdefault(name, {})[key] = [line for line in lines if line]
     for name, values in found.items():
-        path = FOLDER / f"{name}.json"
-        if path.exists() and _content(path).get("origin") != AS_STATED:
-            raise LookupError(f"{path.name} was measured: a benchmark writes it")
         script = ROOT / f"benchmarks/{name}.py"
-        words = script if script.exists() else page
-        write(name, values, command=str(words.relative_to(ROOT)), origin=AS_STATED)
+        words = str((script if script.exists() else page).relative_to(ROOT))
+        _write(_stated(name), {"stated in": words}, {}, values)
     return [f"{name}.{key}" for name, values in found.items() for key in values]
 
 

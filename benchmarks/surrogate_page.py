@@ -200,6 +200,23 @@ def outliers() -> str:
     )
 
 
+def solids() -> str:
+    """Return the table of other solids, from the metadata of their file."""
+    lines = [
+        "| solids, rows | | given | median | 90 % below | largest | 90 % interval holds | "
+        "half width, median | worst, half widths |",
+        "|---|---|---:|---:|---:|---:|---:|---:|---:|",
+    ]
+    for name, scores in store.facts(store.FILES["solids"])["scores"].items():
+        for what in ("force", "work", "curve"):
+            one = scores[what]
+            shares = ("given", "median", "90 %", "largest", "cover", "half width")
+            numbers = " | ".join(percent(one[share]) for share in shares)
+            worst = one["worst, half widths"]
+            lines.append(f"| {name}, {scores['rows']} | {what} | {numbers} | {worst:.1f} |")
+    return "\n".join(lines)
+
+
 def replaced(text: str, start: str, end: str, words: str) -> str:
     """Return a text with the words between two marks."""
     before, rest = text.split(start, 1)
@@ -233,7 +250,9 @@ def main() -> None:
     print(words)
     if chosen.write:
         text = PAGE.read_text(encoding="utf-8")
-        PAGE.write_text(replaced(text, "<!-- scores -->", "<!-- end -->", words), encoding="utf-8")
+        text = replaced(text, "<!-- scores -->", "<!-- end -->", words)
+        text = replaced(text, "<!-- solids -->", "<!-- end of solids -->", solids())
+        PAGE.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -23,28 +23,36 @@ project = "viscotack"
 author = "The viscotack developers"
 project_copyright = author
 version = release = __version__
+# `make docs-pages` checks the links of the pages alone: no reference, and no example is run.
+PAGES_ALONE = "pages" in tags  # noqa: F821  # given by Sphinx
 root_doc = "docs/index"
 include_patterns = [
     "docs/*.md",
-    "docs/examples/*.rst",
     "docs/reference/**.rst",
+    *([] if PAGES_ALONE else ["docs/examples/*.rst"]),
     "CONTRIBUTING.md",
     "CHANGELOG.md",
     "CODE_OF_CONDUCT.md",
     "SECURITY.md",
     "replication/**.md",
+    "paper/README.md",
+    "paper/REVIEW.md",
     "examples/**/README.md",
     "tests/data/README.md",
     "data/viscotack_data/README.md",
 ]
 exclude_patterns = ["**/node_modules", ".*", "out", "build", "**/sg_execution_times.rst"]
-extensions = [
-    "myst_parser",
-    "sphinx.ext.autodoc",
-    "sphinx.ext.autosummary",
-    "sphinx.ext.napoleon",
-    "sphinx_gallery.gen_gallery",
-]
+extensions = ["myst_parser"]
+extensions += (
+    []
+    if PAGES_ALONE
+    else [
+        "sphinx.ext.autodoc",
+        "sphinx.ext.autosummary",
+        "sphinx.ext.napoleon",
+        "sphinx_gallery.gen_gallery",
+    ]
+)
 
 myst_enable_extensions = ["deflist"]
 myst_heading_anchors = 4
@@ -71,7 +79,10 @@ sphinx_gallery_conf = {
     "write_computation_times": False,
     "capture_repr": (),
 }
-example_pages.stage()
+if PAGES_ALONE:
+    suppress_warnings = ["toc.not_readable"]
+else:
+    example_pages.stage()
 
 html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
@@ -100,6 +111,10 @@ def write_reference(app, config):
     folder = ROOT / "docs/reference"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
+    if PAGES_ALONE:
+        for name in ("viscotack", *viscotack._ROOMS):
+            (folder / f"{name}.rst").write_text(f"{name}\n{'=' * len(name)}\n")
+        return
     face = [(room, "viscotack", names) for room, names in viscotack._NAMES.items()]
     pages = {"viscotack": face}
     for room in viscotack._ROOMS:
@@ -158,8 +173,9 @@ def leave_out(app, kind, name, member, skip, options):
 def setup(app):
     """Have the reference written before Sphinx looks for pages."""
     app.connect("config-inited", write_reference)
+    if not PAGES_ALONE:
+        app.connect("autodoc-skip-member", leave_out)
     app.add_html_math_renderer("mathml", (math_in_page, None), (math_in_page, None))
-    app.connect("autodoc-skip-member", leave_out)
     # the buttons of the theme's menu have no name for screen readers
     label = (
         'for (const s of document.querySelectorAll("nav summary")) s.ariaLabel = "pages inside";'

@@ -183,9 +183,13 @@ def _published(archive: Path, out: Path, workers: int) -> None:
 
 
 def _beside(maker: Maker, name: str, before: Numbers) -> str:
-    """Return how far numbers made now are from those that were kept."""
-    off = difference(maker.of(name), before)
-    return "of another kind" if off == float("inf") else f"they differ by {off:.1e} at most"
+    """Return how far numbers made now are from those that were kept, and which most."""
+    now = maker.of(name)
+    off = difference(now, before)
+    if off == float("inf"):
+        return "of another kind"
+    most = max(now, key=lambda key: difference(now[key], before[key])) if off else ""
+    return f"they differ by {off:.1e} at most{f', in {most!r}' if most else ''}"
 
 
 def _progress(words: str) -> None:

@@ -30,7 +30,7 @@ class Part:
     @property
     def command(self) -> str:
         """The command of the whole run."""
-        return f"python -m {self.room} {self.options}"
+        return f"python -m {self.room} {self.options}".rstrip()
 
     def words(self) -> str:
         """Return the part in four lines."""
@@ -54,7 +54,7 @@ CONTENTS = (
     ),
     Part(
         room="replication.second_code",
-        options="--keep",
+        options="",
         claim="Steady cracks and pull-offs of this package, by other formulations",
         source="this package; the manuscript in the folder `paper`",
         time="two minutes of processor time",

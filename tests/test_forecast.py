@@ -14,7 +14,10 @@ from viscotack.surrogate import physics, store
 from viscotack.theory import lennard_jones
 
 CASE = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
-SIMULATE = "`viscotack simulate`, or `predict` with --exact, can compute it"
+SIMULATE = (
+    "`viscotack simulate`, or `predict` with --exact, can compute it, mostly in 0.1 to 3 s and "
+    "above a Tabor number of 30 in up to a minute"
+)
 UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
 
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from training import fresh_cases
-from training.calibration import Apart, levelled
+from training.calibration import Apart, levelled, untested
 from training.fresh_cases import TWO_PEAKS, drawn, labelled
 from training.scores import curve_error
 from viscotack.result.trajectory import POINTS
 from viscotack.surrogate import physics
 from viscotack.surrogate.line import Curves
 from viscotack.surrogate.network import Networks
-from viscotack.surrogate.trust import CONFIDENCES, INPUTS, OF, Trust
+from viscotack.surrogate.trust import CONFIDENCES, INPUTS, OF
 
 
 def test_a_larger_draw_of_a_seed_contains_the_smaller_one():
@@ -65,7 +65,7 @@ def test_a_curve_is_compared_between_its_points_too():
 def test_levels_hold_the_wanted_shares_alone_and_together():
     random = np.random.default_rng(7)
     reach = Networks((np.zeros((1, INPUTS, len(OF))),), (np.full((1, 1, len(OF)), -2.0),))
-    trust = Trust(reach, np.ones((len(OF), len(CONFIDENCES))))
+    trust = untested(reach)
     told = np.zeros((40_000, INPUTS))
     told[:, -2:] = np.log10(1e-3) + 2
     error = 5e-3 * random.normal(size=(40_000, len(OF)))

@@ -58,6 +58,7 @@ def surrogate():
         Trust(
             networks(random, 2, TOLD, 6, len(OF)),
             0.01 * random.uniform(1, 3, (len(OF), len(CONFIDENCES))),
+            np.ones(len(CONFIDENCES)),
         ),
     )
 

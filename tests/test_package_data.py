@@ -46,13 +46,13 @@ def test_every_file_of_a_package_is_installed(folder, package):
     assert not idle
 
 
-def test_the_wheel_is_below_3_2_mb():
+def test_the_wheel_is_below_3_3_mb():
     packed = io.BytesIO()
     with ZipFile(packed, "w", ZIP_DEFLATED) as wheel:
         for name, path in contents(PACKAGE).items():
             wheel.write(path, name)
-    # 2.97 MB, half of it three surrogates; its metadata has below 50 kB
-    assert packed.tell() < 3.2e6 - 5e4
+    # 3.15 MB, half of it four surrogates; its metadata has below 50 kB
+    assert packed.tell() < 3.3e6 - 5e4
 
 
 def test_the_wheel_has_no_data_sets_no_training_and_no_benchmarks():
@@ -107,7 +107,7 @@ def test_wheels_are_installed_together_and_apart(tmp_path):
     pip("wheel", "--no-deps", "--wheel-dir", tmp_path, source, source / "data")
     (package,) = tmp_path.glob("viscotack-*.whl")
     (data,) = tmp_path.glob("viscotack_data-*.whl")
-    assert package.stat().st_size < 3e6 < data.stat().st_size
+    assert package.stat().st_size < 3.3e6 < data.stat().st_size
 
     def loaded(*wheels):
         """Load a set in an environment with these wheels and the libraries of this one."""

@@ -116,6 +116,20 @@ def test_every_slider_has_an_example_in_its_unit_or_limits():
         )
 
 
+def test_the_examples_of_the_page_are_those_of_the_checkout():
+    examples = FOLDER.parents[3] / "examples"
+    known = {path.name: path.read_text() for path in examples.glob("*/*.toml")}
+    files = {
+        "design": "lift_and_let_go.toml",
+        "window": "kinetic_stamp.toml",
+        "array": "gripper_finger.toml",
+        "rough": "bumps.toml",
+    }
+    assert f"EXAMPLES = {list(files)}".replace("'", '"') in SCRIPTS["operations.js"]
+    for word, name in files.items():
+        assert (FOLDER / f"example-{word}.toml").read_text() == known[name]
+
+
 def test_what_a_script_imports_another_exports():
     for name, text in SCRIPTS.items():
         for names, source in re.findall(r'import \{ ([^}]+) \} from "\./([\w.]+)";', text):

@@ -270,6 +270,20 @@ def test_a_report_of_the_case_is_one_file(page, server):
     assert f"viscotack {vt.__version__}" in text and "src=" not in text and "var(--" not in text
 
 
+def test_an_array_is_computed_from_an_example_that_is_changed_on_the_page(page, server):
+    opened(page, server[0])
+    page.click("#tab-array")
+    assert not page.is_visible("aside") and not page.is_visible("#best")
+    page.click("#array-example")
+    text = page.wait_for_selector("textarea[aria-label='file, as text']")
+    text.fill(text.input_value().replace("rows = 3", "rows = 2"))
+    page.click("#array-ask")
+    page.wait_for_selector("#view-array img", timeout=60_000)
+    assert "pull-off force of 8 pads" in page.inner_text("#view-array pre")
+    page.click("#tab-contact")
+    assert page.is_visible("aside") and page.is_visible("#best")
+
+
 def test_a_view_and_its_operation_are_a_link(page, server):
     page.goto(f"{server[0]}#operations=theory%20jkr")
     page.wait_for_selector("#view-operations:not([hidden])")

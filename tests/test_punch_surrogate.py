@@ -72,7 +72,11 @@ def random_surrogate(seed=0):
             "line": networks(8, OUTPUTS, 1, **shapes),
             "second": networks(7, 2, 1),
         },
-        Trust(networks(TOLD, len(OF)), np.ones((len(OF), len(CONFIDENCES)))),
+        Trust(
+            networks(TOLD, len(OF)),
+            np.ones((len(OF), len(CONFIDENCES))),
+            np.ones(len(CONFIDENCES)),
+        ),
     )
 
 
@@ -361,8 +365,8 @@ def test_a_damaged_or_foreign_file_is_refused(tmp_path):
     for wrong, words in (
         (one.having(slow=three), "layer 0 of slow must have the shape"),
         (one.having(force=slow), "layer 0 of force must have the shape"),
-        (replace(one, trust=Trust(one.trust.reach, np.ones((4, 2)))), "trust.levels must have"),
-        (replace(one, trust=Trust(one.trust.reach, np.full((4, 7), np.nan))), "finite numbers"),
+        (replace(one, trust=replace(one.trust, levels=np.ones((4, 2)))), "trust.levels must have"),
+        (replace(one, trust=replace(one.trust, joint=np.full(7, np.nan))), "finite numbers"),
         (one.having(slow=together([slow, single(slow, 0)])), "the slow limit must be 1 or 2"),
     ):
         store.save(wrong, path, {})

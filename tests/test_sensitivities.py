@@ -1,12 +1,23 @@
 """Derivatives of a simulation: exact relations between them, differences, and refusals."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.problem.inputs import changed
+from viscotack.bem.body import Body
+from viscotack.bem.contacts.contact import Relaxed
+from viscotack.bem.equilibrium import descend
+from viscotack.bem.machine import Hold
+from viscotack.bem.memory import step
+from viscotack.bem.origin import ByNodes, ByStep
+from viscotack.bem.tangent import Tangents
+from viscotack.cards import cards
+from viscotack.materials import Modes
+from viscotack.problem.changed import changed
+from viscotack.problem.nouns import own_nouns
 from viscotack.protocol import Approach, LoadTo
 from viscotack.traction.growing import Eyring
 
@@ -32,6 +43,13 @@ def test_inputs_have_the_paths_of_campaigns(pulled):
     assert set(pulled.sensitivities.elasticities[FORCE]) <= set(vt.campaign.inputs_of(PULL))
 
 
+def test_inputs_of_a_user_defined_law_can_change():
+    (morse,) = own_nouns([Path(__file__).parents[1] / "examples" / "own" / "morse.py"])
+    law = morse(**{name: 1.0 for name in cards(morse)})
+    names = {one.name for one in changed(replace(PULL, traction=law))}
+    assert any(name.startswith("traction.") for name in names)
+
+
 @pytest.mark.parametrize("output", [FORCE, WORK, "depth_at_pull_off"])
 def test_only_the_product_of_rate_and_times_matters(pulled, output):
     by = pulled.sensitivities.elasticities[output]
@@ -41,7 +59,7 @@ def test_only_the_product_of_rate_and_times_matters(pulled, output):
 
 @pytest.mark.parametrize("name", ["tabor", "material.branches.0.0", "rate", "start.depth"])
 def test_derivatives_are_those_of_simulations_with_changed_inputs(pulled, name, monkeypatch):
-    monkeypatch.setattr("viscotack.problem.inputs._CHANGE", 0.04)
+    monkeypatch.setattr("viscotack.problem.changed._CHANGE", 0.04)
     (one,) = changed(PULL, [name])
     ends = [vt.summary(solved(x, accuracy=5e-4)) for x in (one.low, one.high)]
     for output in (FORCE, WORK):
@@ -60,7 +78,7 @@ def test_derivatives_follow_a_move_that_ends_at_a_force_and_a_dwell(monkeypatch)
     assert found["rate"] + found["moves.0.speed"] == pytest.approx(
         found["material.tau0"] + found["moves.1.duration"], rel=2e-3
     )
-    monkeypatch.setattr("viscotack.problem.inputs._CHANGE", 0.05)
+    monkeypatch.setattr("viscotack.problem.changed._CHANGE", 0.05)
     for name in ("moves.0.to.force", "moves.0.speed"):
         (one,) = changed(test, [name])
         ends = [vt.summary(solved(x, accuracy=5e-4))[FORCE] for x in (one.low, one.high)]
@@ -114,6 +132,18 @@ def test_an_edge_that_the_nodes_hold_has_no_derivative():
     assert WORK not in found.elasticities
 
 
+def test_an_elastic_contact_forgets_its_start_and_knows_no_rate():
+    solid = vt.Elastic(rubbery_modulus=1, poisson_ratio=0)
+    test = vt.Groups(tabor=10.0, material=solid, start=vt.AtDepth(10.0), rate=5.0)
+    by = solved(test, accuracy=5e-4, sensitivities=["start.depth", "rate"])
+    by = by.sensitivities.elasticities
+    for output in (FORCE, "depth_at_pull_off", "contact_radius_at_pull_off"):
+        # with the edge moving past frozen nodes the depth would have 0.04
+        assert abs(by[output]["start.depth"]) < 2e-3
+        assert abs(by[output]["rate"]) < 1e-6
+    assert abs(by[WORK]["rate"]) < 1e-6
+
+
 def test_growing_interfaces_and_punches_are_refused():
     rest = vt.LennardJones(1.0, 1.0)
     growing = Eyring.of(rest, reference_speed=1.0, sensitivity=0.1)
@@ -131,3 +161,77 @@ def test_growing_interfaces_and_punches_are_refused():
     )
     with pytest.raises(ValueError, match="flat punch"):
         solved(punch, sensitivities=True)
+
+
+class _Recorded(Tangents):
+    """The derivatives of a march, with a list of its steps and nodes."""
+
+    def _follow(self, at):
+        self.log = getattr(self, "log", [])
+        state, chain = at.state, []
+        while state.origin is not None and state.origin.before is not None:
+            chain.append((state.origin, state.surface.position))
+            state = state.origin.before
+        self.log += [*reversed(chain), None]
+        super()._follow(at)
+
+
+def _again(direction, by, recorded, first, stretch, side):
+    """Return force and edge of the recorded steps, with an input changed by a little."""
+    contact, leg = direction.contacts[side], direction.legs[side][0]
+    modes, factor = recorded.body.modes, np.exp(by * direction.times)
+    modes = Modes(
+        modes.instantaneous + by * direction.instantaneous,
+        np.array(modes.weights) + by * direction.weights,
+        np.array(modes.times) * factor,
+        modes.error,
+    )
+    body, wider, depth = Body(contact, modes, modes.weights), np.exp(by * first[2]), None
+    surface = contact.surface(first[0].position * wider)
+    depth = direction.starts[side].depth
+    hold = Hold(np.inf, depth)
+    gap = descend(surface, contact.law, surface.rigid_gap, 1.0, first[1], hold).gap
+    state, rows = body.first(Relaxed(surface, gap, depth, 0.0, np.nan, 0.0)), []
+    for origin in recorded.log:
+        if origin is None:
+            rows.append((state.seen.force, state.seen.edge))
+        elif isinstance(origin[0], ByNodes):
+            hold = Hold(np.inf, state.seen.depth)
+            state = body.remeshed(state, origin[1] * wider, hold)
+        else:
+            s = step(modes, origin[0].step.length * np.exp(by * stretch))
+            hold = Hold(np.inf, depth + leg.rate * (state.seen.time + s.length))
+            state = body.after(state, s, hold, 200, 0.0).after
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("name", ["tabor", "material.branches.1.1", "rate", "start.depth"])
+def test_derivatives_are_those_of_the_discrete_march(name, monkeypatch):
+    # differences of marches that share time steps, and nodes up to their unit of length
+    problem = vt.Groups(tabor=0.3, material=ARMS, start=vt.AtDepth(4.0), rate=3.0)
+    made = []
+
+    def tangents(*args):
+        made.append(_Recorded(*args))
+        return made[-1]
+
+    monkeypatch.setattr("viscotack.bem.solver.Tangents", tangents)
+    result = solved(problem, accuracy=0.02, sensitivities=[name])
+    (found,) = made
+    direction, rows = found.directions[0], np.array(found.rows)
+    origins = [x[0] for x in found.log if x is not None]
+    assert any(isinstance(x, ByNodes) for x in origins)
+    assert all(isinstance(x, ByNodes | ByStep) for x in origins)
+    assert len(rows) == len(result.time)
+    by = direction.step / 2
+    first = found.start.surface, found.start.gap, found.moved_nodes[0]
+    low, high = (
+        _again(direction, way * by, found, first, found.stretch[0], side)
+        for side, way in ((0, -1), (1, 1))
+    )
+    differences = (high - low) / (2 * by)
+    scale = np.nanmax(np.abs(rows[:, 2:, 0]), axis=0)
+    force, edge = (np.abs(rows[:, 2:, 0] - differences) / scale).T
+    assert force.max() < 1e-6
+    # in one step the edge passes a node, where its cubic changes
+    assert np.sort(edge[np.isfinite(edge)])[-2] < 1e-6

@@ -18,7 +18,7 @@ from viscotack.campaign.exporting import export
 from viscotack.campaign.parts import table_of
 from viscotack.files.text import cell, harmless, read_rows
 from viscotack.files.toml import parse_toml
-from viscotack.surrogate import sealed, store
+from viscotack.surrogate import store
 from viscotack.surrogate.store import load as load_surrogate
 
 
@@ -188,7 +188,7 @@ def surrogate_with(tmp_path, **arrays):
         content = {name: file[name] for name in file.files} | arrays
     words = json.loads(content.pop("words.json").tobytes())
     content = {name: array for name, array in content.items() if array is not None}
-    words["sha256"] = sealed.checksum(content)
+    words["sha256"] = store.checksum(content)
     content["words.json"] = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
     return archive(tmp_path / "surrogate.npz", **content)
 

@@ -171,7 +171,7 @@ def test_intervals_hold_the_share_that_they_promise():
         error[::3, OF.index("travel")] = np.nan
         return Apart(inputs, error)
 
-    begun = replace(shipped().trust, levels=untested())
+    begun = untested(shipped().trust.reach)
     trust = replace(begun, levels=levels_of(scored(begun, apart(20_000))))
     new = apart(20_000)
     for confidence in CONFIDENCES:

@@ -17,10 +17,11 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import together
+from viscotack.surrogate.network import Networks, together
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 
 from .fitting import Fit, Fits, Task
@@ -124,13 +125,12 @@ def trusted(
     members = [together(some) for some in (found[:first], found[first:])]
     # the sets whose scores come from networks that have not seen them
     pairs = [
-        (Trust(one, untested()), some)
+        (untested(one), some)
         for one, half in zip(members, halves[::-1], strict=True)
         for some in half
     ]
     sets = [pairs[i :: len(kept)] for i in range(len(kept))]
-    whole = Trust(together(members), untested())
-    return replace(surrogate, trust=levelled(whole, sets))
+    return replace(surrogate, trust=levelled(untested(together(members)), sets))
 
 
 def levelled(trust: Trust, sets: Sequence[Sequence[tuple[Trust, Apart]]]) -> Trust:
@@ -163,9 +163,10 @@ def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = WEIGHT)
     return Task(inputs, target, counts, quantile=REACH)
 
 
-def untested() -> Array:
-    """Return levels of one, before any case has measured them."""
-    return np.ones((len(OF), len(CONFIDENCES)))
+def untested(reach: Networks) -> Trust:
+    """Return a trust with levels of one, before any case has measured them."""
+    count = len(CONFIDENCES)
+    return Trust(reach, np.ones((len(OF), count)), np.ones(count))
 
 
 def scored(trust: Trust, apart: Apart) -> Array:
@@ -174,7 +175,7 @@ def scored(trust: Trust, apart: Apart) -> Array:
     return np.where(given_of(trust, apart), np.abs(apart.error) / size, np.nan)
 
 
-def given_of(trust: Trust, apart: Apart) -> Array:
+def given_of(trust: Trust, apart: Apart) -> npt.NDArray[np.bool_]:
     """Return a mask of the numbers of ``OF`` that are given, shape (n, 4)."""
     return ~trust.doubtful(apart.told)[:, [0, 1, 1, 1]]
 

@@ -28,7 +28,10 @@ from viscotack.geometry import Frictionless, Layer
 # Radius or half width [m], rubbery modulus [Pa], work of adhesion [J/m2], range [m], speed [m/s],
 # retardation time [s], glassy over rubbery modulus, and preload; exponents are those of the
 # surrogate.
-_NAMES = ("radius", "modulus", "work", "range", "speed", "time", "stiffening", "preload")
+_NAMES: tuple[str, ...] = (
+    "radius", "modulus", "work", "range", "speed", "time", "stiffening", "preload",
+    "exponent", "thickness",
+)  # fmt: skip
 FAMILIES = {
     "grippers": (
         (5e-5, 5e-3), (1e5, 5e6), (0.02, 0.3), (1e-9, 3e-7), (1e-6, 0.1), (1e-4, 1.0), (2.0, 1e3),
@@ -55,9 +58,10 @@ def contact(family: str, random: np.random.Generator) -> dict[str, float]:
     while True:
         ends = [*FAMILIES[family], _EXPONENT, _THICKNESS]
         drawn = [float(f"{a * (b / a) ** random.random():.8g}") for a, b in ends]
-        inputs = dict(zip((*_NAMES, "exponent", "thickness"), drawn, strict=True))
-        inputs["standard"] = float(family == "stamps" or random.random() < _STANDARD)
-        inputs["stamp"] = float(family == "stamps")
+        inputs: dict[str, float] = dict(zip(_NAMES, drawn, strict=True))
+        stamp = family == "stamps"
+        standard = stamp or random.random() < _STANDARD
+        inputs |= {"standard": float(standard), "stamp": float(stamp)}
         try:
             problem(inputs)
         except InputError:

@@ -172,7 +172,7 @@ def fresh_apart(
 def with_levels(made: Surrogate, designs: Sequence[Apart]) -> Surrogate:
     """Return a surrogate with levels measured on designs that its networks do not know."""
     assert made.trust is not None, "the networks of the reach are fitted first"
-    trust = replace(made.trust, levels=untested())
+    trust = untested(made.trust.reach)
     return replace(made, trust=levelled(trust, [[(trust, one)] for one in designs]))
 
 

@@ -170,6 +170,7 @@ def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict
         Travel and tension at which curves are compared.
     """
     tests = made.tests(rows.groups)
+    assert isinstance(tests, ShortRangeContact)
     said = made.evaluate(tests)
     at_steps = [
         label | {"travel": travel, "tension": tension}
@@ -202,13 +203,13 @@ def main() -> None:
     given = parser.parse_args()
     began = perf_counter()
     found, number = simulated(given.out / "solids", given.solids, CASES)
-    known = np.isfinite(found[1]).all(axis=1)
-    groups, said, points, steps, number = (x[known] for x in (*found, number))
+    known = np.flatnonzero(np.isfinite(found[1]).all(axis=1))
+    groups, said, points, steps = (x[known] for x in found)
     left, force, radius = np.moveaxis(points, 1, 0)
     rows = of_arrays(groups, said[:, 0], said[:, 3], force, radius, left)
     # every so many of a Sobol sequence would be a box of it
     apart = np.random.default_rng(_SEED).permutation(given.solids)[: round(_KEPT * given.solids)]
-    kept = np.isin(number, apart)
+    kept = np.isin(number[known], apart)
     learned = ~kept
     made = Surrogate(ShortRangeContact, {}, constants={"error": np.zeros((len(OF), 2))})
     tests = made.tests(groups[learned])
@@ -219,7 +220,7 @@ def main() -> None:
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
         "solids": given.solids,
-        "cases": len(known),
+        "cases": len(number),
         "answered": len(groups),
         "scores": scores,
     }

@@ -8,6 +8,7 @@ import pytest
 
 pytest.importorskip("pyarrow", reason="comes with viscotack[campaign]")
 
+from replication import __main__ as replicated  # noqa: E402
 from replication.published.__main__ import app, drawn  # noqa: E402
 from replication.published.compare import APART, INPUTS, compare, inputs_of  # noqa: E402
 from replication.published.corrected import COLUMNS, corrected  # noqa: E402
@@ -107,6 +108,19 @@ def test_the_page_names_the_row_that_is_off(rows):
     assert "1 rows hold 0.01" in " ".join(text.split())
     assert changed(rows, text) == []
     assert changed(rows, text.replace("25.00 %", "24.00 %")) != []
+
+
+@pytest.mark.slow
+def test_a_replication_from_nothing_names_the_lines_that_differ(
+    rows, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(replicated, "file_of", lambda archive, name: archive / name)
+    monkeypatch.setattr(replicated, "read_detachments", lambda path: path)
+    monkeypatch.setattr("replication.published.compare.compare", lambda *given, workers: rows)
+    replicated._published(tmp_path, tmp_path, 1)
+    said = capsys.readouterr().out
+    assert "the published table: 4 rows" in said and "lines of its page differ" in said
+    assert "  1 rows are off by more than 2 %" in said
 
 
 @pytest.mark.slow

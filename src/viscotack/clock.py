@@ -21,7 +21,7 @@ class TimeUp(Exception):
 
 @contextmanager
 def limited(seconds: float | None) -> Iterator[None]:
-    """Let what is within take so long; None for as long as it takes.
+    """Limit the wall time of the enclosed code; None is no limit.
 
     Of limits within each other, the one that ends first counts.
 

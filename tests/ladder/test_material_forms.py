@@ -15,7 +15,7 @@ from viscotack.materials.conversion import (
     retardation_series,
     slowed,
 )
-from viscotack.materials.library import pdms_10_1, published
+from viscotack.materials.library import published
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import WLF
 from viscotack.methods import solve
@@ -94,7 +94,7 @@ def test_a_slower_solid_is_the_same_at_lower_frequencies():
 
 
 def test_temperature_multiplies_times_by_the_shift_factor():
-    passport = pdms_10_1()
+    passport = published("pdms-10-1")
     cold = passport.at_temperature(223.15)
     a = 10 ** float(passport.shift.log10_shift(223.15))
     assert passport.shift_factor(223.15) == pytest.approx(a, rel=1e-12, abs=0)

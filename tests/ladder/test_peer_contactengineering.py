@@ -136,31 +136,62 @@ def test_dmt_contact_radius_is_that_of_the_peer():
         assert found == pytest.approx(expected, rel=ROUND_OFF, abs=0)
 
 
-@pytest.mark.parametrize("tabor", [0.5, 1.0, 2.0])
-def test_the_solution_of_the_grid_is_an_equilibrium_of_the_peer(tabor, monkeypatch):
-    """Same law (8-2), same pressed squares: energy, force, balance at the displacements found."""
+def grid_and_peer(many, tabor, monkeypatch):
+    """Return the plane and heights of an elastic sphere, and the system of the peer for it."""
     system = pytest.importorskip("Adhesion.System")
     interactions = pytest.importorskip("Adhesion.Interactions")
     mechanics = pytest.importorskip("ContactMechanics")
     topography = pytest.importorskip("SurfaceTopography")
     # the peer has no correction for tractions that vary over a pixel
     monkeypatch.setattr("viscotack.bem.grid.plane._WITHIN_PIXEL", np.inf)
-    many, half, radius, depth = 32, 6.0 * tabor**1.5, tabor**3, 1.0
+    half, radius = 6.0 * tabor**1.5, tabor**3
     x = (np.arange(many) + 0.5) * 2 * half / many - half
     heights = -np.add.outer(x**2, x**2) / (2 * radius)
-    plane = Plane((many, many), 2 * half / many)
-    law = LennardJones(1.0, 1.0)
-    hold = Hold(np.inf, depth=depth)
-    moved = np.zeros(plane.domain)
-    found = equilibrium(plane, law, 1 - heights.ravel(), 1.0, moved, hold, tolerance=1e-9)
-    assert found.stable
     sides = (2 * half, 2 * half)
     substrate = mechanics.FreeFFTElasticHalfSpace((many, many), 1.0, sides)
     surface = topography.Topography(heights, physical_sizes=sides)
     peer = system.SmoothContactSystem(substrate, interactions.Lj82(1.0, 1.0), surface)
-    energy, gradient = peer.objective(depth - 1, gradient=True)(found.moved.ravel())
+    return Plane((many, many), 2 * half / many), heights, peer
+
+
+def balanced(plane, heights, depth, moved):
+    """Return the equilibrium of the grid at a depth."""
+    law, hold = LennardJones(1.0, 1.0), Hold(np.inf, depth=depth)
+    found = equilibrium(
+        plane, law, 1 - heights.ravel(), 1.0, moved, hold, tolerance=1e-9, most_iterations=200
+    )
+    assert found.stable
+    return found
+
+
+@pytest.mark.parametrize("tabor", [0.5, 1.0, 2.0])
+def test_the_solution_of_the_grid_is_an_equilibrium_of_the_peer(tabor, monkeypatch):
+    """Same law (8-2), same pressed squares: energy, force, balance at the displacements found."""
+    plane, heights, peer = grid_and_peer(32, tabor, monkeypatch)
+    found = balanced(plane, heights, 1.0, np.zeros(plane.domain))
+    energy, gradient = peer.objective(0.0, gradient=True)(found.moved.ravel())
     area = plane.pixel**2
     elastic = 0.5 * area * float(np.vdot(found.moved, plane.held(found.moved)))
     assert energy == pytest.approx(elastic + area * found.energy, rel=ROUND_OFF)
     assert peer.compute_normal_force() == pytest.approx(-area * found.tension.sum(), rel=1e-9)
     assert np.abs(gradient).sum() < 1e-8 * area * np.abs(found.tension).sum()
+
+
+@pytest.mark.parametrize("tabor", [0.5, 1.0])
+def test_the_peer_pulls_a_sphere_off_along_the_same_curve(tabor, monkeypatch):
+    """Both descend from depth to depth, from one state in contact, through the jump out of it."""
+    plane, heights, peer = grid_and_peer(24, tabor, monkeypatch)
+    found = balanced(plane, heights, 1.0, np.zeros(plane.domain))
+    ours, theirs, moved = [], [], found.moved
+    for depth in np.linspace(1.0, -2.4, 18):
+        found = balanced(plane, heights, depth, found.moved)
+        # its default tolerance ends far from the equilibrium
+        exact = dict(gtol=1e-6 * plane.pixel**2, ftol=0, maxcor=10, maxiter=5000, maxfun=10000)
+        solution = peer.minimize_proxy(
+            offset=depth - 1, initial_displacements=moved, method="L-BFGS-B", options=exact
+        )
+        moved = solution.x.reshape(plane.domain)
+        ours.append(-(plane.pixel**2) * found.tension.sum())
+        theirs.append(peer.compute_normal_force())
+    assert theirs == pytest.approx(np.array(ours), abs=1e-5 * max(map(abs, ours)))
+    assert ours[-1] > 0.5 * min(ours)

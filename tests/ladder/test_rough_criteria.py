@@ -58,6 +58,7 @@ def test_a_rim_around_patches_attracts_as_a_hertzian_edge_opens():
 def test_flat_maps_stick_with_the_strength_and_spheres_have_no_mean_plane():
     flat = stickiness(problem(FLAT))
     assert flat.pastewka_robbins == flat.full_contact == 0
+    assert flat.record["range_over_gap_at_patches"] is None
     assert flat.bearing_area_stress == pytest.approx(problem(FLAT).traction.strength)
     assert stickiness(problem(sphere(32, 5e-6, radius=5e-3))).bearing_area_stress is None
 

@@ -221,7 +221,7 @@ class Body:
         time, depth = state.seen.time + s.length, balance.depth
         after = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds, state.trail)
         if self.traced:
-            after = replace(after, origin=ByStep(state, s.length))
+            after = replace(after, origin=ByStep(state, s, faces))
         error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released, bent)
 

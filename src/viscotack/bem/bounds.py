@@ -149,7 +149,7 @@ def _check_numbers(problem: Case, groups: Groups) -> None:
 
 
 def _numbers(test: Any) -> Iterator[tuple[str, float, str]]:
-    """Yield the numbers of a test: name, value and what it measures."""
+    """Yield the numbers of a test: name, value and measure."""
     yield from _of("the start", test.start)
     for number, move in enumerate(test.moves, 1):
         yield from _of(f"move {number}", move)

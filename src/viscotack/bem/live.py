@@ -54,7 +54,7 @@ class LiveContact:
         return max(-min(step.force for step in self._run.history.snapshots), 0.0)
 
     def move(self, speed: float, duration: float) -> Snapshot:
-        """Move the drive at a speed for a while, and return what is seen then.
+        """Move the drive at a speed for a time, and return the observed state.
 
         Parameters
         ----------

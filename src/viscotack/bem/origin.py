@@ -8,14 +8,20 @@ from typing import Any
 import numpy.typing as npt
 
 from viscotack.bem.frame import Passage, Way
+from viscotack.bem.interface import Faces
+from viscotack.bem.memory import Step
 
 
 @dataclass(eq=False)
 class ByStep:
-    """A step of this length in the frame of the solid; `before` is dropped once it is used."""
+    """A step in the frame of the solid, and the interface after it.
+
+    The state `before` is dropped once it is used.
+    """
 
     before: Any
-    length: float
+    step: Step
+    faces: Faces
 
 
 @dataclass(eq=False)

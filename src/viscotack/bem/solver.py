@@ -24,6 +24,7 @@ from viscotack.bem.interface import resolved
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
 from viscotack.bem.machine import Leg, spring_energy
 from viscotack.bem.march import march
+from viscotack.bem.mesh import Grading
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.tangent import Direction, Tangents, mode_slopes, null_direction
@@ -33,7 +34,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import Cone, Disc, FlatPunch, HalfSpace, PowerLawProfile, Sphere, detail
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups
-from viscotack.problem.inputs import Changed, changed
+from viscotack.problem.changed import Changed, changed
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
@@ -168,15 +169,12 @@ def _run(
     modes = modes_of_run(groups.material, legs, longest, settings)
     window = _FASTEST * min(leg.least_step for leg in legs), longest
     directions, missing = _directions(changes, groups, modes, window, settings)
-    growing = groups.traction if has_rest(groups.traction) else None
-    body = Body(contact, modes, np.asarray(modes.weights), growing)
+    grading, growing = discretised(groups, contact, modes, longest, max(depths), settings)
     tangents = None
     if directions:
+        body = Body(contact, modes, np.asarray(modes.weights), growing)
         null = null_direction(contact, legs, groups.start, modes)
         tangents = Tangents(body, [*directions.values(), null])
-    grading = contact.grading(finer(settings, groups.traction, longest), max(depths))
-    if not modes.weights:
-        grading = replace(grading, scar_half_width=0.0)
 
     def seen(step: Snapshot) -> None:
         if watch is not None:
@@ -321,6 +319,21 @@ def modes_of_run(
     return material.retardation_modes(
         shortest=shortest, longest=longest, tolerance=settings.mode_tolerance * compliance
     )
+
+
+def discretised(
+    groups: Groups,
+    contact: Contact,
+    modes: Modes,
+    longest: float,
+    deepest: float,
+    settings: Settings,
+) -> tuple[Grading, Any]:
+    """Return the grading of the nodes of a run, and its law if that grows or ages, else None."""
+    grading = contact.grading(finer(settings, groups.traction, longest), deepest)
+    if not modes.weights:  # an elastic solid does not remember where the edge has been
+        grading = replace(grading, scar_half_width=0.0)
+    return grading, groups.traction if has_rest(groups.traction) else None
 
 
 def _result(

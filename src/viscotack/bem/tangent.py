@@ -1,9 +1,9 @@
 r"""Derivatives of a simulation by its inputs, from the linearised steps of its time integration.
 
-The march is differentiated step by step, with its nodes, its time steps and the path of its edge
-frozen. At the end of a step the nodal forces S e of the solid balance the tensions T(g) of the
-interface, with :math:`g = b + c\,e + \sum_j w_j d_j - \delta` (:mod:`.memory`). A dot being the
-derivative by an input at fixed time,
+The march is differentiated step by step, with its time steps and the path of its edge frozen. At
+the end of a step the nodal forces S e of the solid balance the tensions T(g) of the interface, with
+:math:`g = b + c\,e + \sum_j w_j d_j - \delta` (:mod:`.memory`). A dot being the derivative by an
+input at fixed time,
 
 .. math::
 
@@ -17,13 +17,21 @@ solid or of the crack (:mod:`.frame`). What the input changes directly (:math:`\
 without a simulation. Where a leg of the machine ends at another time, the state is moved by its
 rate times the change of that time.
 
-Frozen nodes and steps leave out how an input changes the discretisation error. A jump moves with
-the input, which is not part of these equations: derivatives after it are not meaningful.
+Nodes are frozen up to their unit of length, which follows the edge of the relaxed start: the edge
+then starts at the same place between the nodes, as it does in a simulation of the other input. With
+nodes that stay in place, the memory of the start would have an error of first order in the small
+error of the nodes over their distance. For the same reason one more direction is carried along, in
+which nothing changes but the length of the time steps (:func:`null_direction`); the outputs are
+computed with as much of it as keeps the edge at its place between the nodes later
+(:mod:`viscotack.result.sensitivities`).
+
+Frozen steps leave out how an input changes the discretisation error. A jump moves with the input,
+which is not part of these equations: derivatives after it are not meaningful.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -37,10 +45,11 @@ from viscotack.bem.equilibrium import elastic_energy, factored, solved
 from viscotack.bem.frame import Balancing, Tangent, path_recursion
 from viscotack.bem.interface import Band
 from viscotack.bem.machine import Hold, Leg
-from viscotack.bem.memory import step
+from viscotack.bem.memory import Step
 from viscotack.bem.origin import ByNodes, ByStep, ByTravel
 from viscotack.bem.place import Place
 from viscotack.bem.surface import Surface
+from viscotack.geometry import HalfSpace
 from viscotack.materials import Material, Modes
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 
@@ -72,7 +81,7 @@ class Direction:
     instantaneous, weights, times : float, ndarray (M,), ndarray (M,)
         Derivatives of the modes, that of the times by their logarithm.
     null : bool
-        Whether nothing changes but the unit of time (:func:`null_direction`).
+        Whether nothing changes but the time steps (:func:`null_direction`).
     """
 
     step: float
@@ -92,20 +101,14 @@ class Direction:
 def null_direction(
     contact: Contact, legs: tuple[Leg, ...], start: Start | Apart, modes: Modes
 ) -> Direction:
-    """Return a change of the unit of time: faster machine, and modes that are faster by as much.
+    """Return the direction along the curve: longer time steps in the last leg, no change of input.
 
-    No output changes. The time steps are not changed with the unit, so that the derivatives in this
-    direction are the error of frozen nodes: nodes that hold the edge between them, for example.
+    The curve is the same, and each of its points moves along it; any difference is an error of the
+    nodes, between which the edge moves, and of the time steps.
     """
-    low, high = 1 - _TINY, 1 + _TINY
-    moved = [
-        tuple(replace(leg, rate=leg.rate * x, duration=leg.duration / x) for leg in legs)
-        for x in (low, high)
-    ]
-    many = np.zeros(len(modes.times))
-    step = float(np.log(high / low))
-    pairs = (contact, contact), (moved[0], moved[1]), (start, start)
-    return Direction(step, *pairs, 0.0, many, many - 1, null=True)
+    none = np.zeros(len(modes.times))
+    pairs = (contact, contact), (legs, legs), (start, start)
+    return Direction(1.0, *pairs, 0.0, none, none, null=True)
 
 
 def mode_slopes(
@@ -144,11 +147,13 @@ def mode_slopes(
 class _Shape:
     """Derivatives of a surface by the inputs."""
 
-    surfaces: list[tuple[Surface, Surface]]
+    surfaces: dict[int, tuple[Surface, Surface]]
     rigid_gap: npt.NDArray  # (P, N)
     unit: npt.NDArray  # (P,)
     flank: npt.NDArray  # (P,)
-    stiffer: list[float | npt.NDArray]  # of ln S where S changes by a factor, else of S
+    harder: npt.NDArray  # (P,), of ln S where S changes by a factor
+    stiffer: dict[int, npt.NDArray]  # of S where it does not
+    stretched: tuple[npt.NDArray, float, float, npt.NDArray | None]  # see `_stretch_of`
 
 
 @dataclass(eq=False)
@@ -173,6 +178,8 @@ class Tangents:
         Derivatives of time, depth, force and edge at every recorded step.
     reason : str
         Why there are no derivatives from some step on; empty where there are.
+    moved_nodes : ndarray, shape (P,)
+        Derivatives of the logarithm of the unit of length of the nodes.
     """
 
     body: Body
@@ -188,10 +195,12 @@ class Tangents:
         self._tau_or_step = self._tau
         self._null = np.array([d.null for d in each])
         self._shape: tuple[Surface, _Shape] | None = None
-        self._laws = [tuple(c.law for c in d.contacts) for d in each]
-        self._same_law = [low == high for low, high in self._laws]
+        laws = ((i, tuple(c.law for c in d.contacts)) for i, d in enumerate(each))
+        self._laws = {i: (low, high) for i, (low, high) in laws if low != high}
+        self._changed_law: tuple[State | None, dict[int, npt.NDArray]] = None, {}
         gaps = [d.slope(*(c.law.edge_gap for c in d.contacts)) for d in each]
         self._edge_gap = np.array(gaps)
+        self.moved_nodes = np.zeros(len(each))
 
     def kept(self, at: Place) -> None:
         """Carry the derivatives on to a recorded state, through all that led to it."""
@@ -225,8 +234,8 @@ class Tangents:
         self._leg, self._began = at.leg, at.seen
         self._from = now.depth.copy(), now.force.copy()
         self._slopes = self._leg_slopes(at.number)
-        self._stretch = self._stretched()
-        self._tau_or_step = self._tau - self._stretch[:, None]
+        self.stretch = self._stretched(at.number)
+        self._tau_or_step = self._tau - self.stretch[:, None]
 
     # -- what led to a state
 
@@ -241,13 +250,14 @@ class Tangents:
                 case ByNodes():
                     self._onto_nodes(origin.before, state)
                 case ByStep():
-                    self._step(origin.before, state, origin.length)
+                    self._step(origin.before, state, origin.step)
                 case ByTravel():
                     self._travel(origin.before, state, origin)
             origin.before = None  # the past is not needed again
 
     def _begin(self, at: Place) -> None:
         state, n = at.state, len(self.directions)
+        self.start = state
         many, nodes = len(self.body.weights), len(state.gap)
         zero = np.zeros(n)
         self.now = Now(np.zeros((n, nodes)), np.zeros((n, many, nodes)), zero, zero, zero, zero)
@@ -264,6 +274,12 @@ class Tangents:
         else:
             machine = self._at_edge(state, shape.rigid_gap, value)
         gap, depth = self._balanced(state, 1.0, shape.rigid_gap, machine)
+        if np.isfinite(state.seen.edge) and state.seen.edge > 0:
+            self.moved_nodes, self._shape = self.now.edge / state.seen.edge, None
+            shape = self._of(state.surface)
+            if not isinstance(start, AtForce | AtDepth | Apart):
+                machine = self._at_edge(state, shape.rigid_gap, value)
+            gap, depth = self._balanced(state, 1.0, shape.rigid_gap, machine)
         self.now.relaxed = gap - shape.rigid_gap + depth[:, None]
         self.now.modes = np.repeat(self.now.relaxed[:, None], many, axis=1)
         self._leg, self._began = at.leg, at.seen
@@ -277,21 +293,20 @@ class Tangents:
         zero, one = (self._edge(state, gap) for gap in (still, deeper))
         return _Machine(np.inf, (edge - zero) / (one - zero))
 
-    def _step(self, before: State, state: State, length: float) -> None:
+    def _step(self, before: State, state: State, s: Step) -> None:
         """Carry the derivatives through a step in the frame of the solid."""
-        s, now = step(self.body.modes, length), self.now
-        e0, e1, d = before.relaxed, state.relaxed, before.memory.displacement
-        known = now.modes
+        now, known = self.now, self.now.modes
         known *= s.decay[:, None]
         known += s.drive[:, 0, None] * now.relaxed[:, None]
-        now.time = now.time + self._stretch * length
+        now.time = now.time + self.stretch * s.length
         if (timed := self._timed).size:
-            x = length / s.times
-            phi = 1 - s.drive[:, 1]
-            for i in timed:
-                way = -x * self._tau_or_step[i]
-                decay, mean = -s.decay * way, (s.decay - phi) / x * way
-                known[i] += decay[:, None] * d + np.outer(mean - decay, e0) - np.outer(mean, e1)
+            way = -s.length / s.times * self._tau_or_step[timed]
+            e0, e1, d = before.relaxed, state.relaxed, before.memory.displacement
+            decay = -s.decay * way
+            mean = (s.decay - 1 + s.drive[:, 1]) / (s.length / s.times) * way
+            more = decay[:, :, None] * d
+            more += np.stack([mean - decay, -mean], axis=2) @ np.array([e0, e1])
+            known[timed] += more
         gap, depth = self._changed_gap(state, s.compliance, known)
         now.relaxed = (gap + depth[:, None] - self._given) / s.compliance
         known += s.drive[:, 1, None] * now.relaxed[:, None]
@@ -306,7 +321,7 @@ class Tangents:
         path *= (1 - theta)[:, None]
         d = self._carried(old, state.surface, now.modes)
         known = passage.decay[:, None] * d + passage.weights @ path
-        now.time = now.time + self._stretch * origin.length
+        now.time = now.time + self.stretch * origin.length
         if (timed := self._timed).size:
             whole = passage.old + theta[:, None] * passage.interpolated(state.relaxed)
             x = origin.length / self.body.times
@@ -359,14 +374,15 @@ class Tangents:
         e, d, c = state.relaxed, state.memory.displacement, self.body.modes.instantaneous
         rates = (e - d) / self.body.times[:, None]
         band, given = self._band(state), (self.body.weights @ rates)[None]
-        still, deeper = _responses(state, c, given, np.zeros_like(given), band)
+        still, deeper = _responses(state, c, given, np.zeros_like(given), band, deeper=True)
         machine = _Machine(*_drift(leg))
-        depth = machine.depth(*_force_of(state, band, self.body, still, deeper))
+        force, per_depth = (_force_of(state, band, self.body, x) for x in (still, deeper))
+        depth = machine.depth(force, float(per_depth[0]))
         gap = still + depth[:, None] * deeper
         flow = {
             "relaxed": (gap[0] - given[0] + depth) / c,
             "depth": depth[0],
-            "force": _force_of(state, band, self.body, gap, deeper)[0][0],
+            "force": _force_of(state, band, self.body, gap)[0],
             "edge": _moved_edge(state, gap)[0][0],
         }
         late = self._later(at, flow)
@@ -381,7 +397,7 @@ class Tangents:
         leg, seen, slopes = self._leg, at.seen, self._slopes
         elapsed = seen.time - self._began.time
         if np.isfinite(leg.duration) and elapsed >= leg.duration * (1 - _TIMED):
-            return slopes["duration"] - self._stretch * elapsed
+            return slopes["duration"] - self.stretch * elapsed
         ends = [name for name in ("depth", "force", "edge") if not np.isnan(getattr(leg, name))]
         name = min(ends, key=lambda x: abs(getattr(leg, x) - getattr(seen, x)))
         return (slopes[name] - getattr(self.now, name)) / flow[name]
@@ -407,15 +423,23 @@ class Tangents:
         self, state: State, compliance: float, given: npt.NDArray, machine: _Machine | None
     ) -> tuple[npt.NDArray, npt.NDArray]:
         """Return the derivatives of gap and depth for those of the free gap."""
-        band = self._band(state)
-        still, deeper = _responses(state, compliance, given, self._load(state), band)
-        depth = self._placed(state, band, still, deeper, machine)
-        gap = still + depth[:, None] * deeper
+        band, machine = self._band(state), machine or self._machine(state.seen)
+        load = self._load(state)
+        if np.isinf(machine.stiffness):
+            depth = machine.value
+            gap, _ = _responses(state, compliance, given - depth[:, None], load, band)
+        else:
+            still, deeper = _responses(state, compliance, given, load, band, deeper=True)
+            depth = self._placed(state, band, still, deeper, machine)
+            gap = still + depth[:, None] * deeper
         self._note(state, band, gap, depth)
         return gap, depth
 
     def _band(self, state: State) -> Band:
-        return state.surface.interface.at(self.body.contact.law, state.gap).tangent()
+        faces = getattr(state.origin, "faces", None)
+        if faces is None:
+            faces = state.surface.interface.at(self.body.contact.law, state.gap)
+        return faces.tangent()
 
     def _placed(
         self,
@@ -429,52 +453,57 @@ class Tangents:
         machine = self._machine(state.seen) if machine is None else machine
         if np.isinf(machine.stiffness):
             return machine.value
-        force, per_depth = _force_of(state, band, self.body, still, deeper)
-        return machine.depth(force + self._explicit_force(state), per_depth)
+        force = _force_of(state, band, self.body, still) + self._explicit_force(state)
+        return machine.depth(force, float(_force_of(state, band, self.body, deeper)[0]))
 
     def _note(self, state: State, band: Band, gap: npt.NDArray, depth: npt.NDArray) -> None:
         """Store the derivatives of the recorded quantities."""
         now = self.now
-        force, _ = _force_of(state, band, self.body, gap, gap[:1])
+        force = _force_of(state, band, self.body, gap)
         now.depth, now.force = depth, force + self._explicit_force(state)
         now.edge = self._edge(state, gap)
 
     def _edge(self, state: State, gap: npt.NDArray) -> npt.NDArray:
         own, slope = _moved_edge(state, gap)
-        return own + self._edge_gap / slope
+        return own + self._edge_gap / slope + self.moved_nodes * state.seen.edge
 
     def _load(self, state: State) -> npt.NDArray:
         """Return the derivatives of the unbalanced forces at fixed gap and fixed e."""
-        shape, e, gap = self._of(state.surface), state.relaxed, state.gap
-        nodal, rows = state.surface.stiffness @ e, []
-        for i, d in enumerate(self.directions):
-            stiffer = shape.stiffer[i]
-            row = stiffer * nodal if isinstance(stiffer, float) else stiffer @ e
-            low, high = shape.surfaces[i]
-            if not self._same_law[i]:
-                tension = [
-                    s.interface.at(law, gap).tension
-                    for s, law in zip((low, high), self._laws[i], strict=True)
-                ]
-                row = row + d.slope(*tension)
-            rows.append(row)
-        return np.array(rows).reshape(len(self.directions), -1)
+        shape, e = self._of(state.surface), state.relaxed
+        nodal, S = state.nodal, shape.stretched[3]
+        area = (nodal if S is None else S @ e) - 2 * nodal
+        found = np.outer(shape.harder, nodal) + np.outer(self.moved_nodes, area)
+        for i, stiffness in shape.stiffer.items():
+            found[i] += stiffness @ e
+        for i, tension in self._tensions(state).items():
+            found[i] += tension
+        return found
+
+    def _tensions(self, state: State) -> dict[int, npt.NDArray]:
+        """Return the derivatives of the nodal forces by the inputs of the law, at fixed gaps."""
+        if self._changed_law[0] is not state:
+            shape, found = self._of(state.surface), {}
+            for i, pair in self._laws.items():
+                low, high = (
+                    s.interface.at(law, state.gap).tension
+                    for s, law in zip(shape.surfaces[i], pair, strict=True)
+                )
+                found[i] = self.directions[i].slope(low, high)
+            self._changed_law = state, found
+        return self._changed_law[1]
 
     def _explicit_force(self, state: State) -> npt.NDArray:
         """Return the derivatives of the force at fixed gap."""
-        shape, gap = self._of(state.surface), state.gap
-        found = shape.unit * float(state.nodal.sum())
-        if np.any(shape.flank):
+        shape, surface, gap = self._of(state.surface), state.surface, state.gap
+        whole = float(state.nodal.sum())
+        found = shape.unit * whole + self.moved_nodes * (2 * surface.unit * whole)
+        if shape.flank.any():
             found += shape.flank * float(self.body.contact.law.energy(gap[-1]))
-        for i, d in enumerate(self.directions):
-            if self._same_law[i]:
-                continue
-            forces = [
-                state.surface.flank_force(law, gap)
-                - state.surface.unit * float(s.interface.at(law, gap).tension.sum())
-                for s, law in zip(shape.surfaces[i], self._laws[i], strict=True)
-            ]
-            found[i] += d.slope(*forces)
+        for i, tension in self._tensions(state).items():
+            found[i] -= surface.unit * float(tension.sum())
+            if surface.flank:
+                forces = (surface.flank_force(law, gap) for law in self._laws[i])
+                found[i] += self.directions[i].slope(*forces)
         return found
 
     def _of(self, surface: Surface) -> _Shape:
@@ -484,29 +513,53 @@ class Tangents:
         return self._shape[1]
 
     def _shape_of(self, surface: Surface) -> _Shape:
-        x, contact = surface.position, self.body.contact
-        pairs, gaps, units, flanks, stiffer = [], [], [], [], []
+        x, contact, n = surface.position, self.body.contact, len(self.directions)
         relaxed = surface.stiffness / contact.hardness
-        for d in self.directions:
+        stretched = self._stretch_of(surface, relaxed)
+        gap, unit, flank, _ = stretched
+        moved = self.moved_nodes
+        found = _Shape(
+            {},
+            np.outer(moved, gap),
+            moved * unit,
+            moved * flank,
+            np.zeros(n),
+            {},
+            stretched,
+        )
+        for i, d in enumerate(self.directions):
             low, high = d.contacts
             if low == high:
-                pairs.append((surface, surface))
-                gaps.append(np.zeros_like(x))
-                units.append(0.0)
-                flanks.append(0.0)
-                stiffer.append(0.0)
                 continue
             known = relaxed if low.body == high.body == contact.body else None
             a, b = (each.surface(x, known) for each in (low, high))
-            pairs.append((a, b))
-            gaps.append(d.slope(a.rigid_gap, b.rigid_gap))
-            units.append(d.slope(a.unit, b.unit))
-            flanks.append(d.slope(a.flank, b.flank))
+            found.surfaces[i] = a, b
+            found.rigid_gap[i] += d.slope(a.rigid_gap, b.rigid_gap)
+            found.unit[i] += d.slope(a.unit, b.unit)
+            found.flank[i] += d.slope(a.flank, b.flank)
             if known is None:
-                stiffer.append(d.slope(a.stiffness, b.stiffness))
+                found.stiffer[i] = d.slope(a.stiffness, b.stiffness)
             else:
-                stiffer.append(float(d.slope(np.log(low.hardness), np.log(high.hardness))))
-        return _Shape(pairs, np.array(gaps), np.array(units), np.array(flanks), stiffer)
+                found.harder[i] = d.slope(np.log(low.hardness), np.log(high.hardness))
+        return found
+
+    def _stretch_of(self, surface: Surface, relaxed: npt.NDArray):
+        """Return the derivatives of a surface by the logarithm of the unit of its nodes.
+
+        These are rigid gap, unit and flank, and the stiffness; None where that is proportional.
+        """
+        contact, x = self.body.contact, surface.position
+        if not np.any(self.moved_nodes):
+            return np.zeros_like(x), 0.0, 0.0, None
+        free = isinstance(contact.body, HalfSpace)
+        low, high = (
+            contact.surface(x * by, relaxed * by if free else None) for by in (1 - _TINY, 1 + _TINY)
+        )
+        parts = ("rigid_gap", "unit", "flank", "stiffness")
+        gap, unit, flank, S = (
+            (getattr(high, name) - getattr(low, name)) / (2 * _TINY) for name in parts
+        )
+        return gap, unit, flank, None if free else S
 
     # -- machine
 
@@ -533,7 +586,7 @@ class Tangents:
         """Inputs that change the steps over the times of the modes."""
         return np.flatnonzero(np.any(self._tau_or_step != 0, axis=1))
 
-    def _stretched(self) -> npt.NDArray:
+    def _stretched(self, number: int) -> npt.NDArray:
         """Return the derivatives of the logarithm of the time steps of the present leg.
 
         The steps are frozen as parts of the duration of a leg, or of the travel of the machine:
@@ -546,13 +599,14 @@ class Tangents:
             found = -slopes["rate"] / leg.rate
         else:
             found = np.zeros(len(self.directions))
-        return np.where(self._null, 0.0, found)
+        last = number == len(self.directions[0].legs[0]) - 1
+        return np.where(self._null, float(last), found)
 
     def _machine(self, seen: Snapshot) -> _Machine:
         """Return the machine at a time of the present leg."""
         leg, began, slopes = self._leg, self._began, self._slopes
         elapsed, (depth, force) = seen.time - began.time, self._from
-        moved = (slopes["rate"] + leg.rate * self._stretch) * elapsed
+        moved = (slopes["rate"] + leg.rate * self.stretch) * elapsed
         if leg.dead_load:
             return _Machine(0.0, force + moved)
         if leg.rigid:
@@ -598,31 +652,38 @@ def _value_of(start: Start | Apart, contact: Contact) -> float:
 
 
 def _responses(
-    state: State, compliance: float, given: npt.NDArray, load: npt.NDArray, band: Band
+    state: State,
+    compliance: float,
+    given: npt.NDArray,
+    load: npt.NDArray,
+    band: Band,
+    *,
+    deeper: bool = False,
 ) -> tuple[npt.NDArray, npt.NDArray]:
     """Return the gaps for free gaps and loads, shape (P, N), and per unit of depth, (1, N)."""
-    surface = state.surface
-    solid = elastic_energy(surface, compliance, surface.rigid_gap, Hold(np.inf))
+    solid = elastic_energy(state.surface, compliance, state.surface.rigid_gap, Hold(np.inf))
     factor = factored(solid, band)
     if factor is None:
         raise Unstable
-    pulls = np.vstack([given, -np.ones((1, len(state.gap)))]) @ solid.matrix
-    pulls[:-1] -= load
-    gaps = solved(factor, pulls.T).T
-    return gaps[:-1], gaps[-1:]
+    right = given @ solid.matrix - load
+    if deeper:
+        right = np.vstack([right, -solid.matrix.sum(axis=0)])
+    gaps = solved(factor, right.T).T
+    return (gaps[:-1], gaps[-1:]) if deeper else (gaps, gaps[:0])
 
 
-def _force_of(
-    state: State, band: Band, body: Body, gap: npt.NDArray, deeper: npt.NDArray
-) -> tuple[npt.NDArray, float]:
-    """Return the change of the force for changes of the gap, and that per unit of depth."""
-    surface, law = state.surface, body.contact.law
-    flank = surface.flank * float(law.traction(state.gap[-1])) if surface.flank else 0.0
-
-    def of(each: npt.NDArray) -> npt.NDArray:
-        return -surface.unit * _times(band, each).sum(axis=1) + flank * each[:, -1]
-
-    return of(gap), float(of(deeper)[0])
+def _force_of(state: State, band: Band, body: Body, gap: npt.NDArray) -> npt.NDArray:
+    """Return the changes of the force for changes of the gap, shape (P, N)."""
+    surface = state.surface
+    weights = band.diagonal
+    if band.beside is not None:
+        weights = weights.copy()
+        weights[1:] += band.beside
+        weights[:-1] += band.beside
+    found = -surface.unit * (gap @ weights)
+    if surface.flank:
+        found += surface.flank * float(body.contact.law.traction(state.gap[-1])) * gap[:, -1]
+    return found
 
 
 def _times(band: Band, rows: npt.NDArray) -> npt.NDArray:
@@ -644,9 +705,19 @@ def _moved_edge(state: State, gap: npt.NDArray) -> tuple[npt.NDArray, float]:
     if not 0 < i < len(x) - 2:
         return np.full(len(gap), 0.0 if np.isfinite(edge) else np.nan), np.inf
     r = slice(i - 1, i + 3)
-    wide = x[i + 1] - x[i]
-    cell, at = (x[r] - x[i]) / wide, (edge - x[i]) / wide
-    there = np.array([[1, 0], [at, 1], [at**2, 2 * at], [at**3, 3 * at**2]])
-    value, steep = np.linalg.solve(cell ** np.arange(4)[:, None], there).T
-    slope = float(steep @ state.gap[r]) / wide
+    a, b, c, d = (float(edge - y) for y in x[r])
+    p, q, s, t = (float(y) for y in x[r])
+    # weights of the four nodes in Lagrange's form: value and slope at the edge
+    below = np.array(
+        [
+            (p - q) * (p - s) * (p - t),
+            (q - p) * (q - s) * (q - t),
+            (s - p) * (s - q) * (s - t),
+            (t - p) * (t - q) * (t - s),
+        ]
+    )
+    value = np.array([b * c * d, a * c * d, a * b * d, a * b * c]) / below
+    pairs = [c * d + b * d + b * c, c * d + a * d + a * c, b * d + a * d + a * b]
+    steep = np.array([*pairs, b * c + a * c + a * b]) / below
+    slope = float(steep @ state.gap[r])
     return -(gap[:, r] @ value) / slope, slope

@@ -2,11 +2,11 @@
 
 from viscotack.files.lock import FolderInUse
 from viscotack.pool import NoWorker
+from viscotack.problem.inputs import Input, inputs_of
 
 from .case import CaseSettings, measure
 from .cluster import Security
 from .exporting import export
-from .inputs import Input, inputs_of
 from .plan import Plan, every_combination, read_plan, space_filling
 from .running import AllCrashed, Progress, run
 from .sharing import merge, shard_of

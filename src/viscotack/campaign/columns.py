@@ -18,11 +18,11 @@ from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
 from viscotack.methods import has_start
 from viscotack.problem import Groups, Problem, RoughCase, plane, revolution
+from viscotack.problem.inputs import Input, check_paths, inputs_of, made
 from viscotack.problem.record import to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.units import positive
 
-from .inputs import Input, check_paths, inputs_of, made
 from .random_solids import LAST, random_solid
 
 Inputs = Mapping[str, float]

@@ -30,7 +30,7 @@ _EDITED = (
 
 @cache
 def identity() -> dict[str, str]:
-    """Return the versions of what computes, and a hash of the source of this package."""
+    """Return the versions of the libraries, and a hash of the source of this package."""
     return {
         "viscotack": __version__,
         "source": source_hash(_PACKAGE),
@@ -51,7 +51,7 @@ def source_hash(folder: Path) -> str:
 
 
 def difference(theirs: dict[str, str], ours: dict[str, str]) -> str:
-    """Return words for what differs between two identities; none if nothing does.
+    """Describe the differences between two identities; empty if there are none.
 
     Examples
     --------

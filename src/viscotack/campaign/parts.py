@@ -167,7 +167,7 @@ class Parts:
         return [(self.folder / part.name, part.sha256) for part in self.kept()]
 
     def settle(self) -> None:
-        """Finish what a killed run left: a part half come, parts half gone, drafts."""
+        """Clean up after a killed run: incomplete additions and removals of parts, drafts."""
         ledger = self._ledger()
         kept = self.kept()
         for part in (*ledger.replaced, ledger.coming if ledger.instead_of else None):
@@ -195,7 +195,7 @@ class Parts:
         return sorted(path for path in found if path.name not in known and not is_draft(path))
 
     def checked(self, part: Part) -> Any:
-        """Return all of a part; ValueError if it is not what was written."""
+        """Return a part; ValueError if it differs from the part that was written."""
         table = self._read(part, None)
         if table.num_rows != part.rows:
             raise InputError(
@@ -295,7 +295,7 @@ def parquet(tables: Callable[[], Iterable[Any]]) -> Any:
 
 
 def write_parquet(sink: Any, schema: Any, tables: Iterable[Any]) -> None:
-    """Write tables one behind another; what a table does not have is empty."""
+    """Write tables one after another; missing columns of a table are empty."""
     pa = arrow()
     options = {"compression": "zstd", "write_page_checksum": True}
     with pa.parquet.ParquetWriter(sink, schema, **options) as writer:

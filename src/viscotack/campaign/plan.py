@@ -13,6 +13,7 @@ from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml, read_toml
 from viscotack.problem.case_file import read_case
 from viscotack.problem.case_table import refuse_maps
+from viscotack.problem.inputs import check_exponent
 from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.rough import read_rough_case
@@ -23,7 +24,6 @@ from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
 from .identity import digest
-from .inputs import check_exponent
 from .listed import Listed, renamed
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")

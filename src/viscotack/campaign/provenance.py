@@ -1,4 +1,4 @@
-"""provenance.json: what a campaign is, under a seal that shows whether anybody has edited it."""
+"""provenance.json: settings and history of a campaign, with a hash that detects edits."""
 
 import hashlib
 import json
@@ -58,6 +58,6 @@ def write_provenance(folder: Path, content: Mapping[str, Any]) -> None:
 
 
 def seal(content: Mapping[str, Any]) -> str:
-    """Return the hash of what is written, in an order of its own."""
+    """Return the hash of the content, in a fixed order."""
     text = json.dumps(content, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()

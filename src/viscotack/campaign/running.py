@@ -189,7 +189,7 @@ def run(
 
 
 def _check_whole(folder: Path) -> None:
-    """Refuse the folder of a merge that was killed: what it lacks is in other folders."""
+    """Refuse the folder of an interrupted merge: the missing cases are in other folders."""
     if (folder / "provenance.json").exists() and (begun := Store(folder).merging):
         raise InputError(
             f"{folder} holds a merge of {', '.join(begun)} that has not ended; merge them again "
@@ -205,7 +205,7 @@ class Crew(Protocol):
         ...
 
     def hand(self, number: int, problem: str) -> None:
-        """Give a case, by a number of the caller's, to a worker that has room."""
+        """Give a case, with an identifier of the caller, to a worker with capacity."""
         ...
 
     def collect(self, seconds: float) -> list[tuple[int, Answer | Lost]]:
@@ -291,7 +291,7 @@ class _Run:
         )
 
     def _hand_out(self, crew: Crew) -> bool:
-        """Give the crew what it has room for; return whether there is more to give."""
+        """Give the crew as many cases as it accepts; return whether any are left."""
         if self.asked.is_set() or not self.left():
             return False
         room = crew.room()
@@ -352,7 +352,7 @@ class _Run:
         return len(self.rows) + len(self.reasons)
 
     def _store(self) -> None:
-        """Store what waits, and only then call it done."""
+        """Store the waiting results, and count them as done afterwards."""
         if self._waiting():
             rows, reasons, self.rows, self.reasons = self.rows, self.reasons, [], []
             self.store.add(rows, reasons)

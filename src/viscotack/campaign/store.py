@@ -82,7 +82,7 @@ class Store:
     def create(
         cls, folder: str | os.PathLike[str], plan: Plan, hold: Hold | None = None, **facts: Any
     ) -> "Store":
-        """Return the store for a plan, new or with what was stored under an earlier plan.
+        """Return the store for a plan, new or with the results of an earlier plan.
 
         The caller holds the lock of the folder; further facts are kept in the provenance.
 
@@ -200,7 +200,7 @@ class Store:
         )
 
     def tidy(self) -> None:
-        """Finish what a killed run left, and strike what has been removed; the caller holds a lock.
+        """Clean up after a killed run, and delete removed parts; the caller holds a lock.
 
         Nothing is removed that a run of this campaign has not written.
         """
@@ -213,7 +213,7 @@ class Store:
         remove_drafts(self.folder)
 
     def confirm(self) -> None:
-        """Say that the run that writes lives; FolderInUse if its lock has been taken away."""
+        """Renew the lock of the running campaign; FolderInUse if it was removed."""
         if self._hold is not None:
             self._hold.confirm()
 
@@ -258,7 +258,7 @@ class Store:
         self._write(**facts)
 
     def standing(self, cases: Cases) -> Standing:
-        """Return how cases stand, by what is stored."""
+        """Return the state of the cases, from the stored files."""
         standing = Standing.of(len(cases))
         standing.note_results(cases.places(self._names("results")))
         for table in self._parts["failures"].tables(["name", "failure"]):
@@ -371,7 +371,7 @@ class Store:
 
 
 def _refuse_links(folder: Path) -> None:
-    """Refuse a folder in which what is to be written lies elsewhere, behind a symbolic link."""
+    """Refuse a folder in which a file to be written is a symbolic link."""
     for name in (*_TABLES, "provenance.json", *_FILES):
         if (folder / name).is_symlink():
             raise InputError(

@@ -26,6 +26,8 @@ from .findings import Finding, Report, holds, report, same
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 # Tabor numbers for the effective range: a contact near JKR, and one near Bradley's rigid sphere.
 _JKR, _BRADLEY = 5.0, 0.05
+# Modulus of a solid for a rough surface [work of adhesion over equilibrium gap].
+_SOFT = 100.0
 
 
 def check_law(law: Any, *, thorough: bool = True) -> Report:
@@ -193,7 +195,10 @@ def _flag(law: Any) -> Iterator[Finding]:
 
 def _contacts(law: Any) -> Iterator[Finding]:
     """Check simulated contacts near the limits."""
-    law = at_rest(law).reduced()
+    law = at_rest(law)
+    modulus = _SOFT * law.work_of_adhesion / law.equilibrium_gap
+    yield from simulated.on_a_map(Elastic(rubbery_modulus=modulus, poisson_ratio=0.0), law)
+    law = law.reduced()
     solid = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     reach = effective_range(law)
     groups = Groups(_JKR * reach, solid, AtForce(0.0), 1.0, law)

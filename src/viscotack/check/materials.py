@@ -30,6 +30,8 @@ from . import round_trips, simulated
 from .findings import Finding, Report, holds, report, rises, same
 
 _TOLERANCES = (1e-2, 1e-4, 1e-7)
+# Equilibrium gap of the law of a rough surface [m].
+_GAP = 1e-6
 
 
 def check_material(material: Any, *, thorough: bool = True) -> Report:
@@ -264,6 +266,9 @@ def _contacts(m: Any) -> Iterator[Finding]:
     yield from simulated.between_limits(groups)
     yield from simulated.in_si(groups, modulus=m.rubbery_modulus, poisson_ratio=m.poisson_ratio)
     yield from simulated.saved(groups, round_trips.classes_of(m))
+    # a law so weak that slopes of the map are small
+    law = LennardJones(m.contact_modulus * _GAP / 100, _GAP)
+    yield from simulated.on_a_map(m, law)
 
 
 def _theories(m: Any) -> Iterator[Finding]:

@@ -10,15 +10,21 @@ import numpy as np
 from viscotack.forecast import advise, predict
 from viscotack.methods import solve
 from viscotack.problem import Groups
+from viscotack.protocol import AtForce, Retraction
 from viscotack.result import Result, load, save
 from viscotack.result.observables import pull_off_force
+from viscotack.rough import RoughProblem, pull
+from viscotack.surfaces import self_affine
 from viscotack.theory import lennard_jones
+from viscotack.traction import effective_range
 
 from .findings import Finding, holds, refused, same
 
 ACCURACY = 1e-2
 # Tolerance of the force bounds, which differ between laws of equal work and strength.
 _SLACK = 0.03
+# Pixels of the side of a rough surface.
+_PIXELS = 8
 
 
 def run(problem: Any, *, accuracy: float = ACCURACY) -> Result:
@@ -68,6 +74,34 @@ def saved(problem: Any, also: Iterable[type]) -> Iterator[Finding]:
         back = load(path, also=also)
     equal = bool(np.array_equal(back.force, result.force)) and back.problem == result.problem
     yield holds("result: saved and loaded", equal, "the same force and problem", back.problem)
+
+
+def on_a_map(material: Any, law: Any) -> Iterator[Finding]:
+    """Check that a small rough surface is pulled off within the limits of the law."""
+    along = material.contact_modulus * law.equilibrium_gap**2 / law.work_of_adhesion
+    pixel = along * effective_range(law) ** 2 / 4
+    surface = self_affine(
+        _PIXELS,
+        pixel,
+        hurst=0.8,
+        rms_height=min(0.5 * law.equilibrium_gap, 0.2 * pixel),
+        seed=1,
+        shortest=6 * pixel,
+    )
+    start = AtForce(0.05 * law.strength * surface.area)
+    speed = law.equilibrium_gap / material.time_unit if material.time_unit else 1e-6
+    problem = RoughProblem(
+        surface=surface,
+        material=material,
+        traction=law,
+        protocol=Retraction(start=start, speed=speed),
+    )
+    found = pull(problem, accuracy=ACCURACY, estimate_error=False)
+    stress, most = found.pull_off_stress, law.strength * (1 + _SLACK)
+    name = "rough surface: pulled off with at most the strength of the law"
+    yield holds(name, found.has_separated and 0 < stress <= most, f"up to {most:.4g} Pa", stress)
+    name = "rough surface: the energy audit closes"
+    yield holds(name, found.energy_residual < 0.02, "a residual below 0.02", found.energy_residual)
 
 
 def answered(groups: Groups) -> Iterator[Finding]:

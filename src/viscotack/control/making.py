@@ -140,7 +140,7 @@ def force_table(
 
 
 def _check(problem: Problem, slowest: float, fastest: float, tolerance: float) -> None:
-    """Raise an error for what a force table cannot hold."""
+    """Raise an error for problems that a force table cannot describe."""
     if not isinstance(problem, Problem):
         raise InputError(
             "a force table is in SI and needs a Problem, got "

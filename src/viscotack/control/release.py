@@ -97,7 +97,7 @@ class Release:
         self.past = False
 
     def drive_speed(self, drive: float, force: float) -> float:
-        """Return the speed of the drive until the next tick, from what is measured now.
+        """Return the speed of the drive until the next tick, from the present measurement.
 
         Parameters
         ----------

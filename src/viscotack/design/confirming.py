@@ -19,7 +19,7 @@ from .space import HOLD, LOAD, RELEASE, WORK
 
 # A dead load is applied within this part of the holding time; the simulation lasts this
 # number of holding times.
-_APPLIED, _LONGEST = 0.01, 3.0
+_APPLIED, _LONGEST = 0.01, 10.0
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Simulated:
     forces : mapping of str to float
         Of all pads, with the names of :class:`.margins.Candidate`: "hold", "release" [N] and "work"
         [J], and as "dead_load" the load held for the time [N], by the simulated time under the
-        wanted load and the slope of the theory. Those of failed runs are missing.
+        predicted load and the slope of the theory. Those of failed runs are missing.
     errors : mapping of str to float
         Relative error estimates.
     margins : mapping of str to float
@@ -41,8 +41,8 @@ class Simulated:
     why : str
         Reason of a failed run.
     time : float or None
-        Simulated time to detachment under the wanted dead load [s]; None if there is none, or if
-        it is longer than three holding times.
+        Simulated time to detachment under the predicted dead load [s]; None if there is none, or
+        if it is longer than ten holding times.
     """
 
     forces: Mapping[str, float]
@@ -91,23 +91,21 @@ def simulate(candidate: Candidate, fast: FastTier, judge: Judge, *, accuracy: fl
     forces: dict[str, float] = {}
     errors: dict[str, float] = {}
     methods, reasons = [], []
-    select = {HOLD: min, RELEASE: max, WORK: min}
     for name, pads in judge.pads(choice).items():
-        for pad in pads:
-            found = _pulled(fast.problem(pad), accuracy)
-            if isinstance(found, str):
-                reasons.append(f"{name}: {found}")
-                continue
-            values, error, method = found
-            methods.append(method)
-            if name == RELEASE:
-                values = {RELEASE: values[HOLD]}
-            elif judge.targets.work is None:
-                values = {HOLD: values[HOLD]}
-            for key, value in values.items():
-                total = choice.pads * value
-                forces[key] = select[key](forces.get(key, total), total)
-                errors[key] = max(errors.get(key, 0.0), error.get(key, accuracy))
+        # of several speeds that with the worst prediction
+        known = [(x, pad) for pad in pads if not isinstance(x := fast.force(pad), str)]
+        select, end = (min, "low") if name == HOLD else (max, "high")
+        _, pad = select(known, key=lambda pair, end=end: getattr(pair[0], end))
+        found = _pulled(fast.problem(pad), accuracy)
+        if isinstance(found, str):
+            reasons.append(f"{name}: {found}")
+            continue
+        values, error, method = found
+        methods.append(method)
+        if judge.targets.work is None or name == RELEASE:
+            values = {name: values[HOLD]}
+        forces |= {key: choice.pads * value for key, value in values.items()}
+        errors |= {key: error[HOLD if key == RELEASE else key] for key in values}
     time = None
     if judge.targets.holding_time is not None:
         held = _held(candidate, fast, judge, accuracy)
@@ -150,17 +148,17 @@ def _pulled(
 def _held(
     candidate: Candidate, fast: FastTier, judge: Judge, accuracy: float
 ) -> tuple[float, float | None, str] | str:
-    """Return the load held for the time [N], the time under the wanted load, and the method.
+    """Return the load held for the time [N], the time under the predicted load, and the method.
 
     The simulated time becomes a load by the theory: that load times the ratio of the loads that the
     theory has for both times.
     """
     choice, targets = candidate.choice, judge.targets
-    assert targets.holding_time is not None and targets.dead_load is not None, "the caller checks"
+    assert targets.holding_time is not None, "the caller checks"
     wanted = judge.conditions.holding_time(choice.material, targets.holding_time)
     pad: Pad = pad_of(choice, 1.0, bonded=judge.bonded)
     problem = fast.problem(pad)
-    load, longest = targets.dead_load / choice.pads, _LONGEST * wanted
+    load, longest = candidate.forces[LOAD].value / choice.pads, _LONGEST * wanted
     moves = (LoadTo(-load, duration=_APPLIED * wanted), Dwell(longest, hold="force"))
     held = Retraction(problem.protocol.start, None, moves)  # type: ignore[arg-type]
     try:

@@ -49,8 +49,8 @@ from .space import (
 )
 from .yields import Slopes, allowances, gain, share_of
 
-# Sizes of searches: of all targets together, of one alone, and of each end of a front.
-_EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 1.2)
+# Sizes of searches: of all targets together, of one alone, and of all ends of a front.
+_EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 2.4)
 # Bonus on the margin of all other targets, ln 2, in a search towards the end of a front.
 _BONUS = log(2.0)
 # Further simulations of designs by corrected predictions.
@@ -190,9 +190,11 @@ def find_design(
         def tell(done: float, i: int = i) -> None:
             progress((i + done) * share)
 
-        by = _searched if fast.budget == SURROGATES else _suggested
-        seen |= by(fast, space, judge, needed, name, seed, tell)
-        if several and fast.budget == SURROGATES:
+        if fast.budget != SURROGATES:
+            seen |= _suggested(fast, space, judge, needed, name, seed, tell)
+            continue
+        seen |= _searched(fast, space, judge, _over(needed), name, seed, tell)
+        if several:
             seen |= _ends(fast, space, judge, name, seed)
     if not seen:
         raise OutOfRange(f"no fast tier predicts a design between the bounds: {_reason(fast)}")
@@ -201,8 +203,16 @@ def find_design(
     if not candidates[0].is_possible and not any(each.excludes for each in limits):
         limits += _reached(fast, space, judge, seed)
     progress(0.6)
+
+    def again(rate: Callable[[Candidate], float], material: str) -> None:
+        if fast.budget == SURROGATES:
+            found = _searched(fast, space, judge, rate, material, seed, effort=_REACH)
+            seen.update(found)
+
     with limited(time_limit):
-        tested = _simulated(candidates, seen, fast, judge, confirm, accuracy, progress)
+        tested = _simulated(
+            candidates, seen, again, fast, judge, needed, confirm, accuracy, progress
+        )
     yields = [_yield(one, run, fast, judge) for one, run in tested]
     order = sorted(range(len(tested)), key=lambda i: _rank(*tested[i], yields[i]))
     best, run = tested[order[0]]
@@ -268,17 +278,22 @@ def rated(margins: Mapping[str, float], needed: Mapping[str, float]) -> float:
     return min(margin - needed[name] for name, margin in margins.items())
 
 
+def _over(needed: Mapping[str, float]) -> Callable[[Candidate], float]:
+    """Return the rating of a candidate by its smallest margin over what is needed."""
+    return lambda one: rated(one.margins, needed)
+
+
 def _searched(
     forces: Forces,
     space: DesignSpace,
     judge: Judge,
-    needed: Mapping[str, float],
+    rate: Callable[[Candidate], float],
     material: str,
     seed: int,
     tell: Callable[[float], None] = lambda share: None,
     effort: Effort = _EFFORT,
 ) -> dict[Choice, Candidate]:
-    """Return the designs of a search with their forces."""
+    """Return the designs of a search for the largest rate, with their forces."""
     seen: dict[Choice, Candidate] = {}
 
     def rating(choice: Choice) -> float:
@@ -286,7 +301,7 @@ def _searched(
         if isinstance(found, str):
             return NONE
         seen[choice] = found
-        return max(rated(found.margins, needed), NONE)
+        return max(rate(found), NONE)
 
     search(rating, space, material, effort=effort, seed=seed, tell=tell)
     return seen
@@ -296,10 +311,12 @@ def _ends(
     fast: FastTier, space: DesignSpace, judge: Judge, material: str, seed: int
 ) -> dict[Choice, Candidate]:
     """Return designs of shorter searches towards each end of the front."""
+    effort = replace(_END, generations=_END.generations / len(judge.targets.stated))
     seen: dict[Choice, Candidate] = {}
     for number, target in enumerate(judge.targets.stated):
         needed = {name: -_BONUS * (name != target) for name in judge.targets.stated}
-        seen |= _searched(fast, space, judge, needed, material, seed + number + 1, effort=_END)
+        rate, own = _over(needed), seed + number + 1
+        seen |= _searched(fast, space, judge, rate, material, own, effort=effort)
     return seen
 
 
@@ -322,7 +339,7 @@ def _suggested(
         between = interpolation(fast, material)
         if between is None or number == _ROUNDS:
             break
-        likely = _searched(between, space, judge, needed, material, seed + number)
+        likely = _searched(between, space, judge, _over(needed), material, seed + number)
         choices = [each.choice for each in _apart(likely, space, needed)]
     return seen
 
@@ -346,7 +363,11 @@ def _apart(
     """Return up to three of the best candidates that differ in a variable or in the material."""
     ends = np.array(space.ends()).reshape(-1, 2)
     found: list[Candidate] = []
-    for each in sorted(seen.values(), key=lambda one: -rated(one.margins, needed)):
+    # a wide interval may hide a design that meets the targets behind one that surely does not
+    order = sorted(
+        seen.values(), key=lambda one: (not one.is_possible, -rated(one.margins, needed))
+    )
+    for each in order:
         near = any(
             each.choice.material == other.choice.material
             and np.all(
@@ -369,24 +390,36 @@ def _apart(
 def _simulated(
     candidates: tuple[Candidate, ...],
     seen: Mapping[Choice, Candidate],
+    again: Callable[[Callable[[Candidate], float], str], None],
     fast: FastTier,
     judge: Judge,
+    needed: Mapping[str, float],
     confirm: int,
     accuracy: float,
     progress: Callable[[float], None],
 ) -> list[tuple[Candidate, Simulated | None]]:
     """Return candidates with their simulations, until one meets the targets.
 
-    The next one is the best by corrected predictions, or else the next candidate.
+    The next one is the best by corrected predictions, which a further search adds to those that
+    were seen, or else the next candidate.
     """
     tested: list[tuple[Candidate, Simulated]] = []
     waiting = [each for each in candidates[:confirm] if each.is_possible]
     most = len(waiting) + _CORRECTED if waiting else 0
-    while len(tested) < most and not any(run.meets for _, run in tested):
+    while len(tested) < most and not any(
+        _meets(one, run, _yield(one, run, fast, judge), judge) for one, run in tested[-1:]
+    ):
         known = [(one, run) for one, run in tested if run.margins]
         done = {one.choice for one, _ in tested}
         waiting = [each for each in waiting if each.choice not in done]
-        likely = _likely(seen, known, judge)
+        likely = []
+        if known:
+
+            def rate(one: Candidate, known: list[tuple[Candidate, Simulated]] = known) -> float:
+                return rated(_corrected(one, known, judge), needed)
+
+            again(rate, known[-1][0].choice.material)
+            likely = [max(seen.values(), key=rate)]
         fresh = [each for each in (*likely, *waiting) if each.choice not in done]
         if not fresh:
             break
@@ -396,17 +429,10 @@ def _simulated(
     return [*tested, *((x, None) for x in candidates if x.choice not in simulated)]
 
 
-def _likely(
-    seen: Mapping[Choice, Candidate], known: list[tuple[Candidate, Simulated]], judge: Judge
-) -> list[Candidate]:
-    """Return the best design by corrected predictions; none without a simulation."""
-    if not known:
-        return []
-    return [max(seen.values(), key=lambda one: _corrected(one, known, judge))]
-
-
-def _corrected(one: Candidate, known: list[tuple[Candidate, Simulated]], judge: Judge) -> float:
-    """Return the smallest margin with predictions times the ratio of the nearest simulation."""
+def _corrected(
+    one: Candidate, known: list[tuple[Candidate, Simulated]], judge: Judge
+) -> dict[str, float]:
+    """Return the margins by predictions times the ratio of the nearest simulation to its own."""
 
     def distance(other: Candidate) -> float:
         return sum(
@@ -417,7 +443,7 @@ def _corrected(one: Candidate, known: list[tuple[Candidate, Simulated]], judge: 
     forces = {
         name: x.value * run.forces[name] / near.forces[name].value for name, x in one.forces.items()
     }
-    return min(judge.margins(one.choice, forces).values())
+    return judge.margins(one.choice, forces)
 
 
 def _rank(one: Candidate, run: Simulated | None, part: float | None) -> tuple[float, float]:
@@ -530,14 +556,20 @@ def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
         for name, (low, high) in ends.items():
             if name in (HOLD_SPEED, RELEASE_SPEED) and name != _OWN.get(force):
                 continue
-            known = not isinstance(low, str) and not isinstance(high, str)
-            own[name] = log(high[force].value / low[force].value) / (2 * _STEP) if known else None
+            own[name] = _difference(low, high, force)
             if name == PRELOAD:
                 # N pads under the preload F are N times one under F/N
                 by_preload = own[name]
                 own[PADS] = None if by_preload is None else 1 - by_preload
         slopes[force] = own
     return slopes
+
+
+def _difference(low: Any, high: Any, force: str) -> float | None:
+    """Return d ln P/d ln x of a force between two steps; None where no tier predicts."""
+    if isinstance(low, str) or isinstance(high, str):
+        return None
+    return log(high[force].value / low[force].value) / (2 * _STEP)
 
 
 def _variables(choice: Choice) -> list[str]:

@@ -14,6 +14,7 @@ the elastic pull-off ratio at the effective Tabor number, as in
 from __future__ import annotations
 
 from math import pi
+from typing import Any
 
 import numpy as np
 
@@ -54,7 +55,8 @@ def held_load(problem: Problem, time: float) -> float:
     ValueError
         For another shape, body, law or start.
     """
-    shape, body, start = problem.geometry, problem.body, problem.protocol.start
+    shape: Any = problem.geometry
+    body, start = problem.body, problem.protocol.start
     known = isinstance(shape, Sphere) and isinstance(body, HalfSpace)
     if not (known and type(problem.traction) is LennardJones and isinstance(start, AtForce)):
         raise InputError(

@@ -318,7 +318,7 @@ def _headline(advice: Advice) -> str:
 
 
 def _of_contact(advice: Advice, contact: OtherContact) -> list[str]:
-    """Describe the limits of a contact, and what the thickness of a film does."""
+    """Describe the limits of a contact, and the effect of the thickness of a film."""
 
     def force(value: float) -> str:
         scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"

@@ -51,6 +51,8 @@ _WIDER = 2.5e-2
 # The same for a modulus ratio below the range: for the slopes of force and work at the limit of
 # the networks, and as a fraction of the extrapolation.
 _SLOPE, _PART = np.array([1.5e-3, 4e-3]), 0.25
+# Ratio of two rates of which the forces give the slope.
+_NEAR = 1.001
 # Largest slope with the modulus ratio: force in proportion to 1/k.
 _STEEPEST = 1 - 1e-6
 
@@ -148,10 +150,16 @@ def _parts(
     """Return the part of the way to the fast limit for a rate larger by a factor, and its most."""
     from viscotack.surrogate import physics
 
-    steep = max(float(learned.slopes(at_end)[0][0, physics.RATE]), 0.0) * float(np.log(ratio))
-    way = float(np.log(ends[1][0].pull_off_force[0] / ends[0][0].pull_off_force[0]))
+    slower = at_end.copy()
+    slower[0, physics.RATE] /= _NEAR
+    forces = [
+        float(said.pull_off_force[0]) for said in (learned.evaluate(slower), ends[0][0], ends[1][0])
+    ]
+    # a difference: the exact derivatives by all inputs take ten times as long
+    steep = max(np.log(forces[1] / forces[0]) / np.log(_NEAR), 0.0) * np.log(ratio)
+    way = np.log(forces[2] / forces[1])
     # hardly any way is left where the force is at its fast limit
-    passed = steep / max(way, 1e-9)
+    passed = float(steep / max(way, 1e-9))
     return -float(np.expm1(-passed)), min(2 * passed, 1.0)
 
 

@@ -154,7 +154,7 @@ def predict_table(
             _put(table, WORK, at, found.work_to_pull_off, found.work_interval)
             table["method"][at], table["inside"][at] = found.method, found.inside
             table["band"][at] = found.band
-            table["why"][at] = "" if found.method == method else found.why
+            table["why"][at] = "" if found.inside and found.method == method else found.why
         done += len(at)
         if report is not None:
             report(done, count)

@@ -1,4 +1,4 @@
-"""What presses and what is pressed: rigid shapes, and the bodies under them."""
+"""Rigid indenter shapes, and the bodies under them."""
 
 from .bases import Base, Bonded, Frictionless
 from .bodies import Body, HalfSpace, Layer

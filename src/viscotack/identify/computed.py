@@ -29,7 +29,7 @@ SUFFIX = ".computed.npz"  # of the file beside a study
 
 
 class Computed:
-    """Arrays by a hash of what they follow from."""
+    """Arrays by a hash of their inputs."""
 
     def __init__(self, known: Mapping[str, Array] | None = None) -> None:
         self._known = dict(known or {})
@@ -46,7 +46,7 @@ class Computed:
         return cls()
 
     def write(self, path: Path) -> None:
-        """Write what was used since the file was read; nothing if all of it was known."""
+        """Write the entries used since the file was read, if any is new."""
         if not self._changed:
             return
         content = io.BytesIO()

@@ -264,7 +264,7 @@ def conditioned(
     laws = None
     if fit.growth is not None:
         laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
-    forecast = np.concatenate(
+    forecast: Array = np.concatenate(
         [np.log(x.forward.pulled(works, gaps, x.speed, x.load, growth=laws).force) for x in asked],
         axis=1,
     )

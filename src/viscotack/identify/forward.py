@@ -169,7 +169,7 @@ class Forward:
         curves: bool = False,
         growth: bool = False,
     ) -> None:
-        """Raise an error for what is not known on a layer."""
+        """Raise an error for problems that have no theory on a layer."""
         cases = {
             "a compliant machine": stiffness is not None,
             "a finite dwell": bool(moves),

@@ -243,7 +243,7 @@ def trial_words(trial: Trial) -> str:
 
 def _stated(fit: RateSeriesFit, trial: Trial) -> Trial:
     """Return a test with preload and radius."""
-    load = float(np.mean([one.preload for one in fit.series]))
+    load = float(np.mean(np.array([one.preload for one in fit.series], dtype=float)))
     return replace(
         trial,
         preload=load if trial.preload is None else trial.preload,

@@ -73,7 +73,7 @@ _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 @dataclass(frozen=True, eq=False)
 class Uncertain:
-    """Material and machine of a series, with what is uncertain of them.
+    """Material and machine of a series, with their uncertainties.
 
     Parameters
     ----------

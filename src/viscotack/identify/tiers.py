@@ -123,7 +123,7 @@ class Tiers:
 
     @classmethod
     def none(cls, forward: Forward, tests: Conditions, runs: Simulations) -> "Tiers":
-        """Return tiers that were asked at no interface."""
+        """Return tiers that were evaluated at no interface."""
         empty = np.empty((0, tests.speed.size))
         return cls(forward, tests, runs, np.empty((0, 2)), empty, empty.astype(bool))
 

@@ -55,7 +55,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
 
 
 def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted: str) -> InputError:
-    """Return the error for a file without the requested test; it names what the file contains."""
+    """Return the error for a file without the requested test, with the content of the file."""
     expected = {
         "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
         "relaxation": "a time and a modulus (or stress and strain)",

@@ -229,7 +229,7 @@ def _ratio(columns: Columns, over: str, under: str) -> Array:
 
 
 def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> None:
-    """Remove the ramp and what follows the step; raise an error if there is no step."""
+    """Remove the points before and after the step; raise an error if there is no step."""
     if quantity not in columns:
         return
     held = columns.held(quantity)

@@ -26,7 +26,7 @@ _PLACE = re.compile(r"([A-Z]{1,7})([0-9]{1,9})")
 
 
 def has_formulas(archive: zipfile.ZipFile) -> bool:
-    """Check every part of a workbook, and tell whether a cell has a formula.
+    """Check every part of a workbook, and return whether a cell has a formula.
 
     Raises
     ------
@@ -60,7 +60,7 @@ def check_size(rows: int, columns: int) -> None:
 
 
 class _Scan:
-    """Counts what stands in a part: rows, columns, characters."""
+    """Counts the rows, columns and characters of a part."""
 
     def __init__(self, is_sheet: bool) -> None:
         self.is_sheet, self.formulas = is_sheet, False

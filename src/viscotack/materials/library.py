@@ -1,70 +1,23 @@
-"""Published materials with their source.
+"""Published materials, each a passport with its source.
 
-The list is short, because each material is checked against its publication. Add one by a function
-like those below.
+The list is short, because the numbers of each material were read in its source. Add one by a file
+in the folder `published`, whose name is that of the material, and its test in test_library.py.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from viscotack.errors import InputError
-from viscotack.materials.passport import Evidence, Origin, Passport
+from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
-from viscotack.materials.power_law import RetardationPowerLaw
-from viscotack.materials.shift import WLF
+
+_FOLDER = Path(__file__).parent / "published"
+MATERIALS = tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
 
 
-def pdms_10_1() -> Passport:
-    """Return the passport of PDMS (Sylgard 184, resin to curing agent 10:1, 2 h at 70 C), Eq. 4.27.
-
-    Tensile DMA at 1 Hz and 0.1 % strain, -130 to 20 C in steps of 10 K, shifted to 20 C by WLF
-    with a glass transition at -115 C; modified power law in its retardation form. k is
-    1.458/3089 = 4.720e-4. The thesis states no Poisson ratio; 0.5 is assumed.
-
-    Examples
-    --------
-    >>> f"{pdms_10_1().material.modulus_ratio:.3e}"
-    '4.720e-04'
-    """
-    shift = WLF.from_glass_transition(158.15).at_reference(293.15)
-    decades = float(np.asarray(shift.log10_shift(143.15)))
-    return Passport(
-        name="PDMS 10:1 (Sylgard 184)",
-        material=RetardationPowerLaw(
-            rubbery_modulus=1.458e6,
-            glassy_modulus=3.089e9,
-            exponent=0.2207,
-            tau0=0.01876,
-            poisson_ratio=0.5,
-        ),
-        temperature=293.15,
-        shift=shift,
-        temperatures=(143.15, 293.15),
-        frequencies=(2 * np.pi, 2 * np.pi * 10**decades),
-        measured="E",
-        origin=Origin(
-            reference="Maghami, PhD thesis (2025), Sec. 4.6.1, Eq. 4.25 and 4.27",
-            doi="10.1016/j.jmps.2024.105844",
-        ),
-        evidence=Evidence(
-            numbers=32,
-            constants=4,
-            level=0.9,
-            undetermined=(
-                "no intervals were published",
-                "the coldest points lie below the glass transition, where WLF is not valid: the "
-                "glassy modulus and the highest frequencies depend on them",
-            ),
-        ),
-    )
-
-
-MATERIALS: dict[str, Callable[[], Passport]] = {"pdms-10-1": pdms_10_1}
-
-
+@lru_cache
 def published(name: str) -> Passport:
     """Return the passport of a published material by its short name.
 
@@ -85,7 +38,7 @@ def published(name: str) -> Passport:
     """
     if name not in MATERIALS:
         raise InputError(f"no published material {name!r}; the library has {', '.join(MATERIALS)}")
-    return MATERIALS[name]()
+    return read_passport(_FOLDER / f"{name}.toml")
 
 
 def passport_of(name: str, *, also: Iterable[Any] = ()) -> Passport:

@@ -48,11 +48,11 @@ def write_passport(passport: Passport, path: Target) -> None:
     --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>> from viscotack.materials.library import pdms_10_1
+    >>> from viscotack.materials.library import published
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "pdms.toml")
-    ...     write_passport(pdms_10_1(), file)
-    ...     read_passport(file) == pdms_10_1()
+    ...     write_passport(published("pdms-10-1"), file)
+    ...     read_passport(file) == published("pdms-10-1")
     True
     """
     write_whole(path, passport_text(passport).encode())
@@ -85,11 +85,11 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
     --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>> from viscotack.materials.library import pdms_10_1
+    >>> from viscotack.materials.library import published
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "pdms.toml")
-    ...     write_passport(pdms_10_1(), file)
-    ...     read_passport(file) == pdms_10_1()
+    ...     write_passport(published("pdms-10-1"), file)
+    ...     read_passport(file) == published("pdms-10-1")
     True
     """
     path = Path(path)

@@ -223,9 +223,8 @@ def unloading(found: CrackContact) -> tuple[Array, Array]:
     steps : ndarray, shape (2, m)
         Travel from zero force, or from a start in tension, and tension at the steps from there.
     """
-    assert found.pull_off_force is not None, "the caller knows that there is a pull-off"
-    before = found.time < found.time_at_pull_off
-    ends = found.depth_at_pull_off, -found.pull_off_force, found.contact_radius_at_pull_off
+    peak, deep, time, wide = (float(getattr(found, name)) for name in _AT_PULL_OFF[:4])
+    before, ends = found.time < time, (deep, -peak, wide)
     depth, force, radius = (
         np.append(x[before], end)
         for x, end in zip((found.depth, found.force, found.contact_radius), ends, strict=True)

@@ -1,7 +1,9 @@
 """The operation ``material list``: list the library of published materials."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
+
+from viscotack.units import readable
 
 from .declare.answer import Answer, Caller
 from .declare.options import Operation
@@ -24,5 +26,12 @@ class ListMaterials(Operation):
         return Answer(
             found,
             record=lambda: {"materials": found},
-            words=lambda: "\n".join(f"{one['name']:<16}{one['title']}" for one in found),
+            words=lambda: "\n".join(_line(one) for one in found),
         )
+
+
+def _line(one: dict[str, Any]) -> str:
+    """Return name, measured range and source of a material as lines of text."""
+    low, high = one["measured_Hz"]
+    known = readable(low, "Hz", digits=2, to=high)
+    return f"{one['name']:<18}{one['title']}\n{'':<18}{known}; {one['source']}"

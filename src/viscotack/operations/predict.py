@@ -265,7 +265,7 @@ def _compared(kind: "Kind") -> dict[str, str]:
 
 
 def _comparison(found: "Prediction", result: "Result") -> dict[str, Any]:
-    """Return the simulated numbers, how far off the predicted ones are, and what the interval did.
+    """Return the simulated numbers, the errors of the prediction, and whether the interval holds.
 
     `difference` is prediction over simulation, less 1.
     """

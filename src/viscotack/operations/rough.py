@@ -194,7 +194,9 @@ def _words(found: Any, about: dict[str, Any]) -> str:
         f"{about['full_contact_energy_over_work']:.3g} slow, "
         f"{about['full_contact_energy_over_work_fast']:.3g} fast; Fuller-Tabor parameter "
         f"{about['fuller_tabor']:.3g}; Pastewka-Robbins ratio {about['pastewka_robbins']:.3g}"
-        + ("" if about["range_over_gap_at_patches"] < LONGEST_RANGE else " (range too long)"),
+        + (
+            "" if (about["range_over_gap_at_patches"] or 0) < LONGEST_RANGE else " (range too long)"
+        ),
         f"pull-off force: {readable(found.pull_off_force, 'N')}{within('force')}, a stress of "
         f"{readable(found.pull_off_stress, 'Pa')}"
         + (f" ({readable(bearing, 'Pa')} by the bearing area)" if bearing is not None else ""),

@@ -92,7 +92,7 @@ class Sweep(Operation):
     def _kind(self, also: tuple[Any, ...]) -> "Kind":
         """Return the kind of case, which builds problems from numbers."""
         from viscotack.campaign.columns import kind_of_problem
-        from viscotack.campaign.inputs import check_exponent
+        from viscotack.problem.inputs import check_exponent
 
         check_exponent(self.problem.problem, self.cases[0])
         return kind_of_problem(self.problem.problem, set(self.cases[0]), also)

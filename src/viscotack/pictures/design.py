@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.design import Design, DesignFile
+from viscotack.design import Conditions, Design, DesignFile
 from viscotack.design.fast import Force
 from viscotack.design.margins import pad_of
 from viscotack.errors import InputError
@@ -21,6 +21,8 @@ _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 _COLOURS = {"hold": "#08519c", "release": "#d94801", "work": "#41ab5d", "dead_load": "#6a51a3"}
 # Number of speeds, and factor on both ends of their range.
 _SPEEDS, _WIDER = 25, 2.0
+# Ticks of forces over their targets.
+_TICKS = [m * 10.0**e for e in range(-3, 4) for m in (1, 3)]
 
 
 def draw_design(found: Design, stated: DesignFile) -> "Figure":
@@ -52,7 +54,11 @@ def draw_design(found: Design, stated: DesignFile) -> "Figure":
 
 def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN001
     best, run = found.best, found.simulated[0]
-    speeds = {"hold": best.choice.hold_speed, "release": best.choice.release_speed}
+    stated_speeds = {"hold": best.choice.hold_speed, "release": best.choice.release_speed}
+    speeds = {
+        name: None if v is None else _worst(stated.conditions, name, best.choice.material, v)
+        for name, v in stated_speeds.items()
+    }
     known = [speed for speed in speeds.values() if speed is not None]
     pad = pad_of(best.choice, 1.0, bonded=stated.space.bonded)
     ends = (min(known) / _WIDER, max(known) * _WIDER) if known else (1e-6, 1e-3)
@@ -82,10 +88,17 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
             )
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel("speed [m/s]")
+    moved = " of the stated material" if stated.conditions.shifts else ""
+    axes.set_xlabel(f"speed{moved} [m/s]")
     axes.set_ylabel(f"pull-off force [{name}]")
     axes.set_title(f"worst target {np.expm1(best.margin):+.0%}")
     axes.legend(frameon=False, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+
+
+def _worst(conditions: Conditions, name: str, material: str, speed: float) -> float:
+    """Return the speed of the stated material that is like the worst of the conditions."""
+    ends = conditions.speeds(name, material, speed)
+    return min(ends) if name == "hold" else max(ends)
 
 
 def _largest(found: Design) -> float:
@@ -145,6 +158,10 @@ def draw_front(found: Design) -> "Figure":
             axes.axvline(1, color="0.4", lw=0.8)
             axes.set_xscale("log")
             axes.set_yscale("log")
+            for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+                ticks = [x for x in _TICKS if ends[0] <= x <= ends[1]]
+                axis.set_ticks(ticks, [f"{x:g}" for x in ticks])
+                axis.set_ticks([], minor=True)
             axes.set_xlabel(_over(x))
             axes.set_ylabel(_over(y))
     return figure

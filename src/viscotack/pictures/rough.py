@@ -64,7 +64,7 @@ def film_of_pull(found: RoughResult, target: Target) -> None:
 
 
 def check_ffmpeg() -> None:
-    """Raise InputError, with what to install, where ffmpeg is missing."""
+    """Raise InputError with a remedy if ffmpeg is missing."""
     if shutil.which("ffmpeg") is None:
         raise InputError(
             "an .mp4 film needs the program ffmpeg; install it (Debian: apt install ffmpeg, macOS: "

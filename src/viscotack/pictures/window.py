@@ -1,4 +1,4 @@
-"""Figure of a window: what a stamp does, by speed and preload."""
+"""Figure of a window: picking and printing of a stamp, by speed and preload."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -134,7 +134,7 @@ def _edges(values: Sequence[float]) -> Array:
 def _draw_critical(
     axes: "Axes", known: list[CriticalSpeed], style: str, speed: float, load: float
 ) -> None:
-    """Draw critical speeds with their intervals, one line for each change of what opens."""
+    """Draw critical speeds with their intervals, one line for each change of contact."""
     for change in {(each.below, each.above) for each in known}:
         line = [each for each in known if (each.below, each.above) == change]
         x = np.array([each.speed for each in line])

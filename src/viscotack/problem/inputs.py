@@ -1,131 +1,206 @@
-"""The problem with one of its numbers changed by a little, for derivatives.
+"""The numbers of a problem, each named by its path in the record: inputs of plans and derivatives.
 
-A number is named by its path, as in campaigns: ``material.tau0``, ``protocol.start.force``, and
-``material.branches.2.0`` and ``.1`` for modulus and time of an arm. In dimensionless groups the
-names are those of the groups: ``rate``, ``start.depth``.
+What a number is, what it is measured in and where it ends is said by its card; what the machine
+does has the unit of the geometry's outputs, a force in N or a stress in Pa.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Iterator
+import copy
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cached_property
 from typing import Any
 
+from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError
-from viscotack.problem.problem import Case, Groups
+from viscotack.geometry import Bonded, PowerLawProfile
+from viscotack.problem.older import upgraded_paths
+from viscotack.problem.problem import Groups, Problem
+from viscotack.problem.record import from_dict, to_dict
+from viscotack.problem.rough_case import RoughCase
 
-# Relative change of a number to both sides of its value. Dimensionless groups are checked to 1e-6,
-# so that a change by less would pass where no change is possible.
-_CHANGE = 1e-4
+# A tip z = A r^q by the height that it has at a radius: the unit of A depends on q.
+_HEIGHT, _AT_RADIUS = "geometry.height", "geometry.at_radius"
+_EXPONENT, _COEFFICIENT = "geometry.exponent", "geometry.coefficient"
+_TIP = {
+    _HEIGHT: Quantity("m", "z", "height of the profile there", above=0, example="10 um"),
+    _AT_RADIUS: Quantity("m", "r", "radius at which it has its height", above=0, example="0.2 mm"),
+}
+_NU, _NU_OF_BASE = "material.poisson_ratio", "body.base.poisson_ratio"
 
 
-@dataclass(frozen=True, eq=False)
-class Changed:
-    """A problem with one number a little smaller, and a little larger, than it is.
+@dataclass(frozen=True)
+class Input:
+    """A number of a problem; returned by :func:`inputs_of`.
 
     Attributes
     ----------
-    name, value : str, float
-        Name and value of the number.
-    low, high : Problem or Groups
-        The problem with the smaller and with the larger value; one of them is the problem itself
-        where the value is at the end of its range.
-    down, up : float
-        Relative changes of the number in the two problems, 0 or negative and 0 or positive.
-    base : Groups
-        The dimensionless problem itself.
+    path : str
+        Path in the record, ``protocol.moves.0.duration``.
+    value : float or None
+        Current value; None if not set.
+    unit : str
+        Unit of the value.
+    card : Quantity
+        Description and range.
     """
 
-    name: str
-    value: float
-    low: Case
-    high: Case
-    down: float
-    up: float
-    base: Groups
-
-    @cached_property
-    def groups(self) -> tuple[Groups, Groups]:
-        """The dimensionless problems with the smaller and the larger value."""
-        return self.low.groups(), self.high.groups()
+    path: str
+    value: float | None
+    unit: str
+    card: Quantity
 
 
-def changed(problem: Case, names: Iterable[str] | None = None) -> list[Changed]:
-    """Return the problem with each number changed by a little, all that can change by default.
+def inputs_of(problem: Any) -> dict[str, Input]:
+    """Return the numbers of a problem by path.
 
-    In groups the reduced numbers, like a rubbery modulus of 1, are not inputs, nor is the Poisson
-    ratio of a bonded layer, which is that of its material.
+    Parameters
+    ----------
+    problem : Problem, Groups or RoughCase
+        The problem.
+
+    Returns
+    -------
+    dict of str to Input
+        Path of a number, such as ``protocol.speed`` -> its value, unit and card.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, RetardationPowerLaw
+    >>> material = RetardationPowerLaw(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> case = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
+    >>> inputs_of(case)["start.depth"].unit
+    'h0'
+    """
+    found = {entry.path: entry for entry in _numbers(problem, problem.units, "")}
+    if isinstance(problem, RoughCase):
+        return {path: entry for path, entry in found.items() if path not in problem.unused}
+    if not isinstance(problem, Problem):
+        # the parts of a dimensionless problem have the cards of those in SI
+        own = set(problem.units.values())
+        found = {
+            path: entry if entry.unit in own else replace(entry, unit="1")
+            for path, entry in found.items()
+        }
+    elif isinstance(problem.geometry, PowerLawProfile):
+        found |= {path: Input(path, None, card.unit, card) for path, card in _TIP.items()}
+    return found
+
+
+def _numbers(thing: Any, units: Mapping[str, str], prefix: str) -> Iterator[Input]:
+    known, pairs = cards(type(thing)), cards(type(thing), Pairs)
+    for field in fields(thing):
+        value, path = getattr(thing, field.name), f"{prefix}{field.name}"
+        if field.name in known:
+            card = known[field.name].card
+            yield Input(path, value, units.get(card.measure, card.unit), card)
+        elif field.name in pairs:
+            card = pairs[field.name].card
+            for i, pair in enumerate(value):
+                for j, unit in enumerate(card.units):
+                    of_pair = Quantity(unit, card.symbol, card.words, above=0)
+                    yield Input(f"{path}.{i}.{j}", pair[j], unit, of_pair)
+        else:
+            yield from _parts(value, units, path)
+
+
+def _parts(value: Any, units: Mapping[str, str], path: str) -> Iterator[Input]:
+    if is_dataclass(value):
+        yield from _numbers(value, units, f"{path}.")
+    elif isinstance(value, tuple):
+        for i, entry in enumerate(value):
+            yield from _parts(entry, units, f"{path}.{i}")
+
+
+def check_paths(problem: Any, paths: Iterable[str]) -> None:
+    """Raise InputError for paths that are not numbers of a problem, or that contradict others.
 
     Raises
     ------
     ValueError
-        If there is no number of a given name, or it cannot change alone.
+        With the numbers that there are at the place where a path goes wrong.
     """
-    paths = {_name(path): path for path, value in _numbers(problem, ()) if value}
-    wanted = list(paths) if names is None else list(names)
-    found = []
-    for name in wanted:
-        one = _pair(problem, name, paths[name]) if name in paths else None
-        if one is not None:
-            found.append(one)
-        elif names is not None:
-            known = ", ".join(each.name for each in changed(problem))
-            raise InputError(f"{name!r} is not an input that can change; the inputs are {known}")
-    return found
+    record = to_dict(problem)
+    paths = set(upgraded_paths(paths, record))
+    replaced(record, dict.fromkeys(paths, 1.0), inputs_of(problem))
+    if _is_tip(record) and len(missing := {_HEIGHT, _AT_RADIUS} - paths) == 1:
+        raise InputError(f"{_HEIGHT} and {_AT_RADIUS} go together; add {missing.pop()}")
+    if _is_tip(record) and _HEIGHT in paths and _COEFFICIENT in paths:
+        raise InputError(f"{_COEFFICIENT} and {_HEIGHT} define the same; remove one")
 
 
-def _pair(problem: Case, name: str, path: tuple[Any, ...]) -> Changed | None:
-    """Return the problem with a number changed to both sides, None if it cannot change."""
-    value = _at(problem, path)
-    low, high = (_moved(problem, path, value * (1 + way * _CHANGE)) for way in (-1, 1))
-    if low is None and high is None:
-        return None
-    down, up = -_CHANGE if low is not None else 0.0, _CHANGE if high is not None else 0.0
-    return Changed(name, value, low or problem, high or problem, down, up, problem.groups())
+def check_exponent(problem: Any, paths: Iterable[str]) -> None:
+    """Refuse to vary the exponent of a tip in SI beside a coefficient whose unit it changes."""
+    paths = set(paths)
+    if isinstance(problem, Problem) and _EXPONENT in paths and not {_HEIGHT, _COEFFICIENT} & paths:
+        raise InputError(
+            f"{_COEFFICIENT} is measured in m^(1 - exponent), and is another shape with every "
+            f"exponent: give {_HEIGHT} and {_AT_RADIUS} beside {_EXPONENT}"
+        )
 
 
-def _moved(problem: Any, path: tuple[Any, ...], value: float) -> Any:
-    """Return the problem with another number at a place, None if it may not have it."""
-    try:
-        if path == ("material", "poisson_ratio") and hasattr(problem.body, "poisson_ratio"):
-            material = replace(problem.material, poisson_ratio=value)
-            body = problem.body
-            if body.poisson_ratio is not None:
-                body = replace(body, base=replace(body.base, poisson_ratio=value))
-            return replace(problem, material=material, body=body)
-        return _replaced(problem, path, value)
-    except InputError:
-        return None
+def replaced(
+    record: Mapping[str, Any], values: Mapping[str, float], known: Mapping[str, Input]
+) -> dict[str, Any]:
+    """Return a record with numbers at these paths in place of its own.
+
+    A bonded layer keeps the Poisson ratio of its material. For a tip with a height at a radius the
+    coefficient is recomputed, and a reduced tip with another exponent is reduced again.
+    """
+    changed = copy.deepcopy(dict(record))
+    numbers = map(float, values.values())
+    values = dict(zip(upgraded_paths(values, record), numbers, strict=True))
+    for path, value in values.items():
+        if path not in _TIP or not _is_tip(record):
+            _put(changed, path, value, known)
+    shape = changed.get("geometry", {})
+    if _is_tip(record) and {_HEIGHT, _AT_RADIUS} <= values.keys():
+        height, radius = (card.checked(path, values[path]) for path, card in _TIP.items())
+        shape["coefficient"] = height / radius ** shape["exponent"]
+    if record["type"] == Groups.__name__ and _EXPONENT in values and _COEFFICIENT not in values:
+        shape["coefficient"] = 1 / cards(PowerLawProfile)["exponent"].card.checked(
+            _EXPONENT, shape["exponent"]
+        )
+    base = changed.get("body", {}).get("base", {})
+    if _NU in values and _NU_OF_BASE not in values and base.get("type") == Bonded.__name__:
+        base["poisson_ratio"] = values[_NU]
+    return changed
 
 
-def _replaced(thing: Any, path: tuple[Any, ...], value: float) -> Any:
-    """Return a dataclass or tuple with another number at a place in it."""
-    if not path:
-        return value
-    first, rest = path[0], path[1:]
-    if isinstance(first, int):
-        return tuple(_replaced(x, rest, value) if i == first else x for i, x in enumerate(thing))
-    return replace(thing, **{first: _replaced(getattr(thing, first), rest, value)})
+def made(
+    record: Mapping[str, Any],
+    known: Mapping[str, Input],
+    also: tuple[Any, ...],
+    values: Mapping[str, float],
+) -> Any:
+    """Return the problem of a record with numbers at these paths."""
+    return from_dict(replaced(record, values, known), also)
 
 
-def _numbers(thing: Any, path: tuple[Any, ...]) -> Iterator[tuple[tuple[Any, ...], float]]:
-    """Yield place and value of every number in a dataclass or tuple."""
-    if isinstance(thing, float):
-        yield path, thing
-    elif isinstance(thing, tuple):
-        for i, each in enumerate(thing):
-            yield from _numbers(each, (*path, i))
-    elif is_dataclass(thing):
-        for each in fields(thing):
-            yield from _numbers(getattr(thing, each.name), (*path, each.name))
+def _is_tip(record: Mapping[str, Any]) -> bool:
+    shape = record.get("geometry", {})
+    return record["type"] == Problem.__name__ and shape.get("type") == PowerLawProfile.__name__
 
 
-def _at(thing: Any, path: tuple[Any, ...]) -> float:
-    for part in path:
-        thing = thing[part] if isinstance(part, int) else getattr(thing, part)
-    return thing
+def _put(record: Any, path: str, value: float, known: Mapping[str, Input]) -> None:
+    """Replace the number at a path such as ``material.branches.0.1`` in a record."""
+    *way, last = path.split(".")
+    at = record
+    for step in way:
+        at = _entry(at, step, path)
+    if not (isinstance(at, dict) and path in known):  # what is left out may be given
+        old = _entry(at, last, path)
+        if isinstance(old, bool) or not isinstance(old, int | float):
+            raise InputError(f"{path} is not a number of the problem but {old!r:.60}")
+    at[int(last) if isinstance(at, list) else last] = value
 
 
-def _name(path: tuple[Any, ...]) -> str:
-    return ".".join(map(str, path))
+def _entry(at: Any, step: str, path: str) -> Any:
+    if isinstance(at, dict) and step in at:
+        return at[step]
+    if isinstance(at, list) and step.isdigit() and int(step) < len(at):
+        return at[int(step)]
+    known = [k for k in at if k != "type"] if isinstance(at, dict) else range(len(at or []))
+    raise InputError(
+        f"the problem has no number {path!r}: at {step!r} there is {', '.join(map(str, known))}"
+    )

@@ -197,5 +197,6 @@ class RoughCase:
 
 def hash_of(path: str | Path) -> str:
     """Return the SHA-256 of the content of a file."""
-    with open_regular(Path(path)) as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+    with open_regular(path) as file:
+        binary: Any = file  # without the protocol that hashlib states
+        return hashlib.file_digest(binary, "sha256").hexdigest()

@@ -147,18 +147,20 @@ def is_smooth(result: Result, span: Span) -> bool:
     return 0 < i < len(steps) - 1 and not loaded and _smooth(number, i) is not None
 
 
-def edge_at(result: Result, span: Span, found: PullOff) -> float:
-    """Return the contact edge at a force minimum by a cubic between steps; nan without one.
+def around(result: Result, span: Span, most: int, known: int) -> npt.NDArray[np.intp] | None:
+    """Return up to `most` steps on both sides of a force minimum, or None if it is not smooth.
 
-    The contact radius of a `PullOff` is linear between steps, which is as accurate; its derivative
-    is not, because the edge accelerates there.
+    They are steps of the same move with a contact edge, or without one as at the minimum, among the
+    first `known` steps of the run.
     """
+    if not is_smooth(result, span):
+        return None
     steps, i = _valley_of(result, span)
-    x, edge = -result.depth[steps], result.contact_radius[steps]
-    points = _nearest(x, i)
-    scale = x[i + 1] - x[i - 1]
-    taylor = np.linalg.solve(np.vander((x[points] - x[i]) / scale, increasing=True), edge[points])
-    return float(np.polynomial.polynomial.polyval((-found.depth - x[i]) / scale, taylor))
+    smooth = _smooth(move_numbers(result)[steps], i)
+    assert smooth is not None
+    near = steps[max(smooth.start, i - most) : min(smooth.stop, i + most + 1)]
+    edge = np.isfinite(result.contact_radius[near])
+    return near[(near < known) & (edge == np.isfinite(result.contact_radius[steps[i]]))]
 
 
 def between_steps(result: Result, span: Span) -> float:
@@ -324,7 +326,15 @@ def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:
 
 def tension_work(result: Result, span: Span, found: PullOff, *, until: float) -> float:
     """Integrate -force over the travel in tension around the pull-off."""
-    total, tension = 0.0, True
+    parts = tension_parts(result, span, found, until=until)
+    return -sum(float(curve.integrate(begin, end)) for _, curve, begin, end in parts)
+
+
+def tension_parts(
+    result: Result, span: Span, found: PullOff, *, until: float
+) -> "Iterator[tuple[npt.NDArray[np.intp], scipy.interpolate.CubicHermiteSpline, float, float]]":
+    """Yield the parts of the curve in tension: steps, force over the travel, and both ends."""
+    tension = True
     # Go backwards from the end to find the last zero crossing before the minimum.
     parts = [part for piece in _pieces(result, span) for part in _moves_of(result, piece.steps)]
     for steps in reversed(parts):
@@ -338,14 +348,13 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
             break
         begin = x[0]
         positive = np.flatnonzero(before & (force >= 0))
-        curve = _curve(x, force)
+        curve = curve_through(x, force)
         if positive.size and positive[-1] + 1 < len(x):
             i = int(positive[-1])
             begin, tension = _root(curve, x[i], x[i + 1]), False
         end = min(x[-1], until)
         if begin < end:
-            total -= float(curve.integrate(begin, end))
-    return total
+            yield steps, curve, float(begin), float(end)
 
 
 def _moves_of(result: Result, steps: npt.NDArray[np.intp]) -> list[npt.NDArray[np.intp]]:
@@ -515,9 +524,10 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
     return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
 
 
-def _curve(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
-    """Return cubic interpolation through the points, with second-order slopes."""
-    slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1) if len(x) > 1 else np.zeros(1)
+def curve_through(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
+    """Return cubic interpolation through the points, shape (n, ...), with second-order slopes."""
+    order = 2 if len(x) > 2 else 1
+    slope = np.gradient(y, x, axis=0, edge_order=order) if len(x) > 1 else np.zeros_like(y)
     return scipy.interpolate.CubicHermiteSpline(x, y, slope)
 
 

@@ -146,8 +146,8 @@ class Sensitivities:
     refused : mapping
         Outputs and inputs without meaningful derivatives, and the reason.
     errors : mapping or None
-        Estimated errors of the elasticities: their size by the unit of time, which should be 0, and
-        with an error estimate their difference to those of the coarser run.
+        Estimated errors of the elasticities: what the pull of the nodes on the edge changes in
+        them, and with an error estimate at least their difference to those of the coarser run.
     """
 
     inputs: Mapping[str, float]

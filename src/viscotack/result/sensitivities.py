@@ -4,37 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from numpy.polynomial.polynomial import polyder, polyval
 
 from viscotack.errors import InputError
-from viscotack.problem import Case
-from viscotack.problem.inputs import Changed
-from viscotack.problem.outputs import Unit
-from viscotack.result.observables import equal_peak, number_of, pull_off, work_to
-from viscotack.result.opening import edge_at, is_smooth
+from viscotack.problem.changed import Changed
+from viscotack.result.observables import equal_peak, number_of, pull_off
+from viscotack.result.opening import PullOff, around, curve_through, is_smooth, tension_parts
 from viscotack.result.parts import spans
 from viscotack.result.result import Result, Sensitivities
 
-# What has derivatives, of the observables of a kind of problem.
-_OUTPUTS = (
-    "pull_off_force",
-    "pull_off_stress",
-    "work_to_pull_off",
-    "depth_at_pull_off",
-    "contact_radius_at_pull_off",
-    "ligament_at_pull_off",
-)
-_EDGES = ("contact_radius_at_pull_off", "ligament_at_pull_off")
-# Series that are moved, in the order of the derivatives of a march.
-_SERIES = ("time", "depth", "force", "contact_radius")
+# What has derivatives, of the observables of a kind of problem, and what it is.
+_OUTPUTS: dict[str, str] = {
+    "pull_off_force": "force",
+    "pull_off_stress": "force",
+    "work_to_pull_off": "work",
+    "depth_at_pull_off": "depth",
+    "contact_radius_at_pull_off": "edge",
+    "ligament_at_pull_off": "edge",
+}
 # Steps after the pull-off that its interpolation may use.
 _AFTER = 3
-# Relative change of the unit of time, and the largest elasticity by it beside the largest by an
-# input.
-_SMALL, _NOISE = 1e-4, 0.05
+# Steps on each side of the pull-off in local fits, and the largest degree of these.
+_BESIDE, _DEGREE = 5, 4
+# Largest change of an elasticity by the pull of the nodes, beside the largest elasticity, and
+# the change that is always accepted.
+_NOISE, _LITTLE = 0.3, 0.02
+# Motion of an edge that counts as rest, relative to the fastest.
+_STILL = 0.005
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +46,7 @@ class Slopes:
         The inputs.
     rows : ndarray, shape (n, 4, P + 1)
         Derivatives of time, depth, force and contact radius at the first n steps; the last ones by
-        the unit of time, on which no output depends: they are errors of the method.
+        the length of the time steps of the last move, on which no output depends.
     reason : str
         Why there are none at later steps.
     missing : mapping
@@ -61,40 +60,38 @@ class Slopes:
 
 
 def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
-    """Return the derivatives of the outputs from those of the series.
-
-    The outputs are computed from the series moved by a little in the direction of each input, in
-    the problem with that input: so they have the same definition, interpolation and units.
-    """
+    """Return the derivatives of the outputs from those of the series."""
     kind = result.problem.outputs
-    outputs = {name: kind.observables[name].unit for name in _OUTPUTS if name in kind.observables}
-    refused = _refused(result, slopes, list(outputs))
-    given = [name for name in outputs if name not in refused]
-    values = _values(given, outputs, result)
-    refused |= {name: why for name in given if (why := _undefined(name, values, result))}
-    given = [name for name in given if name not in refused]
+    units = {name: kind.observables[name].unit for name in _OUTPUTS if name in kind.observables}
+    refused = _refused(result, slopes, list(units))
+    values = {name: _value(name, result) for name in units if name not in refused}
+    refused |= {name: why for name, (_, why) in values.items() if why}
+    given = [name for name in values if name not in refused]
+    found = _moved(result, slopes) if given else {}
     derivatives: dict[str, dict[str, float]] = {name: {} for name in given}
     elasticities: dict[str, dict[str, float]] = {name: {} for name in given}
-    for i, change in enumerate(slopes.changes):
-        low, high = (_values(given, outputs, end) for end in _moved(result, slopes, i))
-        step = np.log1p(change.up) - np.log1p(change.down)
-        for name in given:
-            slope = (high[name] - low[name]) / step
-            if np.isfinite(slope):
-                derivatives[name][change.name] = float(slope / change.value)
-                if values[name]:
-                    elasticities[name][change.name] = float(slope / abs(values[name]))
-    errors = _of_null(result, slopes, given, outputs, values)
+    errors: dict[str, dict[str, float]] = {name: {} for name in given}
     for name in given:
+        value, scale = values[name][0], units[name].scale
+        slope, error = found[_OUTPUTS[name]]
+        for i, change in enumerate(slopes.changes):
+            y, dy = value, float(slope[i])
+            if scale:
+                y, dy = _in_si(result, change, scale, value, dy)
+            if np.isfinite(dy):
+                derivatives[name][change.name] = dy / change.value
+                if y:
+                    elasticities[name][change.name] = dy / abs(y)
+                    errors[name][change.name] = float(error[i]) / abs(value)
         largest = max(map(abs, elasticities[name].values()), default=0.0)
-        if errors[name] > _NOISE * largest:
+        if (worst := max(errors[name].values(), default=0.0)) > max(_NOISE * largest, _LITTLE):
             refused[name] = (
-                "the nodes hold the edge: by frozen nodes the output depends on the unit of time, "
-                f"by an elasticity of {errors[name]:.2g} beside {largest:.2g} of the largest input"
+                "the nodes hold the edge: their pull on it changes an elasticity by "
+                f"{worst:.2g}, beside {largest:.2g} of the largest; a smaller accuracy helps"
             )
-            del elasticities[name], derivatives[name]
+            del elasticities[name], derivatives[name], errors[name]
     return Sensitivities(
-        errors={name: dict.fromkeys(each, errors[name]) for name, each in elasticities.items()},
+        errors=errors,
         inputs={change.name: change.value for change in slopes.changes},
         derivatives=derivatives,
         elasticities=elasticities,
@@ -102,19 +99,74 @@ def sensitivities(result: Result, slopes: Slopes) -> Sensitivities:
     )
 
 
-def _of_null(
-    result: Result,
-    slopes: Slopes,
-    names: Iterable[str],
-    units: Mapping[str, Unit],
-    values: Mapping[str, float],
-) -> dict[str, float]:
-    """Return the size of the elasticities by the unit of time, which should be zero."""
-    low, high = (
-        _values(names, units, _along(result, slopes, -1, result.problem, by))
-        for by in (-_SMALL, _SMALL)
-    )
-    return {x: abs(high[x] - low[x]) / (2 * _SMALL * abs(values[x])) for x in names}
+def _in_si(
+    result: Result, change: Changed, name: str, value: float, slope: float
+) -> tuple[float, float]:
+    """Return a value in SI and its derivative; the scale changes with the input as well."""
+    if result.scales is None:
+        return value, slope
+    low, here, high = (getattr(x.scales(), name) for x in (change.low, result.problem, change.high))
+    return value * here, slope * here + value * (high - low) / change.step
+
+
+def _moved(result: Result, slopes: Slopes) -> dict[str, tuple[npt.NDArray, npt.NDArray]]:
+    """Return the derivatives of force, depth, edge and work at the pull-off, with their errors.
+
+    The series are moved by the inputs. Their motion at fixed depth is fitted over several steps
+    around the pull-off, because the depth there changes by the slope of this motion over the
+    curvature of the force. An error is the part that the nodes have in the motion of a point along
+    the curve (:func:`_level`).
+    """
+    at, span = pull_off(result), spans(result)[-1]
+    steps = around(result, span, _BESIDE, len(slopes.rows))
+    assert steps is not None
+    x, place = -result.depth, -at.depth
+    width = float(np.ptp(x[steps])) / 2
+    u = (x[steps] - place) / width
+    fit = np.linalg.pinv(np.vander(u, min(_DEGREE, len(u) - 2) + 1, increasing=True))
+    force, edge = (fit @ y[steps] for y in (result.force, result.contact_radius))
+    found = {}
+    for rows in (_level(slopes), slopes.rows[:, :, :-1]):
+        _, depth, moved_force, moved_edge = rows[steps].transpose(1, 0, 2)
+        motion = fit @ (moved_force + polyval(u, polyder(force))[:, None] / width * depth)
+        along = -width * motion[1] / (2 * force[2])
+        radius = (fit @ (moved_edge + polyval(u, polyder(edge))[:, None] / width * depth))[0]
+        work = _moved_work(result, slopes, rows, at) - at.force * -along
+        each = -motion[0], -along, radius + edge[1] / width * along, work
+        for name, value in zip(("force", "depth", "edge", "work"), each, strict=True):
+            found.setdefault(name, []).append(value)
+    return {name: (best, np.abs(best - raw)) for name, (best, raw) in found.items()}
+
+
+def _moved_work(result: Result, slopes: Slopes, rows: npt.NDArray, at: PullOff) -> npt.NDArray:
+    """Return the derivatives of the work to the fixed depth of the pull-off."""
+    total = np.zeros(rows.shape[2])
+    for steps, curve, begin, end in tension_parts(result, spans(result)[-1], at, until=-at.depth):
+        steps = steps[steps < len(rows)]
+        x = -result.depth[steps]
+        motion = rows[steps, 2] + curve(x, 1)[:, None] * rows[steps, 1]
+        total -= curve_through(x, motion).integrate(begin, end)
+        if begin == x[0]:
+            total -= float(curve(begin)) * slopes.rows[steps[0], 1, :-1]
+        if end < -at.depth:
+            total += float(curve(end)) * slopes.rows[steps[-1], 1, :-1]
+    return total
+
+
+def _level(slopes: Slopes) -> npt.NDArray:
+    """Return the derivatives with each point moved along the curve to where the edge stays.
+
+    Longer time steps move each point along the same curve, so any multiple of the derivatives by
+    their length may be subtracted. With this multiple the edge stays at its place between the
+    nodes, whose pull on the edge differs from place to place.
+    """
+    rows = slopes.rows
+    edge, along = rows[:, 3, None, :-1], rows[:, 3, None, -1:]
+    known = np.isfinite(edge) & np.isfinite(along) & (along != 0)
+    least = _STILL * np.max(np.abs(along), initial=0.0, where=np.isfinite(along))
+    with np.errstate(invalid="ignore"):
+        factor = np.where(known, edge * along / (along**2 + least**2), 0.0)
+    return rows[:, :, :-1] - np.where(factor == 0, 0.0, factor * rows[:, :, -1:])
 
 
 def with_errors(found: Sensitivities, coarse: Sensitivities) -> Sensitivities:
@@ -131,46 +183,17 @@ def with_errors(found: Sensitivities, coarse: Sensitivities) -> Sensitivities:
     return replace(found, errors=errors)
 
 
-def _moved(result: Result, slopes: Slopes, i: int) -> tuple[Result, Result]:
-    """Return the result with a smaller and with a larger input."""
-    change = slopes.changes[i]
-    low = _along(result, slopes, i, change.low, float(np.log1p(change.down)))
-    return low, _along(result, slopes, i, change.high, float(np.log1p(change.up)))
-
-
-def _along(result: Result, slopes: Slopes, i: int, problem: Case, by: float) -> Result:
-    """Return the result of a problem, with its series moved in one direction."""
-    moved: dict[str, Any] = {}
-    for k, name in enumerate(_SERIES):
-        series = np.array(getattr(result, name))
-        series[: len(slopes.rows)] += by * slopes.rows[:, k, i]
-        moved[name] = series
-    moved["time"] = np.maximum.accumulate(moved["time"])
-    return replace(result, problem=problem, sensitivities=None, **moved)
-
-
-def _values(names: Iterable[str], units: Mapping[str, Unit], result: Result) -> dict[str, float]:
-    """Return the outputs at the pull-off, in SI where the problem is; nan without one."""
-    scales, found = result.scales, {}
-    at = pull_off(result)
-    for name in names:
-        if name in _EDGES:
-            value = edge_at(result, spans(result)[-1], at)
-        elif name == "work_to_pull_off":
-            value = work_to(result, at)
-        else:
-            value = at.depth if name == "depth_at_pull_off" else at.force
-        scale = units[name].scale
-        found[name] = value * (getattr(scales, scale) if scales is not None and scale else 1.0)
-    return found
-
-
-def _undefined(name: str, values: Mapping[str, float], result: Result) -> str:
-    """Return why an output is not defined, empty if it is."""
-    value, note = number_of(name, result)
-    if value is None or not np.isfinite(values[name]):
-        return note or "it is not defined"
-    return ""
+def _value(name: str, result: Result) -> tuple[float, str]:
+    """Return an output without dimensions, and why it is not defined, empty if it is."""
+    kind, note = _OUTPUTS[name], None
+    if kind == "work":
+        value, note = number_of(name, result)
+    else:
+        at = pull_off(result)
+        value = {"force": at.force, "depth": at.depth, "edge": at.contact_radius}[kind]
+    if value is None or not np.isfinite(value):
+        return np.nan, note or "it is not defined"
+    return value, ""
 
 
 def _refused(result: Result, slopes: Slopes, names: Iterable[str]) -> dict[str, str]:

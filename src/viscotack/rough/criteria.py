@@ -105,13 +105,14 @@ class Stickiness:
 
     @property
     def record(self) -> dict[str, float | None]:
-        """Measures by the names of an answer."""
+        """Measures by the names of an answer; None for a range without a gap, of a flat map."""
+        reach = self.range_over_gap
         return {
             "full_contact_energy_over_work": self.full_contact,
             "full_contact_energy_over_work_fast": self.full_contact_fast,
             "fuller_tabor": self.fuller_tabor,
             "pastewka_robbins": self.pastewka_robbins,
-            "range_over_gap_at_patches": self.range_over_gap,
+            "range_over_gap_at_patches": reach if np.isfinite(reach) else None,
             "bearing_area_stress_Pa": self.bearing_area_stress,
         }
 

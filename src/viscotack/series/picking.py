@@ -94,7 +94,7 @@ class CriticalSpeed:
 
 @dataclass(frozen=True)
 class Window:
-    """Map of what a stamp does, by speed and preload.
+    """Map of picking and printing of a stamp, by speed and preload.
 
     Attributes
     ----------
@@ -289,7 +289,7 @@ def _corner(
 
 
 def _changes(speeds: Sequence[float], opened: Sequence[int | None]) -> list[_Change]:
-    """Return the changes of what opens between neighbouring speeds where it is known."""
+    """Return the changes of the opening contact between neighbouring speeds."""
     known = [(v, each) for v, each in zip(speeds, opened, strict=True) if each is not None]
     return [_Change(v, w, a, b) for (v, a), (w, b) in pairwise(known) if a != b]
 

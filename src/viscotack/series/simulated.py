@@ -11,28 +11,26 @@ both sides over the largest term, with the left side integrated from the common 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.arrays import Array
-from viscotack.bem.ageing import finer
 from viscotack.bem.books import History
 from viscotack.bem.bounds import check_bounds
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.machine import Leg
 from viscotack.bem.series import Part, SeriesHistory, Units, march_in_series
 from viscotack.bem.settings import Settings
-from viscotack.bem.solver import contact_of, modes_of_run, relaxed_start
+from viscotack.bem.solver import contact_of, discretised, modes_of_run, relaxed_start
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError, OutOfRange
 from viscotack.methods import handover
 from viscotack.problem import Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import AtForce, Retraction
-from viscotack.traction import has_rest
 
 _STATUS = {
     "detached": "one contact has separated",
@@ -180,10 +178,9 @@ def part_of(posed: PosedContact, settings: Settings, shortest: float, longest: f
     groups, contact, unit = posed.groups, posed.contact, posed.units.time
     legs = (Leg(inf, -1.0, least_step=shortest / unit),)
     modes = modes_of_run(groups.material, legs, longest / unit, settings)
-    grading = contact.grading(finer(settings, groups.traction, longest / unit), posed.start.depth)
-    if not modes.weights:
-        grading = replace(grading, scar_half_width=0.0)
-    growing = groups.traction if has_rest(groups.traction) else None
+    grading, growing = discretised(
+        groups, contact, modes, longest / unit, posed.start.depth, settings
+    )
     return Part(contact, posed.start, modes, grading, posed.units, growing)
 
 

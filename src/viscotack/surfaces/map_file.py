@@ -1,4 +1,4 @@
-"""Maps of heights in files: text, NumPy arrays (.npy), and what :mod:`.topography` reads."""
+"""Maps of heights in files: text, NumPy arrays (.npy), and formats of :mod:`.topography`."""
 
 from __future__ import annotations
 

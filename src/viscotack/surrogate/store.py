@@ -1,17 +1,24 @@
-"""Read and write surrogates: arrays in NPZ and metadata in JSON, without pickle."""
+"""Read and write surrogates: arrays in NPZ, metadata in JSON with a checksum, without pickle."""
 
+import hashlib
+import io
+import json
 import os
+import zlib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.files.archive import read_arrays
+from viscotack.files.bounded import open_regular
+from viscotack.files.whole import write_whole
 
-from . import sealed
 from .contact import Contact
 from .linear_solids import SolidContact
 from .model import Surrogate
@@ -33,7 +40,7 @@ SHIPPED = FILES["sphere"]
 _CONTACTS: dict[str, type[Contact]] = {
     each.name: each for each in (SphereContact, SolidContact, PunchContact, ShortRangeContact)
 }
-_FORM = "viscotack surrogate 4"
+_FORM, _WORDS = "viscotack surrogate 4", "words.json"
 # Largest accepted file [bytes unpacked]; the largest one of the package has less than one
 # megabyte.
 _MOST = 50e6
@@ -63,12 +70,15 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str,
         if name not in contact.shared:
             arrays |= networks.arrays(f"{name}.")
     if trust is not None:
-        arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
-        arrays |= {} if trust.joint is None else {"trust.joint": trust.joint}
-    words = {"contact": contact.name, **facts}
+        arrays |= trust.reach.arrays("trust.")
+        arrays |= {"trust.levels": trust.levels, "trust.joint": trust.joint}
+    words = {"form": _FORM, "sha256": checksum(arrays), "contact": contact.name, **facts}
     if contact.shared:
-        words["power law"] = _checksum(surrogate.networks, contact.shared)
-    sealed.write(path, arrays, _FORM, words)
+        words["power law"] = _checksum_of(surrogate.networks, contact.shared)
+    arrays[_WORDS] = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    write_whole(path, buffer.getvalue())
 
 
 def load(path: str | os.PathLike[str]) -> Surrogate:
@@ -107,28 +117,51 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 
 
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
-    with sealed.opened(path, _FORM, "the file of a surrogate", _MOST) as (arrays, words):
-        contact = _CONTACTS[words["contact"]]
-        _check_numbers(arrays)
-        networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes if _stored(n, arrays)}
-        for name, each in networks.items():
-            _check_layers(name, each, *contact.shapes[name])
-        trust = None
-        if reach := networks.pop("trust", None):
-            trust = Trust(reach, arrays["trust.levels"], arrays.get("trust.joint"))
-            _check_shape("trust.levels", trust.levels, (len(OF), len(CONFIDENCES)))
-            if trust.joint is not None:
-                _check_shape("trust.joint", trust.joint, (len(CONFIDENCES),))
-        constants = {name: arrays[name] for name in contact.sizes}
-        for name, shape in contact.sizes.items():
-            _check_shape(name, constants[name], shape)
-        _check_members(contact, networks)
-        if contact.shared:
-            whole = shipped().networks
-            if words["power law"] != _checksum(whole, contact.shared):
-                raise InputError("it corrects another surrogate of power laws; train it again")
-            networks |= {name: whole[name] for name in contact.shared}
-        return Surrogate(contact, networks, trust, constants), words
+    try:
+        # open the file here, because NumPy does not close damaged files
+        with open_regular(path) as stream:
+            arrays = read_arrays(stream, lambda _: True, _MOST)
+        words = json.loads(arrays.pop(_WORDS).tobytes())
+        if words["form"] != _FORM:
+            raise InputError(f"its format is {words['form']!r}, but this version reads {_FORM!r}")
+        if words["sha256"] != checksum(arrays):
+            raise InputError("the checksum of its arrays differs from the stored one")
+        return _surrogate(arrays, words), words
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
+        raise InputError(f"{path} is not the file of a surrogate, or is damaged: {error}") from None
+
+
+def _surrogate(arrays: Arrays, words: Mapping[str, Any]) -> Surrogate:
+    contact = _CONTACTS[words["contact"]]
+    for name, array in arrays.items():
+        if array.dtype.kind != "f" or not np.all(np.isfinite(array)):
+            raise InputError(f"{name} must be finite numbers")
+    networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes if _stored(n, arrays)}
+    for name, each in networks.items():
+        _check_layers(name, each, *contact.shapes[name])
+    trust = None
+    if reach := networks.pop("trust", None):
+        trust = Trust(reach, arrays["trust.levels"], arrays["trust.joint"])
+        _check_shape("trust.levels", trust.levels, (len(OF), len(CONFIDENCES)))
+        _check_shape("trust.joint", trust.joint, (len(CONFIDENCES),))
+    constants = {name: arrays[name] for name in contact.sizes}
+    for name, shape in contact.sizes.items():
+        _check_shape(name, constants[name], shape)
+    for name in contact.limiting:
+        count, wanted = (len(networks[n].weights[0]) for n in (name, "force"))
+        if count not in (1, wanted):
+            raise InputError(
+                f"the number of networks of the {name} limit must be 1 or {wanted}, as for the "
+                f"force, got {count}"
+            )
+    if contact.shared:
+        whole = shipped().networks
+        if words["power law"] != _checksum_of(whole, contact.shared):
+            raise InputError("it corrects another surrogate of power laws; train it again")
+        networks |= {name: whole[name] for name in contact.shared}
+    return Surrogate(contact, networks, trust, constants)
 
 
 def _stored(name: str, arrays: Arrays) -> bool:
@@ -136,18 +169,19 @@ def _stored(name: str, arrays: Arrays) -> bool:
     return name not in ("second", "trust") or f"{name}.weight.0" in arrays
 
 
-def _checksum(networks: Mapping[str, Networks], names: tuple[str, ...]) -> str:
+def checksum(arrays: Arrays) -> str:
+    """Return the SHA-256 of arrays with their names."""
+    found = hashlib.sha256()
+    for name in sorted(arrays):
+        found.update(name.encode())
+        found.update(np.ascontiguousarray(arrays[name]).tobytes())
+    return found.hexdigest()
+
+
+def _checksum_of(networks: Mapping[str, Networks], names: tuple[str, ...]) -> str:
     """Return the checksum of some networks, without intervals."""
-    arrays: dict[str, Any] = {}
-    for name in names:
-        arrays |= networks[name].arrays(f"{name}.")
-    return sealed.checksum(arrays)
-
-
-def _check_numbers(arrays: Arrays) -> None:
-    for name, array in arrays.items():
-        if array.dtype.kind != "f" or not np.all(np.isfinite(array)):
-            raise InputError(f"{name} must be finite numbers")
+    each = [networks[name].arrays(f"{name}.") for name in names]
+    return checksum({name: array for arrays in each for name, array in arrays.items()})
 
 
 def _check_layers(name: str, networks: Networks, inputs: int, outputs: int) -> None:
@@ -169,16 +203,6 @@ def _check_layers(name: str, networks: Networks, inputs: int, outputs: int) -> N
         raise InputError(f"{name} has only a {next(iter(known))}; give both centre and spread")
     for part, each in known.items():
         _check_shape(f"{name}.{part}", each, (outputs,))
-
-
-def _check_members(contact: type[Contact], networks: Mapping[str, Networks]) -> None:
-    for name in contact.limiting:
-        count, wanted = (len(networks[n].weights[0]) for n in (name, "force"))
-        if count not in (1, wanted):
-            raise InputError(
-                f"the number of networks of the {name} limit must be 1 or {wanted}, as for the "
-                f"force, got {count}"
-            )
 
 
 def _check_shape(name: str, array: npt.NDArray[Any], wanted: tuple[int, ...]) -> None:

@@ -81,14 +81,13 @@ class Trust:
         Errors of a curve are relative to the pull-off force, the others are in log10.
     levels : ndarray, shape (4, confidences)
         Calibrated factors on the half-widths.
-    joint : ndarray, shape (confidences,), or None
-        Further factors with which force, work and curve together are inside; None if they were
-        not measured.
+    joint : ndarray, shape (confidences,)
+        Further factors with which force, work and curve together are inside.
     """
 
     reach: Networks
     levels: Array
-    joint: Array | None = None
+    joint: Array
 
     def doubtful(self, inputs: Array) -> npt.NDArray[np.bool_]:
         """Return a mask of the forces and works that are not certain, shape (n, 2).
@@ -123,8 +122,6 @@ class Trust:
         usual = 10.0 ** self.reach(inputs).mean(axis=0)
         level = self.levels[:, CONFIDENCES.index(confidence)]
         if joint:
-            if self.joint is None:
-                raise InputError("no joint intervals were measured for this surrogate")
             level = level * self.joint[CONFIDENCES.index(confidence)]
         return tuple(usual[:, i] * level[i] for i in range(len(OF)))
 

@@ -33,6 +33,7 @@ _KINDS = {
     "css": "text/css; charset=utf-8",
     "js": "text/javascript; charset=utf-8",
     "svg": "image/svg+xml",
+    "toml": "text/plain; charset=utf-8",
 }
 _REFUSED: dict[int | str, dict[str, Any]] = {
     status: {"model": Refusal, "description": words}

@@ -48,7 +48,7 @@ def add_commands() -> None:
 
 
 def _commands(each: Declared) -> list[tuple[str, str, Callable[[], Any]]]:
-    """Return the commands of an operation: path, help, and what completes it."""
+    """Return the commands of an operation: path, help and completion."""
     if not each.helps:
         return [(each.word, each.help, _completing(each.word))]
     return [

@@ -78,7 +78,7 @@ class Crew:
         self.processes = self._pool.processes
 
     def begin(self) -> None:
-        """Start the first process, and serve questions from now on."""
+        """Start the first process and begin to accept questions."""
         if (descriptor := self._pool.fileno()) is not None:
             asyncio.get_running_loop().add_reader(descriptor, self._turn)
         self._turn()
@@ -139,7 +139,7 @@ class Crew:
             _end(question, "failed", "the server ends")
 
     def _turn(self) -> None:
-        """Pass on what the processes sent, and give those that are idle what waits."""
+        """Forward messages of the processes, and give waiting questions to idle ones."""
         for number, event in self._pool.collect(0.0):
             if event.kind == "told":
                 self._running[number].told(event.what)

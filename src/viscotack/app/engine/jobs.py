@@ -83,7 +83,7 @@ class Upload:
 
 @dataclass(eq=False)
 class Job:
-    """An operation that takes a while, and what is known of it so far.
+    """A long-running operation, and its progress.
 
     Attributes
     ----------
@@ -130,7 +130,7 @@ class Job:
         return json.loads(zlib.decompress(self._answer)) if self._answer else None
 
     def tell(self, told: dict[str, Any]) -> None:
-        """Take what the task tells of itself."""
+        """Store a progress message of the task."""
         self.share = max(self.share, told.get("share", 0.0))
         self.notice = told.get("notice", self.notice)
         self.points += told.get("points", [])
@@ -143,7 +143,7 @@ class Job:
         news.set()
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
-        """Say what became of it; the files that were sent with it go."""
+        """Store the outcome, and delete the files sent with the request."""
         if self.upload is not None:
             self.upload.folder.cleanup()
         self.state, self.error, self.ended = state, error, monotonic()
@@ -249,7 +249,7 @@ class Engine:
         return job
 
     def processes(self) -> list[int]:
-        """Return the numbers of all processes that live."""
+        """Return the identifiers of all living processes."""
         return [pid for crew in self._crews.values() for pid in crew.processes()]
 
     async def _run(self, job: Job, asked: dict[str, Any]) -> None:

@@ -53,7 +53,7 @@ class Sent:
 
 
 def warm() -> None:
-    """Run once what is slow the first time."""
+    """Run slow initialisations once."""
     from viscotack.methods import solve
     from viscotack.operations.parts.examples import FIRST
     from viscotack.problem.accuracy import LOOSEST_ACCURACY
@@ -120,7 +120,7 @@ def _wanted(kind: type[Operation], outputs: Sequence[str]) -> frozenset[str]:
 
 
 def _beside(kind: type[Operation], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:
-    """Return the files that are wanted, pictures as SVG and what is no text in base 64."""
+    """Return the requested files, pictures as SVG and binary files in base 64."""
     files: dict[str, str] = {}
     for output in kind.outputs:
         if output.name not in wanted:

@@ -35,7 +35,7 @@ _FREQUENCIES, _WIDE = 81, 8.0
 
 
 def warm() -> None:
-    """Run once what is slow the first time."""
+    """Run slow initialisations once."""
     quick(State(FIRST))
 
 

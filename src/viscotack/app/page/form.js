@@ -8,7 +8,7 @@ export class Form {
   constructor(host, operation, id, { skip = [] } = {}) {
     this.fields = [];
     const more = element("details", ""), needed = this.needed = element("div", "");
-    more.append(element("summary", "", "more that may be said"));
+    more.append(element("summary", "", "more options"));
     for (const one of operation.options) {
       if (skip.includes(one.name) || one.form === "folder") continue;
       const row = element("div", "field"), label = element("label", "", one.name.replaceAll("_", " ")), input = control(one);

@@ -99,6 +99,7 @@ function tabs(store) {
       one.tab.tabIndex = is ? 0 : -1;
     }
     document.body.dataset.view = chosen.id;
+    document.body.classList.toggle("alone", !!chosen.view.alone);
     history.replaceState(null, "", location.pathname + location.search + (chosen.id === all[0].id ? "" : `#${chosen.view.hash || chosen.id}`));
     chosen.view.shown?.();
   };

@@ -5,14 +5,19 @@ import { button, card } from "./contact.js";
 import { Form } from "./form.js";
 import { ask, cancel, follow } from "./server.js";
 
+const EXAMPLES = ["design", "window", "array", "rough"];
+// What a command line says of files, which the page saves by buttons.
+const ON_THE_LINE = /(; - is standard output|,? to an? \.\w+.*)\.?$/;
+
 export class Operations {
   constructor(host, store, id = "operation", words = null) {
+    this.alone = !!words; // the case of the page is not asked for
     this.store = store;
     this.id = id;
     this.view = words ? id : "operations";
     const box = element("div", "view asked");
     host.append(box);
-    const side = card(box, "side"), label = element("label", "", "What is asked");
+    const side = card(box, "side"), label = element("label", "", "Task");
     this.select = element("select", "");
     this.select.id = label.htmlFor = id;
     const there = store.operations.filter(({ refused }) => !refused.http);
@@ -23,7 +28,9 @@ export class Operations {
     this.select.addEventListener("change", () => { this.show(); history.replaceState(null, "", `#${this.hash}`); });
     this.words = element("p", "hint", "");
     this.form = element("div", "");
-    side.append(label, this.select, this.words, this.form);
+    if (this.known.length > 1) side.append(label, this.select);
+    else side.append(element("h2", "", this.known[0].word));
+    side.append(this.words, this.form);
     const main = card(box, "main");
     this.said = element("div", "");
     this.said.setAttribute("role", "status");
@@ -43,31 +50,60 @@ export class Operations {
     this.fields = new Form(this.form, operation, this.id);
     const problem = this.fields.fields.find(({ form }) => form === "problem");
     if (problem) this.form.append(button("Take the case of this page", () => { problem.input.value = JSON.stringify(this.store.tables, null, 1); }));
-    const attached = element("input", ""), label = element("label", "", "files that an option names"), row = element("div", "field");
+    if (this.alone) this.example(operation);
+    const attached = element("input", ""), label = element("label", "", "other files that it names"), row = element("div", "field");
     attached.type = "file";
     attached.multiple = true;
     attached.id = label.htmlFor = `${this.id}-attached`;
     row.append(label, attached);
     // some answers have no curve to write: what is not asked for is not missed
+    const wanted = element("details", "");
+    wanted.append(element("summary", "", "more to save"));
     this.outputs = operation.outputs.map(({ name, words, kind }) => {
-      const box = element("input", ""), said = element("label", "", `with the ${name}`), line = element("div", "field");
+      const box = element("input", ""), line = element("label", "hint");
       box.type = "checkbox";
-      box.id = said.htmlFor = `${this.id}-with-${name}`;
-      box.title = words;
+      box.id = `${this.id}-with-${name}`;
       // a tab of its own shows its picture
-      box.checked = this.id !== "operation" && kind === "picture";
-      line.append(said, box);
-      this.form.append(line);
+      box.checked = this.alone && kind === "picture";
+      line.append(box, ` ${name}: ${words.replace(ON_THE_LINE, "")}`);
+      line.style.display = "block";
+      (box.checked ? this.form : wanted).append(line);
       return { name, box };
     });
-    const go = button("Ask", () => this.ask(attached.files));
+    const go = button("Compute", () => this.ask(attached.files));
     go.id = `${this.id}-ask`;
-    this.form.append(row, go);
+    this.form.append(row, ...(wanted.children.length > 1 ? [wanted] : []), go);
     this.said.replaceChildren();
+  }
+
+  // What the needed file contains; it may be written here, where there is an example of it.
+  example({ word, options }) {
+    this.text = null;
+    const file = this.file = options.find(({ form, needed }) => form === "file" && needed);
+    if (!file) return;
+    const place = element("div", ""), row = this.fields.input(file.name).parentElement;
+    row.after(place);
+    place.append(element("p", "hint", file.words));
+    if (!EXAMPLES.includes(word)) return;
+    const take = button("Write it here, from an example", async () => {
+      const text = element("textarea", ""), found = await fetch(`/page/example-${word}.toml`);
+      text.rows = 18;
+      text.spellcheck = false;
+      text.setAttribute("aria-label", `${file.name}, as text`);
+      text.value = await found.text();
+      take.replaceWith(text);
+      row.hidden = true;
+      text.focus();
+      text.setSelectionRange(0, 0);
+      this.text = text;
+    });
+    take.id = `${this.id}-example`;
+    place.append(take);
   }
 
   async ask(files) {
     const { operation } = this, body = this.fields.fill(new FormData());
+    if (this.text) body.append(this.file.name, new File([this.text.value], `${operation.word}.toml`));
     for (const file of files) body.append("attached", file);
     body.append("outputs", "words");
     for (const { name, box } of this.outputs) if (box.checked) body.append("outputs", name);
@@ -98,12 +134,25 @@ export class Operations {
         parts.push(picture);
       } else row.append(button(`Save ${name}`, () => save(`${this.operation.path.replaceAll("/", "-")}-${name}${/FILE(\.\w+)/.exec(of)?.[1] || (name === "csv" ? ".csv" : "")}`, new Blob([kind === "binary" ? Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0)) : files[name]]))));
     }
-    const lines = element("pre", "", words || text);
-    lines.tabIndex = 0;
-    lines.setAttribute("aria-label", "Answer in words");
-    parts.splice(1, 0, lines);
+    parts.splice(1, 0, ...inBlocks(words || text));
     this.said.replaceChildren(...parts);
   }
+}
+
+// Lines as they are printed: sentences are wrapped, rows of a table are not.
+function inBlocks(words) {
+  const blocks = [], isRow = (line) => / {2,}\S+.* {2,}\S/.test(line);
+  for (const line of words.split("\n")) {
+    const row = isRow(line), last = blocks[blocks.length - 1];
+    if (last?.row === row) last.lines.push(line);
+    else blocks.push({ row, lines: [line] });
+  }
+  return blocks.map(({ row, lines }) => {
+    const block = element("pre", row ? "rows" : "", lines.join("\n"));
+    block.tabIndex = 0;
+    block.setAttribute("aria-label", row ? "Answer, rows" : "Answer in words");
+    return block;
+  });
 }
 
 // A view of some operations alone.

@@ -40,7 +40,7 @@ class DiscContact(ShapeContact):
 
     @property
     def _known(self) -> float:
-        """Infinity: the edge of a disc is that of its contact, and not of what is known of it."""
+        """Infinity: the edge of a disc limits its contact, not its known range."""
         return np.inf
 
     def bare_radius(self, depth: float) -> float:

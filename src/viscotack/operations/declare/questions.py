@@ -32,8 +32,8 @@ from viscotack.materials import (
 )
 from viscotack.materials.checks import rests
 from viscotack.materials.constants import ContactModulus, ModulusRatio
+from viscotack.materials.library import MATERIALS, passport_of
 from viscotack.materials.passport import Passport
-from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, plane, revolution
 from viscotack.problem.case_table import OWN
@@ -92,7 +92,8 @@ _OTHER_MATERIALS = (
     "header 'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
     "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) is then "
     "that of the header: s, ms, ..., or none. FILE.toml: a passport, as `viscotack material fit` "
-    "writes it. NAME:NUMBERS for one of --with."
+    "writes it, or the name of a published material (`viscotack material list`), as pdms-10-1. "
+    "NAME:NUMBERS for one of --with."
 )
 
 
@@ -373,13 +374,13 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
 
 
 def is_passport(material: Any) -> bool:
-    """Whether a material is given by a passport: an object or a file name."""
-    return isinstance(material, Passport) or material.endswith(".toml")
+    """Whether a material is given by a passport: an object, a file or a published name."""
+    return isinstance(material, Passport) or material.endswith(".toml") or material in MATERIALS
 
 
 def passport_in(material: Any, also: Iterable[Any] = ()) -> Passport:
     """Return the passport of a material."""
-    return material if isinstance(material, Passport) else read_passport(material, also=also)
+    return material if isinstance(material, Passport) else passport_of(material, also=also)
 
 
 def refuse_beside(material: Any, given: Mapping[str, Any], flags: Iterable[str]) -> None:
@@ -535,7 +536,7 @@ def _refuse_large(name: str, start: Start | Apart, tabor: float, exponent: float
 
 
 def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
-    """Return the problem in SI; `unit` is the unit of time, or "1" where --tau0 must tell it."""
+    """Return the problem in SI; `unit` is the unit of time, or "1" where --tau0 must state it."""
     lengths = [name for name in ("equilibrium-gap", "work-of-adhesion") if name in given]
     if len(lengths) != 1:
         raise InputError(

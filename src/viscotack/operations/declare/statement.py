@@ -35,7 +35,7 @@ class Statement:
 
     Attributes
     ----------
-    problem : Problem or Groups
+    problem : Problem, Groups or RoughCase
         In SI or dimensionless.
     deviation : float
         Standard deviation of log10 of the times of its material, from its shift with temperature.
@@ -176,7 +176,8 @@ class Stated(Card):
         if self.rough and "surface" in read_toml(case):
             if given.keys() - {_CASE}:
                 raise InputError(f"{case} states the whole test of a map; remove the options")
-            return Statement(read_rough_case(case, also=place.also, beside=beside), given=case)
+            stated: Any = read_rough_case(case, also=place.also, beside=beside)
+            return Statement(stated, given=case)
         problem = read_case(case, also=place.also, temperature=kelvin, beside=beside)
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):

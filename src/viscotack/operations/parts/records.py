@@ -31,7 +31,7 @@ _PLAIN = {
 
 
 def passport_record(passport: Any) -> dict[str, Any]:
-    """Return a material passport; what has no bound, or is not known, is None."""
+    """Return a material passport; unbounded and unknown values are None."""
     return plain(
         asdict(passport)
         | {

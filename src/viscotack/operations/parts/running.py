@@ -55,7 +55,7 @@ def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: An
 
 
 def slow_words(problem: Any, share: float, options: Mapping[str, Any]) -> str:
-    """Describe why a simulation takes long, and what is cheaper.
+    """Describe why a simulation takes long, and cheaper alternatives.
 
     Parameters
     ----------

@@ -141,7 +141,7 @@ class Shifting(ShiftLaw):
     ] = ()
 
     def __post_init__(self) -> None:
-        """Check that one shift is given, and what it needs."""
+        """Check that one shift is given with its parameters."""
         super().__post_init__()
         if self.named and (self.shift_by is not None or self.vertical is not None):
             raise InputError(
@@ -150,7 +150,7 @@ class Shifting(ShiftLaw):
             )
 
     def swept(self, sweeps: Any) -> tuple[Any, Any, tuple[str, ...]]:
-        """Return the master curve of a DMA, how times shift, and what speaks against it."""
+        """Return the master curve of a DMA, the shift of times, and doubts about it."""
         from viscotack.lab import contradiction, master_curve, superposition
         from viscotack.materials.shift import WLF
 
