@@ -68,7 +68,7 @@ def readers(folder: Path, child: Apart) -> dict[str, Reader]:
     from viscotack.campaign.plan import read_plan
     from viscotack.files.parquet import read_parquet
     from viscotack.files.quantities import read_quantities
-    from viscotack.materials.library import pdms_10_1
+    from viscotack.materials.library import published
     from viscotack.materials.passport_file import write_passport
     from viscotack.operations import ask, operation
     from viscotack.operations.declare.study import read_study
@@ -77,7 +77,7 @@ def readers(folder: Path, child: Apart) -> dict[str, Reader]:
     test = tack_files.made()
     lab_files.workbook(folder / "film.xlsx")
     tack_files.workbook(test, folder / "tack.xlsx")
-    write_passport(pdms_10_1(), folder / "pdms.toml")
+    write_passport(published("pdms-10-1"), folder / "pdms.toml")
     ask("simulate", problem=SPHERE, until="pull-off", accuracy=0.02).files["save"](
         folder / "result.npz"
     )

@@ -155,7 +155,7 @@ def test_a_wide_punch_on_a_thin_bonded_layer_is_solved():
         (replace(SPHERE, start=AtDepth(1e300)), "the depth of the start .* got 1e.300 h0"),
         (replace(SPHERE, start=AtForce(-1e300)), "the force of the start .* got -1e.300 1.5 pi"),
         (replace(SPHERE, start=Apart(1e300)), "the gap of the start .* got 1e.300 h0"),
-        (replace(SPHERE, start=AtDepth(1e30)), r"the start, AtDepth\(depth=1e.30\), presses to"),
+        (replace(SPHERE, start=AtDepth(1e30)), "the start, depth 1e.30, presses to"),
         (replace(PUNCH, start=AtDepth(1e30)), "depth of about 1e.30 h0, .* takes up to 1e.07"),
         (replace(SPHERE, moves=(Dwell(1e300),)), "the duration of move 1 .* got 1e.300 tau0"),
         (replace(SPHERE, moves=(Dwell(1.0), MoveTo(1e300, 1.0))), "the depth of move 2 .* got"),

@@ -1,5 +1,6 @@
 """The open datasets: whole, as their card says, and what the solver gives again."""
 
+import re
 import tomllib
 from functools import lru_cache
 from pathlib import Path
@@ -98,7 +99,7 @@ def test_a_set_has_the_columns_of_its_card(named):
     (line,) = [
         line for line in card.splitlines() if line.startswith(f"| `{name}` |") and "MB" in line
     ]
-    assert f"| {table.num_rows:,} |" in line
+    assert re.search(rf"\| {table.num_rows:,}(<!--[^|]*-->)? \|", line)
 
 
 def test_a_set_is_the_beginning_of_its_plan(named):

@@ -85,8 +85,8 @@ def test_a_theory_is_shown_without_a_curve(shown):
     elastic = FIRST["material"] | {"model": "elastic"}
     for gone in ("glassy_modulus", "exponent", "tau0"):
         del elastic[gone]
-    stiff = {"law": "lennard-jones", "work_of_adhesion": "0.15 J/m^2", "equilibrium_gap": "20 nm"}
-    found = vt.predict(case_of_tables(FIRST | {"material": elastic, "interface": stiff}))
+    wide = {"law": "lennard-jones", "work_of_adhesion": "0.15 J/m^2", "equilibrium_gap": "1 um"}
+    found = vt.predict(case_of_tables(FIRST | {"material": elastic, "interface": wide}))
     assert found.curve is None and "<img" not in shown(found)
 
 

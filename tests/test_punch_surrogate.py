@@ -312,7 +312,7 @@ def test_what_was_not_learned_is_refused_in_words():
         ("the solid has 2 branches", punch_of(material=branches)),
         ("the solid is Elastic", punch_of(material=elastic)),
         ("the traction law is Dugdale", punch_of(traction=dugdale)),
-        ("the test begins with Apart", punch_of(start=vt.Apart(5.0))),
+        ("the test begins with apart 5", punch_of(start=vt.Apart(5.0))),
         ("the machine moves before", punch_of(moves=(vt.Dwell(1.0),))),
         ("a stiffness of 2 x sigma0/h0", punch_of(stiffness=2.0)),
         ("h0/tau0 (1e+03 m/s), outside", replace(PAD, protocol=replace(PAD.protocol, speed=1e3))),

@@ -58,7 +58,10 @@ class Verified:
     def _refuses_test(self, groups: Groups, unit: str) -> str:
         if type(groups.start) not in self.starts:
             words = [start.word for start in self.starts]
-            return f"the test begins with {groups.start}; verified only for {_listed(words)}"
+            # a user-defined subclass has the word of its base, so its class is named
+            is_own = isinstance(groups.start, self.starts)
+            given = type(groups.start).__name__ if is_own else f"{groups.start}"
+            return f"the test begins with {given}; verified only for {_listed(words)}"
         if groups.moves and not self.moves:
             return (
                 f"the machine moves before the retraction: {groups.moves[0]!r}; verified only for "

@@ -201,5 +201,5 @@ def by_crack_contact(asked: Question) -> Prediction:
     curves = Curves(found.depth_at_pull_off + left, force, radius)
     one = np.ones((1, 2)) + np.array([-1, 1]) * of_travel
     held = Intervals(one, one, np.array([of_curve]), one)
-    interval = (work * (1 - of_work), work * (1 + of_work))
+    interval = (float(work * (1 - of_work)), float(work * (1 + of_work)))
     return with_curve(replace(plain, work_interval=interval), curves, held)

@@ -191,8 +191,9 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
     found["numbers"] = numbers_of(answer)
     if curve is None:
         found["notes"].append(f"surrogate: {answer.why}")
-        return
-    found["speeds"] = (_punch_speeds if punch else _speeds)(problem, confidence)
+    # a surrogate may withhold work and curve at this speed, and state the force at all of them
+    if curve is not None or answer.method.startswith("surrogate"):
+        found["speeds"] = (_punch_speeds if punch else _speeds)(problem, confidence)
 
 
 def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
