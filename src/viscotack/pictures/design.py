@@ -107,17 +107,18 @@ def _largest(found: Design) -> float:
 
 def _draw_slopes(axes, found: Design) -> None:  # noqa: ANN001
     names = list(dict.fromkeys(x for each in found.elasticities.values() for x in each))
-    height = 0.8 / max(len(found.elasticities), 1)
+    several = max(len(found.elasticities), 1)
+    height = 0.8 / several
     for i, (force, slopes) in enumerate(found.elasticities.items()):
-        at = [names.index(x) + (i - 0.5) * height for x in slopes]
+        at = [names.index(x) + (i - (several - 1) / 2) * height for x in slopes]
         values = [np.nan if s is None else s for s in slopes.values()]
         axes.barh(at, values, height=height, color=_COLOURS[force], label=force.replace("_", " "))
     axes.set_yticks(range(len(names)), [x.replace("_", " ") for x in names])
-    axes.invert_yaxis()
+    axes.set_ylim(len(names) - 0.5, -0.5)
     axes.axvline(0, color="0.4", lw=0.8)
     axes.set_xlabel("d ln P/d ln x")
     axes.set_title("what matters")
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(frameon=False, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
 
 
 def draw_front(found: Design) -> "Figure":
