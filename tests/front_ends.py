@@ -8,6 +8,7 @@ import asyncio
 import contextlib
 import io
 import json
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -249,6 +250,10 @@ def files_of(question):
             found += [
                 bare for each in named if Path(bare := str(each).rpartition(":")[2]).is_file()
             ]
+    # a study names the files of its tests, which a request must contain too
+    for study in [each for each in found if each.endswith(".toml")]:
+        named = tomllib.loads(Path(study).read_text(encoding="utf-8")).get("files", [])
+        found += [each for each in named if Path(each).is_file()]
     return list(dict.fromkeys(found))
 
 

@@ -84,13 +84,9 @@ def test_the_readme_leads_to_every_room():
 
 
 def is_long(command):
-    # with words: ten seconds of learning, and the published table from a file; two minutes
+    # with options: ten seconds of learning, and the published table from a file
     return command.startswith(
-        (
-            "python -m replication.learning",
-            "python -m replication.published ",
-            "python -m replication.second_code",
-        )
+        ("python -m replication.learning", "python -m replication.published ")
     )
 
 
@@ -99,6 +95,8 @@ def is_long(command):
     [
         pytest.param(command, marks=[pytest.mark.slow] * is_long(command))
         for command in sorted({part.command for part in CONTENTS}.union(*STATED))
+        # three minutes, which test_second_code.py takes once
+        if command != "python -m replication.second_code"
     ],
 )
 def test_commands_of_the_pages_and_of_the_list_run(command, anywhere):

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from replication.second_code import __main__ as command
 from replication.second_code import compare, half_plane, sphere
 from replication.second_code.__main__ import KEPT
 from viscotack.theory import lennard_jones
@@ -56,8 +57,12 @@ def test_the_kept_rows_agree():
 
 
 @pytest.mark.slow
-def test_all_rows_are_computed_again():
-    kept, found = json.loads(KEPT.read_text("utf-8")), compare.agreement()
+def test_all_rows_are_computed_again(monkeypatch, tmp_path):
+    kept, new = json.loads(KEPT.read_text("utf-8")), tmp_path / "agreement.json"
+    monkeypatch.setattr(command, "KEPT", new)
+    monkeypatch.setattr("sys.argv", ["second_code", "--keep"])
+    command.main()
+    found = json.loads(new.read_text("utf-8"))
     for name, key, close in (
         ("plane", "energy", 1e-6),
         ("elastic", "force", 2e-5),
