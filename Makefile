@@ -31,7 +31,7 @@ $(VENV)/.installed: $(VENV)/.demo
 demo: $(VENV)/.demo
 	$(BIN)/python examples/pdms_lens.py
 
-# Four minutes at most on two quiet cores, the install excluded. Prints the 15 slowest and the total: what
+# Ten minutes on two quiet cores, the install excluded; four are the aim. Prints the 15 slowest and the total: what
 # takes seconds again and again is shared in a fixture, made coarser, or marked slow.
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 --dist worksteal -q --durations=15
@@ -41,7 +41,7 @@ test: $(VENV)/.installed
 test-outside: $(VENV)/.installed
 	$(BIN)/python -m pytest -m outside -q --table="$(TABLE)" --tack="$(TACK)"
 
-# Some minutes each; with `make test` twenty minutes at most on two quiet cores.
+# Some minutes each; with `make test` thirty minutes on two quiet cores; twenty are the aim.
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 --dist worksteal -q --durations=15
 

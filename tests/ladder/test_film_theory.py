@@ -39,6 +39,7 @@ def test_a_thin_film_pulls_off_at_two_or_three_pi_r_dg(base, thickness):
     assert -end.force == pytest.approx(limit, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_the_thickness_of_a_half_space_is_that_at_which_the_force_differs_by_the_tolerance():
     for shape, base in ((BALL, SQUEEZED), (BALL, Frictionless()), (Cone(1.0), BASES[2])):
         whole = film.pull_off(shape=shape, body=HalfSpace(), **UNITS).force

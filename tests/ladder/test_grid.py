@@ -62,7 +62,7 @@ def both(tabor, material, test, *, pixels=64, half=6.0, body=None):
     [
         (0.5, ELASTIC, lambda F: Retraction(start=AtForce(0.3 * F), speed=30e-6), None),
         (0.7, POWER, lambda F: Retraction(start=AtForce(0.3 * F), speed=30e-6), None),
-        (
+        pytest.param(
             1.0,
             VISCOUS,
             lambda F: Retraction(
@@ -72,6 +72,7 @@ def both(tabor, material, test, *, pixels=64, half=6.0, body=None):
                 stiffness=0.3 * F / GAP,
             ),
             None,
+            marks=pytest.mark.slow,
         ),
         (
             1.0,
