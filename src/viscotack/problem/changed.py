@@ -6,7 +6,7 @@ An input is named by its path (:mod:`.inputs`): ``material.tau0``, ``protocol.st
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from typing import Any
@@ -71,15 +71,15 @@ def changed(problem: Case, names: Iterable[str] | None = None) -> list[Changed]:
     ValueError
         If there is no input of a given name, or it cannot change alone.
     """
-    values = {path: entry.value for path, entry in inputs_of(problem).items() if entry.value}
-    found = []
+    entries, record, own = inputs_of(problem), to_dict(problem), tuple(set(_own(problem)))
+    values = {path: entry.value for path, entry in entries.items() if entry.value}
+    base, found = problem.groups(), []
     for name in values if names is None else names:
-        sides = [moved(problem, name, 1 + way * _CHANGE) for way in (-1, 1)]
-        low, high = sides
+        low, high = (_made(record, entries, own, name, 1 + way * _CHANGE) for way in (-1, 1))
         if name in values and (low or high):
             down, up = -_CHANGE if low else 0.0, _CHANGE if high else 0.0
             ends = low or problem, high or problem
-            found.append(Changed(name, values[name], *ends, down, up, problem.groups()))
+            found.append(Changed(name, values[name], *ends, down, up, base))
         elif names is not None:
             able = ", ".join(each.name for each in changed(problem))
             raise InputError(f"{name!r} is not an input that can change; the inputs are {able}")
@@ -88,12 +88,22 @@ def changed(problem: Case, names: Iterable[str] | None = None) -> list[Changed]:
 
 def moved(problem: Case, name: str, factor: float) -> Case | None:
     """Return the problem with an input multiplied by a factor, None if that is not possible."""
-    entries = inputs_of(problem)
+    own = tuple(set(_own(problem)))
+    return _made(to_dict(problem), inputs_of(problem), own, name, factor)
+
+
+def _made(
+    record: dict[str, Any],
+    entries: Mapping[str, Any],
+    own: tuple[type, ...],
+    name: str,
+    factor: float,
+) -> Case | None:
+    """Return the problem of a record with an input multiplied by a factor, if possible."""
     if name not in entries or not (value := entries[name].value):
         return None
-    own = tuple(set(_own(problem)))
     try:
-        return made(to_dict(problem), entries, own, {name: value * factor})
+        return made(record, entries, own, {name: value * factor})
     except InputError:
         return None
 
