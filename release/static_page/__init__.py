@@ -18,6 +18,7 @@ from typing import Any
 from viscotack.app import page
 from viscotack.app.engine.forms import forms
 from viscotack.cards import PLAUSIBLE
+from viscotack.operations.parts.examples import FIRST
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.surrogate.onnx import CONFIDENCE, export
 from viscotack.surrogate.store import shipped
@@ -34,21 +35,10 @@ _SHA512 = "q0y+JrrtukXSzsBWEMccVfqX25LRmosXHF+CaRJmg8pZClzcV7svNc4rKY3jL02Vb7QmR
 _FILES = ("dist/ort.wasm.bundle.min.mjs", "dist/ort-wasm-simd-threaded.wasm")
 # The lens of examples/from_toml/lens.toml; 1.5 mN press it to this depth.
 EXAMPLE = {
-    "sphere": {"radius": "5.19 mm"},
+    "sphere": FIRST["sphere"],
     "protocol": {"preload_depth": "8.27 um", "speed": "100 um/s"},
-    "material": {
-        "model": "power-law",
-        "rubbery_modulus": "1.458 MPa",
-        "glassy_modulus": "3089 MPa",
-        "exponent": 0.2207,
-        "tau0": "18.76 ms",
-        "poisson_ratio": 0.5,
-    },
-    "interface": {
-        "law": "lennard-jones",
-        "work_of_adhesion": "0.1523 J/m^2",
-        "equilibrium_gap": "1.55 um",
-    },
+    "material": FIRST["material"],
+    "interface": FIRST["interface"],
 }
 
 
