@@ -340,7 +340,7 @@ def _measured(covariance: Array, number: int, noise: float) -> Array:
 
 
 def _left(covariance: Array, tests: int) -> float:
-    """Return the root mean square deviation of what stands behind the tests."""
+    """Return the root mean square deviation of the wanted answers, which follow the tests."""
     return float(np.sqrt(max(np.mean(np.diag(covariance)[tests:]), 0.0)))
 
 
