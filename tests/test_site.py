@@ -3,14 +3,11 @@
 Figures are printed with ``-s``.
 """
 
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
 
-from app_server import browsing
+from app_server import browsing, serving
 
 pytestmark = pytest.mark.outside
 
@@ -23,20 +20,12 @@ PAGES = (
 SIZES = {"wide": (1440, 1000), "narrow": (390, 844)}
 
 
-class Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *words):
-        pass
-
-
 @pytest.fixture(scope="module")
 def link():
     if not (SITE / "docs/index.html").exists():
         pytest.fail("there is no site: make docs")
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=SITE))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/"
-    server.shutdown()
-    server.server_close()
+    with serving(SITE) as served:
+        yield served
 
 
 @pytest.fixture(scope="module")

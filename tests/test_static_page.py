@@ -5,16 +5,13 @@ Chromium without a window reads the page from a web server that has nothing but 
 
 import json
 import re
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlencode
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from app_server import browsing, until
+from app_server import browsing, serving, until
 from release import static_page
 from viscotack.errors import InputError
 from viscotack.forecast.tiers import AT_ONCE
@@ -47,20 +44,12 @@ def test_it_uses_only_what_is_copied(name):
     assert "http" not in text.replace("http-equiv", "")
 
 
-class Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *words):
-        pass
-
-
 @pytest.fixture(scope="module")
 def link(tmp_path_factory):
     folder = tmp_path_factory.mktemp("static")
     static_page.write(folder)
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/"
-    server.shutdown()
-    server.server_close()
+    with serving(folder) as served:
+        yield served
 
 
 @pytest.fixture(scope="module")
