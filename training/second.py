@@ -16,7 +16,7 @@ again; with ``--levels`` only the levels of other solids.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -50,7 +50,7 @@ _THINNED = 10
 # tell how far errors reach, as rows do that were sought where errors are large.
 SEED, _ENOUGH = 41, 60
 # Seed and numbers of the cases of other solids that measure levels.
-LEVELS = 43, (0, 300, 0, 700, 0)
+LEVELS = 43, {"other solids": 300, "two peaks": 700}
 Rowed = tuple[Any, Rows]
 
 
@@ -135,7 +135,7 @@ def fresh_apart(
     folder: Path,
     *,
     missing: bool,
-    draw: tuple[int, tuple[int, ...]] = (SEED, fresh_cases.COUNTS),
+    draw: tuple[int, Mapping[str, int]] = (SEED, fresh_cases.COUNTS),
     answered: bool = False,
 ) -> list[Apart]:
     """Return how far a surrogate is off on the fresh cases of its kind, a set for each design.
@@ -147,7 +147,7 @@ def fresh_apart(
         Of the labels.
     missing : bool
         Whether missing labels are simulated; otherwise these cases are left out.
-    draw : pair of int and tuple of int
+    draw : pair of int and mapping of str to int
         Seed and numbers of the cases.
     answered : bool
         Whether only cases that the surrogate answers count.
