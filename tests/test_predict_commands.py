@@ -12,6 +12,7 @@ from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import methods
 from viscotack.app.cli import reading
+from viscotack.forecast import cautions
 from viscotack.operations.parts import predict_table
 from viscotack.surrogate import physics, store, trust
 from viscotack.units import readable
@@ -84,6 +85,7 @@ def test_flags_and_a_file_give_what_python_gives(lens, capsys):
     for problem, words in ((groups, [*SPHERE, *RATE]), (vt.read_case(lens), [lens])):
         expected = vt.prediction_summary(vt.predict(problem, confidence=0.8))
         assert expected["inside"]
+        expected["cautions"] = list(cautions(problem))
         assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
     assert answer(capsys, "sphere", lens) == answer(capsys, lens)
 
@@ -92,7 +94,7 @@ def test_words_have_the_interval_and_si(lens, capsys):
     assert call(lens) == 0
     out = capsys.readouterr().out
     found = answer(capsys, lens)
-    assert out.startswith("every input is in the training range")
+    assert out.startswith("by surrogate: every input is in the training range")
     assert f"= {readable(found['pull_off_force_N'], 'N')}" in out
     low, high = found["interval_N"]
     assert "90 % between" in out and f"= {readable(low, 'N', to=high)}" in out

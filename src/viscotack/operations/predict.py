@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
 
+# What the intervals of a prediction leave out.
+OF_METHOD = "Intervals are the error of the method; material and interface are taken as given."
 # What a simulation would only repeat.
 _SAID_ONCE = (
     "problem",
@@ -131,7 +133,7 @@ class Predict(Operation):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import predict
+        from viscotack.forecast import cautions, predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
@@ -156,7 +158,8 @@ class Predict(Operation):
                     "--plot, or simulate"
                 )
             result = _simulated(self.problem.problem) if self.compare else None
-        record = prediction_summary(found)
+        warned = cautions(found.problem, passport=self.problem.passport)
+        record = prediction_summary(found) | {"cautions": list(warned)}
         if result is not None:
             record |= _comparison(found, result)
         return Answer(
@@ -232,6 +235,7 @@ class Advise(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
         from viscotack.forecast.advice import advise
+        from viscotack.forecast.cautions import cautions
 
         problem = self.problem.problem
         if problem.groups().in_plane_strain:
@@ -240,17 +244,23 @@ class Advise(Operation):
                 "viscotack predict answers"
             )
         advice = advise(problem)
+        warned = cautions(problem, passport=self.problem.passport)
+        # the sentences of the advice have one of the cautions already
+        sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(
             advice,
-            record=lambda: _advised(advice),
-            words=lambda: "\n".join(advice.sentences),
+            record=lambda: _advised(advice, sentences, warned),
+            words=lambda: "\n".join(sentences),
             notes=self.problem.notes,
         )
 
 
-def _advised(advice: "Advice") -> dict[str, Any]:
+def _advised(
+    advice: "Advice", sentences: tuple[str, ...], warned: tuple[str, ...]
+) -> dict[str, Any]:
     """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
-    record: dict[str, Any] = asdict(advice) | {"sentences": list(advice.sentences)}
+    record: dict[str, Any] = asdict(advice)
+    record |= {"sentences": list(sentences), "cautions": list(warned)}
     scales = record.pop("length_scale"), record.pop("speed_scale")
     if (contact := record.pop("contact")) is not None:
         del contact["receding"], contact["start_radius"], contact["edge_speed"]
@@ -331,7 +341,8 @@ def _curve(found: "Prediction") -> dict[str, Any]:
 
 def _words(found: "Prediction", answer: dict[str, Any]) -> str:
     """Return a prediction as lines a person reads."""
-    lines = [found.why if found.inside else f"outside of the surrogates: {found.why}"]
+    where = f"by {found.method}" if found.inside else "outside of the surrogates"
+    lines = [f"{where}: {found.why}"]
     held = (
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )
@@ -345,6 +356,7 @@ def _words(found: "Prediction", answer: dict[str, Any]) -> str:
     lines += _number_words(f"zero_{force}_depth", *told, answer, held)
     if "simulation" in answer:
         lines += _comparison_words(answer, kind)
+    lines += [OF_METHOD, *answer["cautions"]]
     return "\n".join(lines)
 
 
