@@ -49,6 +49,8 @@ def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):
     alone = vt.prediction_summary(vt.predict(vt.read_case(tmp_path / "one.toml")))
     expected = [alone["pull_off_force_N"], *alone["interval_N"]]
     assert [float(rows[0][name]) for name in NUMBERS] == pytest.approx(expected, rel=1e-12, abs=0)
+    told = ask("predict", problem=tmp_path / "one.toml").record()
+    assert rows[0]["cautions"] == " ".join(told["cautions"])
     assert float(rows[0]["work_to_pull_off [J]"]) == pytest.approx(alone["work_to_pull_off_J"])
     assert rows[5] == {**rows[0], "lens": "e", "note": "again"}
     why = [row["why"] for row in rows]

@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.campaign.changes import Changes, changes_of
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.forecast import predict
+from viscotack.forecast import cautions, predict
 from viscotack.forecast.prediction import prediction_summary
 from viscotack.forecast.prediction_table import METHOD, WORK, with_interval
 from viscotack.units import readable
@@ -20,12 +20,12 @@ from .predict_table import EMPTY, in_sheet, refuse_answered, write_table
 from .workbook import write_workbook
 
 if TYPE_CHECKING:
-    from viscotack.campaign.columns import Kind
     from viscotack.files.whole import Target
 
 Rows = Sequence[Mapping[str, Any]]
 # Of the record of a prediction: what is equal in all rows, or an object.
 _LEFT_OUT = ("problem", "versions")
+_ABOUT = ("method", "inside", "band", "cautions", "why")
 _SHOWN = 40  # rows printed
 
 
@@ -46,14 +46,24 @@ def predict_changes(
     changes = changes_of(stated.problem, rows[0])
     kind = changes.kind(also)
     names = _columns(stated.problem)
-    refuse_answered("the table", rows[0], [*names, "method", "inside", "band", "why"])
+    refuse_answered("the table", rows[0], [*names, *_ABOUT])
+    # a passport describes the material of the problem, not one with other numbers
+    is_other = any(c.number.path.startswith("material.") for c in changes.columns)
+    passport = None if is_other else stated.passport
+
+    def answer(inputs: Mapping[str, float]) -> dict[str, Any]:
+        with limited(time_limit):
+            one = predict(kind.problem(inputs), shift_deviation=stated.deviation, **options)
+            warned = cautions(one.problem, passport=passport)
+        return prediction_summary(one) | {"cautions": list(warned)}
+
     known: dict[tuple[float, ...], dict[str, Any]] = {}
     found: list[dict[str, Any]] = []
     for number, row in enumerate(rows, 1):
         if changes.is_empty(row):
             one: dict[str, Any] = {"inputs": None, "outputs": None, "why": EMPTY}
         else:
-            one = _answered(row, changes, kind, known, stated.deviation, time_limit, options)
+            one = _answered(row, changes, answer, known)
         if carried := changes.carried_of(row):
             one = one | {"carried": carried}
         found.append(one)
@@ -80,11 +90,8 @@ def predict_changes(
 def _answered(
     row: Mapping[str, Any],
     changes: Changes,
-    kind: "Kind",
+    answer: Callable[[Mapping[str, float]], dict[str, Any]],
     known: dict[tuple[float, ...], dict[str, Any]],
-    deviation: float,
-    time_limit: float | None,
-    options: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the inputs of a row and its prediction, or the reason why it has none."""
     try:
@@ -95,17 +102,15 @@ def _answered(
     if case not in known:
         outputs, why = None, ""
         try:
-            with limited(time_limit):
-                found = predict(kind.problem(inputs), shift_deviation=deviation, **options)
+            summary = answer(inputs)
         except (InputError, TimeUp) as error:
             why = str(error)
         except ArithmeticError:
             why = TOO_LARGE
         else:
-            summary = prediction_summary(found)
             outputs = {name: x for name, x in summary.items() if name not in _LEFT_OUT}
             why = outputs.pop("why")
-            if found.inside and found.method in METHOD.values():
+            if outputs["inside"] and outputs["method"] in METHOD.values():
                 why = ""
         warnings = changes.unusual(inputs)
         known[case] = {"outputs": outputs, "why": "; ".join(filter(None, [*warnings, why]))}
@@ -139,6 +144,7 @@ def _table(rows: Rows, found: Rows, names: Mapping[str, tuple[str, int | None]])
     table["method"] = [one.get("method", "") for one in answers]
     table["inside"] = np.array([bool(one.get("inside")) for one in answers])
     table["band"] = [one.get("band", "") for one in answers]
+    table["cautions"] = [" ".join(one.get("cautions", ())) for one in answers]
     return table | {"why": [one["why"] for one in found]}
 
 
