@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from training import train_punch as punches
-from training.fresh_cases import DESIGNS, Case, drawn, given_of, labelled
+from training.fresh_cases import COUNTS, Case, drawn, given_of, labelled
 from training.rows import LEARNED, Rows, joined, read
 from viscotack import Groups, solve, summary
 from viscotack.campaign.columns import KINDS
@@ -155,9 +155,9 @@ def worst_known(of: Of, count: int) -> list[list[float]]:
     return rows.groups[np.argsort(-off)[:count]].tolist()
 
 
-def suspects(design: int, count: int, seed: int) -> list[Case]:
+def suspects(design: str, count: int, seed: int) -> list[Case]:
     """Return the answered cases of a design in which the second networks differ most."""
-    counts = tuple(_DRAWN * (i == design) for i in range(design + 1))
+    counts = {design: _DRAWN}
     found: list[tuple[float, Case]] = []
     for contact, kind in (("sphere", "sphere"), ("solids", "solid"), ("punch", "punch")):
         cases = [case for case in drawn(seed, counts) if case.kind == kind]
@@ -185,14 +185,14 @@ def suspects(design: int, count: int, seed: int) -> list[Case]:
 def by_disagreement(labels: Path, count: int, seed: int) -> None:
     """Simulate the suspects of each design and print the worst."""
     found = []
-    for number in range(len(DESIGNS)):
-        cases = suspects(number, count, seed)
+    for design in COUNTS:
+        cases = suspects(design, count, seed)
         known = labelled(cases, labels, 2e-4)
         some = [judged(case, label) for case, label in known if "failed" not in label]
         found += some
         off = np.array([np.nanmax(one.ratio[:2], initial=0.0) for one in some])
         print(
-            f"{cases[0].design}: {len(some)} simulated; {np.mean(off > 1):.0%} beyond their "
+            f"{design}: {len(some)} simulated; {np.mean(off > 1):.0%} beyond their "
             f"interval; worst {off.max():.1f} half widths",
             flush=True,
         )

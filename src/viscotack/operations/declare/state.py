@@ -14,8 +14,9 @@ from urllib.parse import parse_qsl, urlencode
 
 from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml, toml_value
+from viscotack.materials.passport import Passport
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.problem.case_file import case_of_tables
+from viscotack.problem.case_file import case_of_tables, passport_of_tables
 from viscotack.problem.problem import Problem
 
 # Of a case that is sent: it states a few dozen numbers, a Prony series some hundred.
@@ -79,6 +80,11 @@ class State:
     def problem(self) -> Problem:
         """The problem in SI; ValueError if the tables do not define one."""
         return case_of_tables(self.tables, where=_WHERE, also=self.also)
+
+    @cached_property
+    def passport(self) -> Passport | None:
+        """The passport of the material at its temperature; None if numbers define it."""
+        return passport_of_tables(self.tables, where=_WHERE, also=self.also)[0]
 
     @property
     def query(self) -> str:
