@@ -106,8 +106,6 @@ class Receding:
         Its units in SI.
     left : callable
         Fraction of the short-range tension as a function of energies and speeds of the crack.
-    strength : float
-        Factor on the tension that the contact carries, for bands.
     """
 
     def __init__(
@@ -119,10 +117,9 @@ class Receding:
         radius: float,
         scales: Scales,
         left: Callable[[Array, Array], Array],
-        strength: float = 1.0,
     ) -> None:
         self._profile, self._mu2, self._radius = profile, tabor**2, radius
-        self.scales, self._strength = scales, strength
+        self.scales, self._strength = scales, 1.0
         self._chain = chain_of(crack.modes)
         self._limit = _LAST * crack.largest
         gained = np.geomspace(_SLOWEST, self._limit - 1, _ROWS)
@@ -227,8 +224,6 @@ class Elastic:
         Its units in SI.
     left : float
         Pull-off force over that of adhesion of short range.
-    strength : float
-        Factor on the tension that the contact carries, for bands.
     """
 
     def __init__(
@@ -238,7 +233,6 @@ class Elastic:
         radius: float,
         scales: Scales,
         left: float = 1.0,
-        strength: float = 1.0,
     ) -> None:
         least = profile.elastic_radius
         a = np.linspace(least, max(radius, least) * 1.01, _ROWS)
@@ -247,7 +241,7 @@ class Elastic:
         self._middle = (force[1:] + force[:-1]) / 2 * scales.force
         self._compliance = np.diff(depth) / np.diff(force) * scales.depth / scales.force
         self._pull_off = -float(force[0]) * scales.force
-        self.scales, self._strength = scales, strength
+        self.scales, self._strength = scales, 1.0
 
     def stronger(self, strength: float) -> Elastic:
         """Return the same contact with a factor on its tension."""
