@@ -140,7 +140,7 @@ def test_the_curve_ends_at_the_force_and_its_area_is_the_work(made):
     assert curves.force[:, -1] == pytest.approx(-said.pull_off_force, rel=1e-9)
     assert np.all(np.diff(curves.depth, axis=1) <= 0)
     assert np.all(np.diff(curves.force, axis=1) <= 1e-9 * np.abs(curves.force).max(axis=1)[:, None])
-    start, _ = surrogate.relaxed(groups)
+    start, _ = surrogate.tests(groups).start
     assert curves.depth[:, 0] == pytest.approx(groups[:, 3])
     usable = start > -0.99 * said.pull_off_force
     assert curves.force[usable, 0] == pytest.approx(start[usable], rel=1e-9)
@@ -269,12 +269,12 @@ def test_a_start_by_force_or_radius_is_found_again():
     surrogate = shipped()
     for mu, depth in ((0.05, 3.0), (1.0, 0.3), (8.0, 200.0), (8.0, 3.0)):
         groups = np.array([[mu, 0.1, 1.0, depth, 1.0]])
-        force, radius = (float(a[0]) for a in surrogate.relaxed(groups))
+        force, radius = (float(a[0]) for a in surrogate.tests(groups).start)
         assert surrogate.start_depth(mu, force=force) == pytest.approx(depth, rel=1e-4)
         assert surrogate.start_depth(mu, contact_radius=radius) == pytest.approx(depth, rel=1e-4)
     # there the force hardly depends on the depth, so the depth is told less well, but always told
     for mu, depth in itertools.product((6.0, 8.0, 10.0), np.geomspace(0.006, 1.0, 12)):
-        radius = float(surrogate.relaxed(np.array([[mu, 0.1, 1.0, depth, 1.0]]))[1][0])
+        radius = float(surrogate.tests(np.array([[mu, 0.1, 1.0, depth, 1.0]])).start[1][0])
         assert surrogate.start_depth(mu, contact_radius=radius) == pytest.approx(depth, abs=0.1)
     with pytest.raises(ValueError, match="no relaxed start .* contact radius of 1e"):
         surrogate.start_depth(1.0, contact_radius=1e9)
