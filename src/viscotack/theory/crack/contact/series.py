@@ -34,7 +34,6 @@ from copy import copy
 from dataclasses import dataclass
 from math import exp, log, nan, pi
 from typing import NamedTuple
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 import scipy
@@ -42,6 +41,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.theory.crack.steady import SteadyCrack
+from viscotack.threads import caught_warnings
 
 from ._memory import Chain, chain_of
 from ._profile import HalfSpaceProfile
@@ -368,8 +368,7 @@ def pull_apart(
         )
         top, top_time, at_top = 0.0, 0.0, begin
         for _ in range(_MOST_STEPS):
-            with catch_warnings():
-                simplefilter("ignore")  # after a failure the next method is tried
+            with caught_warnings("ignore"):  # after a failure the next method is tried
                 solver.step()
             force, states = parts(solver.y)
             if not np.all(np.isfinite(solver.y)) or solver.status != "running":
