@@ -17,6 +17,7 @@ from docutils.nodes import math_block, paragraph
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "docs")]
 
+import example_imports  # noqa: E402
 import example_pages  # noqa: E402
 
 from viscotack.version import __version__  # noqa: E402
@@ -176,17 +177,35 @@ def describe(app, name, template, context, doctree):
         context["metatags"] += f'<meta name="description" content="{escape(words)}">\n'
 
 
+def pack_examples(app, error):
+    """Write the archive of the examples, which pages link, into the site."""
+    if error is None and app.builder.format == "html":
+        example_pages.pack(Path(app.outdir) / "examples.zip")
+
+
 def leave_out(app, kind, name, member, skip, options):
     """Whether to leave out a field of a named tuple: the docstring of its class has it."""
     return True if type(member).__name__ == "_tuplegetter" else None
+
+
+def with_imports(app, what, name, thing, options, lines):
+    """Put the imports of an example's names in front of it, so that it can be pasted."""
+    first = next((i for i, line in enumerate(lines) if line.startswith(">>>")), None)
+    owner = getattr(thing, "fget", thing)
+    module = thing.__name__ if what == "module" else getattr(owner, "__module__", None)
+    if first is not None and module in sys.modules:
+        needed = example_imports.imports("\n".join(lines), module)
+        lines[first:first] = [f">>> {line}" for line in needed]
 
 
 def setup(app):
     """Have the reference written before Sphinx looks for pages."""
     app.connect("config-inited", write_reference)
     app.connect("html-page-context", describe)
+    app.connect("build-finished", pack_examples)
     if not PAGES_ALONE:
         app.connect("autodoc-skip-member", leave_out)
+        app.connect("autodoc-process-docstring", with_imports)
     app.add_html_math_renderer("mathml", (math_in_page, None), (math_in_page, None))
     # the buttons of the theme's menu have no name for screen readers
     label = (
