@@ -1,4 +1,4 @@
-r"""Cautions: what is known against the material of a prediction, or against linear theory.
+r"""Cautions on the material of a prediction, and on linear theory.
 
 The interval of a prediction is the error of its method. How well material and interface describe
 the real contact is not part of it, and matters more where one of these cautions applies.
@@ -40,7 +40,7 @@ class _Edge(NamedTuple):
 
 
 def cautions(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
-    """Return what is known against a prediction of this problem, as sentences.
+    """Find the cautions on a prediction of this problem, as sentences.
 
     Parameters
     ----------

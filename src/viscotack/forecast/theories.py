@@ -9,9 +9,15 @@ import numpy as np
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.methods.by_crack import CrackContact, crack_contact, unloading
+from viscotack.methods.by_crack import (
+    LEAST_TABOR,
+    CrackContact,
+    crack_contact,
+    too_large_zone,
+    unloading,
+)
 from viscotack.methods.crack_band import FURTHER, not_measured
-from viscotack.problem.ranges import at_least, outside
+from viscotack.problem.ranges import outside
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
 from viscotack.surrogate.answers import Intervals
 from viscotack.surrogate.line import Curves
@@ -22,6 +28,7 @@ from viscotack.traction import (
     LennardJones,
     Tabulated,
     effective_range,
+    grows,
     softening,
 )
 
@@ -75,8 +82,6 @@ CRACK = Verified(
 CRACK_CONTACT = "crack contact"
 # Error of the table of elastic forces; a viscoelastic solid is only nearly relaxed.
 _TABLE_ERROR = 0.005
-# Effective Tabor number above which the contact with a crack at its edge is evaluated.
-_CRACK_TABOR = 5.0
 # Largest start for which the curves of the closed forms are computed, a radius in
 # (pi R^2 dg0/E0*)^(1/3).
 _LARGEST_START = 300.0
@@ -166,12 +171,8 @@ def by_closed_form(asked: Question, name: str) -> Prediction:
 def crack_limits(asked: Question) -> str:
     """Return why the band of a contact with a crack at its edge does not apply, or ""."""
     groups = asked.groups
-    simple = not groups.moves and groups.stiffness is None and isinstance(groups.geometry, Sphere)
-    if simple and not at_least(groups.effective_tabor, _CRACK_TABOR):
-        return (
-            f"the cohesive zone is too large for this theory: effective Tabor number "
-            f"{groups.effective_tabor:.3g}, valid from {_CRACK_TABOR:g}"
-        )
+    if groups.effective_tabor < LEAST_TABOR and not grows(groups.traction):
+        return too_large_zone(groups, groups.effective_tabor)
     if elsewhere := not_measured(groups):
         return f"its band was not measured here: {elsewhere}"
     return ""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
 
-# What the intervals of a prediction leave out.
+# Meaning of the intervals of a prediction.
 OF_METHOD = "Intervals are the error of the method; material and interface are taken as given."
 # What a simulation would only repeat.
 _SAID_ONCE = (
