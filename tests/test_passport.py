@@ -258,6 +258,20 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     assert passport.temperature == 273.15 and passport.material == moved.material
 
 
+def test_a_passport_is_scaled_to_another_rubbery_modulus(tmp_path):
+    case = lens_with(uncertain(), tmp_path)
+    own = read_case(case).material
+    case.write_text(case.read_text().replace("[material]", '[material]\nrubbery_modulus = "3 MPa"'))
+    solid = read_case(case).material
+    assert solid == replace(own, rubbery_modulus=3e6, glassy_modulus=3 * own.glassy_modulus)
+    tables = tomllib.loads(case.read_text())
+    scaled, _ = passport_of_tables(tables, beside=case.parent.joinpath)
+    assert (scaled.name, scaled.material) == ("m, scaled to 3 MPa", solid)
+    case.write_text(case.read_text().replace('"3 MPa"', '"-3 MPa"'))
+    with pytest.raises(ValueError, match="rubbery_modulus must be positive"):
+        read_case(case)
+
+
 def test_a_case_is_simulated_at_a_temperature_beside_its_file(tmp_path, capsys):
     (tmp_path / "cold").mkdir()
     case = lens_with(uncertain(), tmp_path)

@@ -12,7 +12,7 @@ from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import methods
 from viscotack.app.cli import reading
-from viscotack.forecast import cautions
+from viscotack.forecast import cautions_on
 from viscotack.operations.parts import predict_table
 from viscotack.surrogate import physics, store, trust
 from viscotack.units import readable
@@ -85,7 +85,7 @@ def test_flags_and_a_file_give_what_python_gives(lens, capsys):
     for problem, words in ((groups, [*SPHERE, *RATE]), (vt.read_case(lens), [lens])):
         expected = vt.prediction_summary(vt.predict(problem, confidence=0.8))
         assert expected["inside"]
-        expected["cautions"] = list(cautions(problem))
+        expected["cautions"] = list(cautions_on(problem))
         assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
     assert answer(capsys, "sphere", lens) == answer(capsys, lens)
 

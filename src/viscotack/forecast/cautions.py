@@ -39,7 +39,7 @@ class _Edge(NamedTuple):
     energy: float
 
 
-def cautions(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
+def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
     """Find the cautions on a prediction of this problem, as sentences.
 
     Parameters
@@ -64,7 +64,7 @@ def cautions(problem: Case, *, passport: Passport | None = None) -> tuple[str, .
     >>> case = Groups(
     ...     tabor=10.0, material=passport.material.reduced(), start=AtDepth(30), rate=1.0
     ... )
-    >>> cautions(case, passport=passport)[0].split(":")[0]
+    >>> cautions_on(case, passport=passport)[0].split(":")[0]
     "'Dragon Skin 30 (platinum silicone of Smooth-On)' was tested at one rate"
     """
     groups = problem.groups()

@@ -169,7 +169,7 @@ def _cautions(choice: Any, stated: Any) -> list[str]:
     """Return the cautions on the forces of a design, each with its speeds."""
     from viscotack.design.fast import SURROGATES, FastTier
     from viscotack.design.margins import pad_of
-    from viscotack.forecast import cautions
+    from viscotack.forecast import cautions_on
 
     fast = FastTier(stated.materials, stated.traction, SURROGATES)
     passport, found = stated.passports.get(choice.material), {}
@@ -178,7 +178,7 @@ def _cautions(choice: Any, stated: Any) -> list[str]:
             continue
         # without its backing, whose compliance changes the speed of the edge little
         pad = replace(pad_of(choice, speed, bonded=stated.space.bonded), backing=None)
-        for words in cautions(fast.problem(pad), passport=passport):
+        for words in cautions_on(fast.problem(pad), passport=passport):
             found.setdefault(words, []).append(name)
     return [f"to {' and '.join(names)}: {words}" for words, names in found.items()]
 
