@@ -51,11 +51,19 @@ class Statement:
     passport: Passport | None = None
 
     @property
+    def improbable(self) -> tuple[str, ...]:
+        """Warnings of numbers of an improbable magnitude."""
+        from viscotack.problem.inputs import improbable
+
+        return improbable(self.problem)
+
+    @property
     def notes(self) -> tuple[str, ...]:
-        """Warning for answers that do not include the uncertainty of the material times."""
+        """Warnings for answers that do not include the uncertainty of the material times."""
         if self.deviation == 0:
-            return ()
+            return self.improbable
         return (
+            *self.improbable,
             f"the material times are uncertain by {self.deviation:.2g} decades because of the "
             "temperature shift; this answer does not include that, viscotack predict does",
         )
