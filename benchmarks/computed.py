@@ -42,7 +42,7 @@ def steady_crack() -> list[str]:
 
 def shore() -> list[str]:
     """Return Young's moduli by Shore A hardness, by Gent's relation."""
-    S = np.arange(10, 71, 10)
+    S = np.arange(20, 81, 10)
     E = 0.0981 * (56 + 7.62336 * S) / (0.137505 * (254 - 2.54 * S))
     return [
         f"| Shore A | {' | '.join(map(str, S))} |",
