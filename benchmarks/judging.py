@@ -49,6 +49,7 @@ NEEDED = dict.fromkeys(FAMILIES, _SPHERES) | {
     "two peaks": ("sphere", "solids"),
     "large Tabor numbers": ("sphere", "short range"),
     "punches": ("punch",),
+    "soft punches": ("punch",),
     "stamps": ("punch",),
 }
 _COLUMNS = ("design", "kind", "inputs", "method", *(f"{x}, half widths" for x in OF))

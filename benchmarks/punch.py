@@ -327,7 +327,8 @@ def bonded() -> None:
     sizes, B = np.array([64.0, 256.0, 1024.0]), 0.05
     for nu in (0.0, 0.3, 0.45):
         base = Bonded(poisson_ratio=nu)
-        found = table([Work(replace(relaxed(B * float(s), float(s)), base=base)) for s in sizes])
+        cases = [replace(relaxed(B * s, s), body=Layer(B * s, base)) for s in sizes.tolist()]
+        found = table([Work(groups) for groups in cases])
         limit = np.polynomial.polynomial.polyfit(
             1 / np.sqrt(sizes), found[:, 0] * np.sqrt(sizes), 2
         )[0]

@@ -7,8 +7,8 @@ and the tests run it after them, in an empty namespace.
 import ast
 import builtins
 import doctest
-import sys
 from functools import cache
+from importlib import import_module
 from inspect import ismodule
 from pathlib import Path
 
@@ -34,7 +34,7 @@ def imports(text: str, module: str) -> list[str]:
                 bound.add(node.name)
             elif isinstance(node, ast.arg):
                 bound.add(node.arg)
-    names = vars(sys.modules[module])
+    names = vars(import_module(module))
     plain, chosen = [], {}
     for name in sorted(used - bound):
         if name in names:
@@ -61,10 +61,10 @@ def _split(line: str, width: int = 88) -> list[str]:
 
 def _origin(name: str, module: str) -> tuple[str, str]:
     """Return a module and a name in it that is a name of another module, or an import line."""
-    thing = vars(sys.modules[module])[name]
+    thing = vars(import_module(module))[name]
     if home := _public().get(_key(thing)):
         return home
-    tree = ast.parse(Path(sys.modules[module].__file__).read_text(encoding="utf-8"))
+    tree = ast.parse(Path(import_module(module).__file__).read_text(encoding="utf-8"))
     for node in ast.walk(tree):
         if not isinstance(node, ast.Import | ast.ImportFrom):
             continue
@@ -78,7 +78,7 @@ def _origin(name: str, module: str) -> tuple[str, str]:
         home, _, own = thing.__name__.rpartition(".")
         return home, own
     own = getattr(thing, "__module__", module)
-    return (own if vars(sys.modules[own]).get(name) is thing else module), name
+    return (own if vars(import_module(own)).get(name) is thing else module), name
 
 
 def _key(thing: object) -> object:

@@ -308,6 +308,28 @@ def test_a_changed_digit_is_found_and_renewed(recorded, shown, wrong):
     assert records.renewed(changed) == (recorded if found else changed)
 
 
+@pytest.mark.parametrize(
+    ("page", "source"),
+    [
+        ("docs/punch.md", "punch.largest_error"),
+        ("docs/punch.md", "punch.work"),
+        ("docs/control.md", "control.changed"),
+        ("README.md", "computed.verification.median"),
+        ("docs/choose.md", "computed.elastic_pull_off"),
+        ("docs/scope.md", "viscotack.methods.crack_band.SIMULATED"),
+        ("docs/first_hour.md", "above"),
+    ],
+)
+def test_a_changed_digit_of_a_page_is_found(page, source):
+    text = (ROOT / page).read_text("utf-8")
+    quote = next(x for x in records.quotes(text) if x.source == source)
+    begin, end = quote.place
+    digit = max(i for i in range(begin, end) if text[i].isdigit())
+    changed = f"{text[:digit]}{(int(text[digit]) + 1) % 10}{text[digit + 1 :]}"
+    assert quote.agrees
+    assert [x.source for x in records.quotes(changed) if not x.agrees] == [source]
+
+
 def test_a_source_that_is_not_there_is_named(recorded):
     for page, words in (
         ("7<!-- = speed.nothing -->", "speed.nothing: its source has no 'nothing'"),

@@ -92,6 +92,7 @@ def trusted(
     *,
     hard: Sequence[Apart] = (),
     how: Fit = HOW,
+    least: Array = LEAST,
     seeds: tuple[Sequence[int], Sequence[int]] = ((0,), (1,)),
 ) -> Surrogate:
     """Return a surrogate with intervals.
@@ -109,11 +110,13 @@ def trusted(
         and nothing of how often.
     how : Fit
         Of the networks of the reach.
+    least : ndarray, shape (4,)
+        Sizes of errors below which all count alike.
     seeds : pair of sequences of int
         Of the networks that learn from each half of the rows kept apart.
     """
     halves = [[one.chosen(np.arange(len(one.told)) % 2 == half) for one in kept] for half in (0, 1)]
-    tasks = [reach_task(learned, [*half, *hard]) for half in halves]
+    tasks = [reach_task(learned, [*half, *hard], least) for half in halves]
     jobs = [(task, how, seed) for task, some in zip(tasks, seeds, strict=True) for seed in some]
     found, first = fit_all(jobs), len(seeds[0])
     members = [together(some) for some in (found[:first], found[first:])]
@@ -146,12 +149,12 @@ def _joint(scores: Array, levels: Array) -> Array:
     return np.array([_level(one)[i] for i, one in enumerate(worst.T)])
 
 
-def reach_task(learned: Apart, kept: Sequence[Apart]) -> Task:
+def reach_task(learned: Apart, kept: Sequence[Apart], least: Array) -> Task:
     """Return the task to learn how far errors reach, from rows kept apart by so much more."""
     inputs = np.concatenate([one.told for one in (learned, *kept)])
     error = np.concatenate([one.error for one in (learned, *kept)])
     known = np.isfinite(error)
-    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), LEAST))
+    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), least))
     counts = known.astype(float)
     counts[len(learned.told) :] *= WEIGHT
     return Task(inputs, target, counts, quantile=REACH)

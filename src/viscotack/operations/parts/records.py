@@ -196,6 +196,9 @@ def slow_record(fit: Any) -> dict[str, Any]:
         for one in fit.fits
     ]
     return {
+        "work_of_adhesion_J_m2": None if fit.upper_bound else fit.best.work_of_adhesion,
+        "interval": asdict(fit.work_of_adhesion),
+        "upper_bound": list(fit.upper_bound),
         "against": fit.test.against,
         "points": int(fit.test.force.size),
         "level": fit.level,
