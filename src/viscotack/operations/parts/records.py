@@ -237,8 +237,12 @@ def rates_record(fit: Any) -> dict[str, Any]:
 
 def forecast_rows(forecast: Any) -> list[dict[str, float]]:
     """Return a row for each speed of a forecast."""
-    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
-    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
+    found = [forecast.speed, forecast.force, forecast.low, forecast.high]
+    names = ["speed_m_s", "pull_off_force_N", "low_N", "high_N"]
+    if forecast.low_of_one is not None:
+        found += [forecast.low_of_one, forecast.high_of_one]
+        names += ["low_of_one_test_N", "high_of_one_test_N"]
+    columns = zip(*found, strict=True)
     return [dict(zip(names, map(float, row), strict=True)) for row in columns]
 
 
