@@ -165,7 +165,8 @@ def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) 
             "sha256": one.record.source.sha256,
             "format": one.record.source.format,
             "cycles": [
-                cycle_row(cycle, radius, law) | {"notes": list(cycle.source.notes)}
+                cycle_row(cycle, radius, law)
+                | {"notes": list(cycle.source.notes), "cautions": list(cycle.cautions)}
                 for cycle in one.cycles
             ],
             "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
