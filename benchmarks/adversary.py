@@ -8,10 +8,10 @@ worse, in half widths of the 90 % interval of force or work, whichever is larger
 counts as far as it knows itself: its stated error is taken off. One or two seconds a case; with
 --out it goes on where it was stopped.
 
-`python -m benchmarks.adversary --by disagreement --labels FOLDER [--cases 40] [--seed 1]`: of
-4,000 drawn cases of each design of `training/fresh_cases.py`, it simulates those that surrogates
-answer and in which the second networks differ most, in half widths of the interval of force or
-work.
+`python -m benchmarks.adversary --by disagreement --labels FOLDER [--cases 40] [--seed 1]
+[--designs punches ...]`: of 4,000 drawn cases of each design of `training/fresh_cases.py`, it
+simulates those that surrogates answer and in which the second networks differ most, in half widths
+of the interval of force or work.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from training import train_punch as punches
-from training.fresh_cases import DESIGNS, Case, drawn, given_of, labelled
+from training.fresh_cases import COUNTS, Case, drawn, given_of, labelled
 from training.rows import LEARNED, Rows, joined, read
 from viscotack import Groups, solve, summary
 from viscotack.campaign.columns import KINDS
@@ -155,9 +155,9 @@ def worst_known(of: Of, count: int) -> list[list[float]]:
     return rows.groups[np.argsort(-off)[:count]].tolist()
 
 
-def suspects(design: int, count: int, seed: int) -> list[Case]:
+def suspects(design: str, count: int, seed: int) -> list[Case]:
     """Return the answered cases of a design in which the second networks differ most."""
-    counts = tuple(_DRAWN * (i == design) for i in range(design + 1))
+    counts = {design: _DRAWN}
     found: list[tuple[float, Case]] = []
     for contact, kind in (("sphere", "sphere"), ("solids", "solid"), ("punch", "punch")):
         cases = [case for case in drawn(seed, counts) if case.kind == kind]
@@ -182,17 +182,17 @@ def suspects(design: int, count: int, seed: int) -> list[Case]:
     return [case for _, case in sorted(found, key=lambda pair: -pair[0])[:count]]
 
 
-def by_disagreement(labels: Path, count: int, seed: int) -> None:
+def by_disagreement(labels: Path, designs: list[str], count: int, seed: int) -> None:
     """Simulate the suspects of each design and print the worst."""
     found = []
-    for number in range(len(DESIGNS)):
-        cases = suspects(number, count, seed)
+    for design in designs:
+        cases = suspects(design, count, seed)
         known = labelled(cases, labels, 2e-4)
         some = [judged(case, label) for case, label in known if "failed" not in label]
         found += some
         off = np.array([np.nanmax(one.ratio[:2], initial=0.0) for one in some])
         print(
-            f"{cases[0].design}: {len(some)} simulated; {np.mean(off > 1):.0%} beyond their "
+            f"{design}: {len(some)} simulated; {np.mean(off > 1):.0%} beyond their "
             f"interval; worst {off.max():.1f} half widths",
             flush=True,
         )
@@ -209,11 +209,12 @@ def main() -> None:
     parser.add_argument("--punch", action="store_true", help="of a punch on a layer")
     parser.add_argument("--by", choices=("evolution", "disagreement"), default="evolution")
     parser.add_argument("--labels", type=Path, help="folder of the labels of disagreement")
+    parser.add_argument("--designs", nargs="+", choices=tuple(COUNTS), default=list(COUNTS))
     given = parser.parse_args()
     if given.by == "disagreement":
         if given.labels is None:
             parser.error("--by disagreement needs --labels")
-        return by_disagreement(given.labels, given.cases, given.seed)
+        return by_disagreement(given.labels, given.designs, given.cases, given.seed)
     of: Of = OfPunch if given.punch else OfSphere
     random = np.random.default_rng(given.seed)
     done: list[tuple[float, list[float]]] = []

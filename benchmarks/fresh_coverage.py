@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from training.fresh_cases import Case, add_draw, drawn, labelled
+from training.fresh_cases import Case, add_draw, counts_of, drawn, labelled
 from training.scores import curve_error
 from viscotack import OutOfRange, predict
 from viscotack.arrays import Array
@@ -135,7 +135,7 @@ def main() -> None:
     parser.add_argument("--known", action="store_true", help="only cases with a stored label")
     parser.add_argument("--worst", type=int, default=0, help="print so many of the worst cases")
     given = parser.parse_args()
-    cases = drawn(given.seed, tuple(given.counts))
+    cases = drawn(given.seed, counts_of(given.counts))
     known = labelled(cases, given.labels, given.accuracy, missing=not given.known)
     found = [judged(case, label) for case, label in known if "failed" not in label]
     print(table(found))

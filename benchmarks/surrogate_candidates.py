@@ -14,8 +14,8 @@ from time import perf_counter
 import numpy as np
 
 from training.fitting import Fit, Task, fit
-from training.make import kept_apart
 from training.rows import LEARNED, Rows, read
+from training.train_sphere import kept_apart
 from viscotack.surrogate import physics
 from viscotack.surrogate.contact import LEAST_WAY, between
 from viscotack.surrogate.network import Networks

@@ -2,9 +2,8 @@
 
 `python -m benchmarks.surrogate_page [--table PATH] [--write]`: everything is worked out anew from
 the shipped files: errors and intervals on rows that nothing was learned from, by set; speed here;
-and how far it is from the published rows, of which tests/data has a sample. What took whole
-trainings, the bands left out, is printed as the file has it. `benchmarks/judging.py` judges by
-fresh cases.
+and how far it is from the published rows, of which tests/data has a sample. `benchmarks/judging.py`
+judges by fresh cases.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from training.calibration import by_set
-from training.make import parted
 from training.rows import LEARNED
+from training.train_sphere import parted
 from viscotack import Groups, predict
 from viscotack.materials import RetardationPowerLaw
 from viscotack.protocol import AtDepth, AtForce
@@ -74,21 +73,6 @@ def curves(scores: Scores) -> str:
         f"by {percent(one['median'])} of the pull-off force in the median case, by less than "
         f"{percent(one['90 %'])} in nine of ten and {percent(one['99 %'])} in 99 of 100."
     )
-
-
-def bands(found: list[Scores]) -> list[str]:
-    """Return the table of bands."""
-    lines = [
-        "| band left out | from | to | rows | R2 of log10 force | MSE |",
-        "|---|---|---|---|---|---|",
-    ]
-    for one in found:
-        name = f"{one['input']}{', an edge' if one['edge'] else ''}"
-        lines.append(
-            f"| {name} | {one['from']:.3g} | {one['to']:.3g} | {one['rows']} | {one['r2']:.5f} | "
-            f"{one['mse_log10']:.1e} |"
-        )
-    return lines
 
 
 def seconds(problem: Groups) -> float:
@@ -229,7 +213,6 @@ def main() -> None:
     add_table(parser)
     parser.add_argument("--write", action="store_true")
     chosen = parser.parse_args()
-    facts = store.facts()
     at_random = by_set(shipped(), parted()[1])
     parts = [
         "\n".join(errors(at_random)),
@@ -238,14 +221,6 @@ def main() -> None:
         theory(),
     ]
     parts.append(published(chosen.table))
-    bands_apart = facts["scores"]["bands kept apart"]
-    if bands_apart:
-        parts.append(
-            "How well the force of a whole band is told from the others, by one smaller network "
-            "(relaxed start and fast limit are known in the band too; what is told is the way "
-            "between the limits):"
-        )
-        parts.append("\n".join(bands(bands_apart)))
     words = "\n\n".join(parts)
     print(words)
     if chosen.write:

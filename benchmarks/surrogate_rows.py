@@ -15,13 +15,13 @@ import argparse
 import numpy as np
 
 from training.fitting import Fit
-from training.make import parted
-from training.rows import BANDS, Rows, band, certain, read
+from training.rows import Rows, certain, read
+from training.train_sphere import parted
 from viscotack.surrogate import physics
 
 from .surrogate_candidates import between_limits
 
-ROWS = (1250, 2500, 5000, 10_000, 20_000)
+ROWS, BANDS = (1250, 2500, 5000, 10_000, 20_000), 6
 
 
 def said_of(error: np.ndarray) -> str:
@@ -47,7 +47,9 @@ def learning_curve(rows: Rows, how: Fit) -> None:
 
 def materials(rows: Rows, how: Fit) -> None:
     """Print errors of materials left out, those inside of the range and those at its ends."""
-    k, n = (band(rows, column) for column in (physics.MODULUS_RATIO, physics.EXPONENT))
+    place = (physics.scaled(rows.groups) + 1) / 2 * BANDS
+    bands = np.clip(np.floor(place).astype(int), 0, BANDS - 1)
+    k, n = (bands[:, column] for column in (physics.MODULUS_RATIO, physics.EXPONENT))
     part = (k + 2 * n) % BANDS
     edge = (k % (BANDS - 1) == 0) | (n % (BANDS - 1) == 0)
     print("| materials left out | rows | MSE | median | 95 % below | largest |")

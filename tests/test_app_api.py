@@ -289,6 +289,21 @@ def test_a_file_of_a_rig_is_read_and_its_place_is_nobodys_business(ask):
     assert "viscotack-" not in answer.text
 
 
+def test_a_table_that_is_sent_changes_the_problem_sent_with_it(ask):
+    rows = [{"lens": "a", "radius": "1 mm"}, {"lens": "b", "radius": "2 mm"}]
+    told = ask("POST", "/api/predict", json={"problem": FIRST, "cases": rows}).json()
+    text = "Lens;radius [mm]\na;1,0\n;\nb;2,0\n"
+    sent = [("cases", ("cases.csv", text.encode()))]
+    data = {"problem": json.dumps(FIRST), "outputs": "csv"}
+    answer = ask("POST", "/api/predict", files=sent, data=data).json()
+    outputs = [row["outputs"] for row in answer["rows"]]
+    assert outputs == [told["rows"][0]["outputs"], None, told["rows"][1]["outputs"]]
+    alone = FIRST | {"sphere": {"radius": "1 mm"}}
+    alone = ask("POST", "/api/predict", json={"problem": alone}).json()
+    assert outputs[0]["pull_off_force_N"] == pytest.approx(alone["pull_off_force_N"], rel=1e-12)
+    assert answer["beside"]["files"]["csv"].splitlines()[2].endswith(",empty row")
+
+
 def test_a_file_that_is_none_is_refused_by_its_name_alone(ask):
     sent = [("files", ("photo.csv", bytes(range(256)) * 4))]
     for path, data in (("/api/test/read", {}), ("/api/material/fit", {"poisson_ratio": "0.5"})):

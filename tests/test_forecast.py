@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from viscotack.app.cli import main
 from viscotack.campaign.case import curve
 from viscotack.forecast import closed_forms
 from viscotack.forecast import prediction_table as forecast_table
@@ -356,6 +357,29 @@ def test_zero_force_is_where_the_simulation_has_it(depth):
     zero = np.interp(0.0, found.force[ends][::-1], found.depth[ends][::-1])
     low, high = answer.zero_force_interval
     assert low < zero < high
+
+
+@pytest.mark.parametrize("content", [b"PK broken", None])
+def test_a_damaged_file_of_the_package_is_no_refusal_of_the_question(
+    content, tmp_path, monkeypatch, capsys
+):
+    path = tmp_path / "shipped.npz"
+    if content is not None:
+        path.write_bytes(content)
+    monkeypatch.setitem(store.FILES, "sphere", path)
+    store._shipped.cache_clear()
+    words = "a file of viscotack is damaged; install viscotack again"
+    try:
+        with pytest.raises(OSError, match=words):
+            vt.predict(sphere())
+        with pytest.raises(SystemExit) as stopped:
+            main(
+                "predict sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 10 "
+                "--rate 30".split()
+            )
+        assert stopped.value.code == 2 and words in capsys.readouterr().err
+    finally:
+        store._shipped.cache_clear()
 
 
 def test_what_is_out_of_range_is_said_in_si_too():

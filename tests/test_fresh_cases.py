@@ -7,7 +7,7 @@ import pytest
 
 from training import fresh_cases
 from training.calibration import Apart, levelled, untested
-from training.fresh_cases import TWO_PEAKS, drawn, labelled
+from training.fresh_cases import DESIGNS, TWO_PEAKS, counts_of, drawn, labelled
 from training.scores import curve_error
 from viscotack.result.trajectory import POINTS
 from viscotack.surrogate import physics
@@ -17,17 +17,19 @@ from viscotack.surrogate.trust import CONFIDENCES, INPUTS, OF
 
 
 def test_a_larger_draw_of_a_seed_contains_the_smaller_one():
-    few, many = drawn(3, (4, 3, 2, 5, 1)), drawn(3, (8, 3, 4, 9, 2))
+    fewer = dict.fromkeys(DESIGNS, 2)
+    few, many = drawn(3, fewer), drawn(3, fewer | {"power laws": 8, "punches": 5, "grippers": 3})
     assert {case.key for case in few} < {case.key for case in many}
-    assert len(few) == 15 and {case.key for case in few}.isdisjoint(
-        case.key for case in drawn(4, (4, 3, 2, 5, 1))
+    assert len(few) == 2 * len(DESIGNS) and {case.key for case in few}.isdisjoint(
+        case.key for case in drawn(4, fewer)
     )
 
 
 def test_each_design_draws_problems_in_its_range():
-    cases = drawn(5, (20, 10, 10, 20, 5))
+    cases = drawn(5, counts_of(["power laws=20", "two peaks=20", "large Tabor numbers=5"]))
+    cases += drawn(5, dict.fromkeys(DESIGNS, 5))
     for case in cases:
-        assert case.problem.rate > 0
+        assert case.inputs.get("rate", case.inputs.get("speed")) > 0 and case.problem is not None
         if case.design == "power laws":
             row = np.array([case.inputs[name] for name in physics.INPUTS])
             assert np.all((physics.LOW <= row) & (row <= physics.HIGH))
@@ -40,7 +42,7 @@ def test_each_design_draws_problems_in_its_range():
 def test_a_label_is_simulated_once(tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(fresh_cases, "label", lambda case, _: asked.append(case) or {"force": 1.0})
-    cases = drawn(6, (2, 0, 0, 0, 0))
+    cases = drawn(6, {"power laws": 2})
     assert list(labelled(cases, tmp_path, missing=False)) == []
     once, again = (list(labelled(cases, tmp_path)) for _ in range(2))
     assert once == again and asked == cases

@@ -2,6 +2,7 @@
 
 import json
 import re
+import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +25,7 @@ from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.operations.declare import questions
-from viscotack.problem.case_file import read_case, shift_deviation
+from viscotack.problem.case_file import passport_of_tables, read_case
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {
@@ -250,7 +251,11 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     plan.write_text(f'temperature = "0 degC"\n{grid}')
     with pytest.raises(ValueError, match="temperature goes with problem"):
         read_plan(plan)
-    assert shift_deviation(case, temperature=273.15) == pytest.approx(0.15)
+    tables = tomllib.loads(case.read_text())
+    beside = {"beside": case.parent.joinpath, "temperature": 273.15}
+    passport, deviation = passport_of_tables(tables, **beside)
+    assert deviation == pytest.approx(0.15)
+    assert passport.temperature == 273.15 and passport.material == moved.material
 
 
 def test_a_case_is_simulated_at_a_temperature_beside_its_file(tmp_path, capsys):

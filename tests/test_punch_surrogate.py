@@ -270,8 +270,8 @@ def test_test_rows_are_predicted_within_the_documented_errors():
     found = scored(shipped(), rows)
     assert found["stress"]["median"] < 1e-3 and found["stress"]["95 %"] < 5e-3
     assert found["work"]["median"] < 3e-3
-    # the level of the curve holds between stored points too, where it is off further
-    for name, most in (("stress", 0.95), ("work", 0.95), ("curve", 0.97), ("travel", 0.95)):
+    # levels of stress hold where it has two maxima too, those of curves between stored points too
+    for name, most in (("stress", 0.98), ("work", 0.95), ("curve", 0.97), ("travel", 0.95)):
         assert 0.86 < found[name]["cover"] < most, name
 
 

@@ -1,4 +1,4 @@
-"""Train the surrogate of spheres on power laws: ``python -m training --out DIR``."""
+"""Train a surrogate of the package: ``python -m training CONTACT --out DIR``."""
 
 from .make import main
 

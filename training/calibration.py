@@ -24,7 +24,7 @@ from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks, together
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 
-from .fitting import Fit, Fits, Task
+from .fitting import Fit, Task, fit_all
 from .rows import LEARNED, Rows
 from .scores import errors, labels_of
 
@@ -89,11 +89,10 @@ def trusted(
     surrogate: Surrogate,
     learned: Apart,
     kept: Sequence[Apart],
-    fits: Fits,
     *,
     hard: Sequence[Apart] = (),
     how: Fit = HOW,
-    weight: float = WEIGHT,
+    least: Array = LEAST,
     seeds: tuple[Sequence[int], Sequence[int]] = ((0,), (1,)),
 ) -> Surrogate:
     """Return a surrogate with intervals.
@@ -106,22 +105,20 @@ def trusted(
         Of rows that it learned from.
     kept : sequence of Apart
         Of others, a set each for which intervals are to hold.
-    fits : callable
-        Fits networks.
     hard : sequence of Apart
         Of others, that were sought where errors are large: they tell how far errors reach there,
         and nothing of how often.
     how : Fit
         Of the networks of the reach.
-    weight : float
-        How many times a row counts that was kept apart.
+    least : ndarray, shape (4,)
+        Sizes of errors below which all count alike.
     seeds : pair of sequences of int
         Of the networks that learn from each half of the rows kept apart.
     """
     halves = [[one.chosen(np.arange(len(one.told)) % 2 == half) for one in kept] for half in (0, 1)]
-    tasks = [reach_task(learned, [*half, *hard], weight=weight) for half in halves]
+    tasks = [reach_task(learned, [*half, *hard], least) for half in halves]
     jobs = [(task, how, seed) for task, some in zip(tasks, seeds, strict=True) for seed in some]
-    found, first = fits(jobs), len(seeds[0])
+    found, first = fit_all(jobs), len(seeds[0])
     members = [together(some) for some in (found[:first], found[first:])]
     # the sets whose scores come from networks that have not seen them
     pairs = [
@@ -152,14 +149,14 @@ def _joint(scores: Array, levels: Array) -> Array:
     return np.array([_level(one)[i] for i, one in enumerate(worst.T)])
 
 
-def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = WEIGHT) -> Task:
+def reach_task(learned: Apart, kept: Sequence[Apart], least: Array) -> Task:
     """Return the task to learn how far errors reach, from rows kept apart by so much more."""
     inputs = np.concatenate([one.told for one in (learned, *kept)])
     error = np.concatenate([one.error for one in (learned, *kept)])
     known = np.isfinite(error)
-    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), LEAST))
+    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), least))
     counts = known.astype(float)
-    counts[len(learned.told) :] *= weight
+    counts[len(learned.told) :] *= WEIGHT
     return Task(inputs, target, counts, quantile=REACH)
 
 
@@ -195,13 +192,6 @@ def _level(scores: Array) -> Array:
     # a score of one more case is below the i-th of them in i of count + 1 cases
     place = np.ceil(np.array(CONFIDENCES) * (count + 1)).astype(int) - 1
     return scores[np.minimum(place, count - 1)]
-
-
-def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> Array:
-    """Return 1.0 where an interval holds, 0.0 where not, and nan where there is none, (n, 4)."""
-    widths = np.column_stack(trust.widths(apart.told, confidence))
-    held = np.abs(apart.error) <= widths
-    return np.where(np.isfinite(apart.error), held, np.nan)
 
 
 def worth(surrogate: Surrogate, apart: Apart, *, confidence: float = 0.9) -> dict[str, Any]:

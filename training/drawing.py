@@ -1,9 +1,11 @@
-"""Cases that no network learns from, drawn with fixed seeds: the sets `fresh` and `unseen`.
+"""Lists of cases, drawn with fixed seeds: the sets `fresh`, `unseen`, `deep` and `sharp`.
 
 ``python -m training.drawing fresh --out fresh.csv`` writes a list, which
-``python -m viscotack.datasets fresh`` runs. Any beginning of a list has cases of all its designs,
-as many for their number. Those of `fresh` measure how wide intervals must be; those of `unseen`
-judge, and nothing is taken from them.
+``python -m viscotack.datasets fresh`` runs. Any beginning of the first two has cases of all its
+designs, as many for their number; those of `fresh` measure how wide intervals must be, those of
+`unseen` judge, and nothing is taken from them. The others are deep pulls about as fast as the bulk
+relaxes, of power laws (`deep`) and other solids (`sharp`): their force may have two maxima, and the
+work jumps where they are equal.
 """
 
 import argparse
@@ -12,10 +14,21 @@ from pathlib import Path
 
 import numpy as np
 
+from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
 from viscotack.surrogate import physics
 from viscotack.surrogate.physics import INPUTS, Array
 
+# Tabor number, modulus ratio, depth [h0], rate times retardation time over depth, and exponent.
+_DEEP_LOW = np.log10([0.02, 1e-4, 5.0, 0.2, 0.6])
+_DEEP_HIGH = np.log10([10.0, 5e-2, 500.0, 5.0, 2.0])
+_COUNTS, _SEEDS = {"deep": 600, "sharp": 1600}, {"deep": 2331, "sharp": 2332}
+# First number of the random solids, and the shares of those of one and of two to four times.
+_FIRST, _ONE, _FEW = 400_000, 0.45, 0.8
+_COLUMNS = {
+    "deep": ("tabor", "modulus_ratio", "exponent", "preload", "rate"),
+    "sharp": ("tabor", "modulus_ratio", "solid", "preload", "rate"),
+}
 # Digits of an input in a list of cases.
 _DIGITS = 6
 # Places where intervals of an earlier surrogate held least, found by others; as they were told.
@@ -100,21 +113,36 @@ def _rounded(groups: Array) -> Array:
     return np.array([[float(f"{x:.{_DIGITS}g}") for x in row] for row in groups.tolist()])
 
 
+def deep(name: str) -> list[tuple[float, ...]]:
+    """Return the cases of a list, in the order of `_COLUMNS`."""
+    random = np.random.default_rng(_SEEDS[name])
+    found, number = [], _FIRST
+    for _ in range(_COUNTS[name]):
+        row = 10 ** (_DEEP_LOW + random.random(len(_DEEP_LOW)) * (_DEEP_HIGH - _DEEP_LOW))
+        tabor, k, depth, part, exponent = (float(f"{x:.6g}") for x in row)
+        if name == "deep":
+            found.append((tabor, k, exponent, depth, float(f"{part * depth:.6g}")))
+            continue
+        sort = random.random()
+        least, most = (1, 1) if sort < _ONE else (2, 4) if sort < _FEW else (1, 40)
+        while not least <= len(creep_spectrum(number := number + 1, k)[0]) <= most:
+            pass
+        weights, times = creep_spectrum(number, k)
+        time = float(np.exp(weights @ np.log(times)))
+        found.append((tabor, k, number, depth, float(f"{part * depth / time:.6g}")))
+    return found
+
+
 def main() -> None:
     """Draw and write."""
     parser = argparse.ArgumentParser(prog="python -m training.drawing")
-    parser.add_argument("name", choices=tuple(LISTS), help="which list")
+    parser.add_argument("name", choices=(*LISTS, *_COUNTS), help="which list")
     parser.add_argument("--out", type=Path, required=True, help="CSV file")
     given = parser.parse_args()
+    rows = drawn(given.name)[0] if given.name in LISTS else deep(given.name)
+    header = ",".join(_COLUMNS.get(given.name, INPUTS))
     form = f"%.{_DIGITS}g"
-    np.savetxt(
-        given.out,
-        drawn(given.name)[0],
-        delimiter=",",
-        header=",".join(INPUTS),
-        comments="",
-        fmt=form,
-    )
+    np.savetxt(given.out, rows, delimiter=",", header=header, comments="", fmt=form)
     print(given.out)
 
 

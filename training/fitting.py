@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -76,10 +76,6 @@ class Task:
     gain: float = 1.0
     quantile: float | None = None
     factors: Array | None = None
-
-
-# Fits networks of tasks, as told, from seeds: here or in other processes.
-Fits = Callable[[Sequence[tuple[Task, Fit, int]]], list[Networks]]
 
 
 def fit_all(jobs: Sequence[tuple[Task, Fit, int]]) -> list[Networks]:

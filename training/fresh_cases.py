@@ -1,19 +1,21 @@
 """Fresh cases of the surrogates with labels from simulation, drawn from a seed and kept on disk.
 
-`python -m training.fresh_cases --seed 41 --labels FOLDER [--counts 400 300 150 200 100]`: power
-laws, other solids and punches, even in the logarithms of their ranges, the region in which a
-pull-off may have two maxima, and power laws at light tension, where the sets that networks learned
-from are less accurate than their intervals are wide. Each case is simulated to its pull-off at an
-accuracy of 5e-4 (of 1e-4 at light tension) and appended to a file of the folder; a run that was
-stopped continues. About a third of a second a case.
+`python -m training.fresh_cases --seed 41 --labels FOLDER [--counts "power laws=400" punches=150]`:
+power laws, other solids and punches, even in the logarithms of their ranges, the region in which a
+pull-off may have two maxima, power laws at light tension, where the sets that networks learned from
+are less accurate than their intervals are wide, power laws of large Tabor numbers, and contacts of
+engineers. Each case is simulated to its pull-off at an accuracy of 5e-4 (of 1e-4 at light tension)
+and appended to a file of the folder; a run that was stopped continues. About a third of a second a
+case, more at large Tabor numbers.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +25,13 @@ from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, sol
 from viscotack.campaign.case import retraction
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.random_solids import STRETCHED, creep_spectrum
-from viscotack.surrogate import linear_solids, physics, punch_physics
+from viscotack.surrogate import linear_solids, physics, punch_physics, short_range
 from viscotack.surrogate.alike import TIMES
 from viscotack.surrogate.linear_solids import SolidContact
 from viscotack.surrogate.model import Surrogate
 
 from .calibration import Apart
+from .contacts import FAMILIES, contact
 from .contacts import problem as contact_problem
 from .drawing import BOXES
 from .scores import errors
@@ -40,10 +43,24 @@ _SOLIDS, _STRETCHED = (600_000, STRETCHED), 0.125
 _BEYOND = 2.5
 # Tabor number, modulus ratio, depth [h0], and rate times retardation time over depth.
 TWO_PEAKS = ((0.05, 5.0), (1e-4, 1e-2), (20.0, 500.0), (0.5, 2.0))
+# Size, thickness, modulus ratio, stress of the start, and rate times retardation time over depth.
+SOFT_PUNCHES = (
+    ((1.0, 200.0), (10.0, 1000.0), (1e-3, 0.02), (0.1, 10.0), (0.1, 100.0)),
+    ((1.0, 6.0), (100.0, 1000.0), (1e-3, 5e-3), (1.0, 10.0), (0.1, 4.0)),
+)
 Random = np.random.Generator
 _DIGITS = 8
 # Numbers of cases of each design that measure intervals.
-COUNTS = (600, 400, 600, 300, 300)
+COUNTS = {
+    "power laws": 600,
+    "other solids": 400,
+    "punches": 550,
+    "two peaks": 300,
+    "light tension": 300,
+    "soft punches": 400,
+}
+# Largest Tabor number of the design of large ones: beyond it a simulation takes minutes.
+LARGEST = 20.0
 # Accuracy of labels where those of the data sets are biased by as much as intervals are wide.
 FINER = {"light tension": 1e-4}
 
@@ -108,6 +125,19 @@ def punch(random: Random) -> Case:
     return Case("punches", "punch", {"cohesion": 0.05, **inputs})
 
 
+def soft_punch(random: Random) -> Case:
+    """Draw a punch on a thick, soft layer, pulled about as fast as it relaxes: half of them deep.
+
+    There an adversary found errors of five half widths of earlier intervals.
+    """
+    ends = SOFT_PUNCHES[int(random.random() < 0.5)]
+    size, thickness, ratio, stress, part = (between(random, *each) for each in ends)
+    depth = stress * float(punch_physics.compliance(np.array([[size, thickness]]))[0])
+    drawn = (size, thickness, ratio, depth, part * depth)
+    inputs = dict(zip(punch_physics.INPUTS, drawn, strict=True))
+    return Case("soft punches", "punch", {"cohesion": 0.05, **inputs})
+
+
 def two_peaks(random: Random) -> Case:
     """Draw a deep pull, about as fast as its bulk relaxes: two in three on standard solids."""
     tabor, ratio, depth, part = (between(random, *ends) for ends in TWO_PEAKS)
@@ -127,6 +157,21 @@ def light_tension(random: Random) -> Case:
     return Case("light tension", "sphere", inputs)
 
 
+def large_tabor(random: Random) -> Case:
+    """Draw a sphere on a power law with a Tabor number from 10 to ``LARGEST``."""
+    ends = zip(physics.INPUTS, short_range.LOW, short_range.HIGH, strict=True)
+    inputs = {name: between(random, low, high) for name, low, high in ends}
+    inputs["tabor"] = between(random, short_range.LOW[0], LARGEST)
+    for name in ("preload", "rate"):
+        inputs[name] *= inputs["tabor"]
+    return Case("large Tabor numbers", "sphere", inputs)
+
+
+def of_engineers(family: str, random: Random) -> Case:
+    """Draw a contact of engineers."""
+    return Case(family, "contact", contact(family, random))
+
+
 def _with_few_times(random: Random, ratio: float, most: int) -> tuple[int, float]:
     """Return a random solid of few retardation times, and their weighted mean."""
     while True:
@@ -136,22 +181,23 @@ def _with_few_times(random: Random, ratio: float, most: int) -> tuple[int, float
             return number, float(np.exp(weights @ np.log(times)))
 
 
-DESIGNS: tuple[Callable[[Random], Case], ...] = (
-    power_law,
-    solid,
-    punch,
-    two_peaks,
-    light_tension,
-)
+# The number of each design in the seed of its draw, and what draws its cases.
+DESIGNS: dict[str, tuple[int, Callable[[Random], Case]]] = {
+    "power laws": (0, power_law),
+    "other solids": (1, solid),
+    "punches": (2, punch),
+    "two peaks": (3, two_peaks),
+    "light tension": (4, light_tension),
+    "large Tabor numbers": (5, large_tabor),
+    "soft punches": (6, soft_punch),
+} | {name: (100 + i, partial(of_engineers, name)) for i, name in enumerate(FAMILIES)}
 
 
-def drawn(seed: int, counts: tuple[int, ...]) -> list[Case]:
-    """Return cases of each design, in an order whose beginning has its share of each.
-
-    The last designs may be left out.
-    """
+def drawn(seed: int, counts: Mapping[str, int]) -> list[Case]:
+    """Return cases of some designs, in an order whose beginning has its share of each."""
     found: list[tuple[float, Case]] = []
-    for number, (draw, count) in enumerate(zip(DESIGNS, counts, strict=False)):
+    for name, count in counts.items():
+        number, draw = DESIGNS[name]
         random = np.random.default_rng([seed, number])
         found += [((i + 0.5) / count, draw(random)) for i in range(count)]
     return [case for _, case in sorted(found, key=lambda pair: pair[0])]
@@ -256,14 +302,25 @@ def add_draw(parser: argparse.ArgumentParser) -> None:
     """Add the options of a draw."""
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--labels", type=Path, required=True, help="folder of the labels")
+    add_counts(parser, COUNTS)
+    parser.add_argument("--accuracy", type=float, default=ACCURACY)
+
+
+def add_counts(parser: argparse.ArgumentParser, usual: Mapping[str, int]) -> None:
+    """Add the option of the numbers of cases of each design."""
     parser.add_argument(
         "--counts",
-        type=int,
-        nargs=len(DESIGNS),
-        default=COUNTS,
-        help="power laws, other solids, punches, two peaks, light tension",
+        nargs="+",
+        metavar="DESIGN=NUMBER",
+        default=[f"{name}={count}" for name, count in usual.items()],
+        help=f"cases of {', '.join(DESIGNS)}",
     )
-    parser.add_argument("--accuracy", type=float, default=ACCURACY)
+
+
+def counts_of(words: Sequence[str]) -> dict[str, int]:
+    """Return the numbers of cases of each design from an option."""
+    parts = (each.rpartition("=") for each in words)
+    return {name: int(count) for name, _, count in parts}
 
 
 def main() -> None:
@@ -271,7 +328,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     add_draw(parser)
     given = parser.parse_args()
-    cases = drawn(given.seed, tuple(given.counts))
+    cases = drawn(given.seed, counts_of(given.counts))
     failed = 0
     for number, (_, found) in enumerate(labelled(cases, given.labels, given.accuracy), 1):
         failed += "failed" in found

@@ -20,8 +20,6 @@ LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"
 FAR_OFF = ("hard", "steep")
 # Largest stated errors of force and work of rows that may judge others.
 MOST_ERRORS = (3e-3, 1e-2)
-# Bands of Tabor number, modulus ratio and exponent, even in their logarithms.
-BANDED, BANDS = (physics.TABOR, physics.MODULUS_RATIO, physics.EXPONENT), 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,12 +81,6 @@ def certain(name: str) -> npt.NDArray[np.bool_]:
     table = datasets.load(name)
     force, work = (table.column(f"{of}_error").to_numpy() for of in ("force", "work"))
     return (force <= MOST_ERRORS[0]) & (work <= MOST_ERRORS[1])
-
-
-def band(rows: Rows, column: int) -> npt.NDArray[np.intp]:
-    """Return the band of one input that each row lies in, from 0 to BANDS - 1."""
-    place = (physics.scaled(rows.groups)[:, column] + 1) / 2 * BANDS
-    return np.clip(np.floor(place).astype(np.intp), 0, BANDS - 1)
 
 
 def _of_set(name: str, number: int) -> Rows:

@@ -1,7 +1,5 @@
-"""Errors of a surrogate on cases that it has not learned from, and of bands left out."""
+"""Errors of a surrogate on cases that it has not learned from."""
 
-from concurrent.futures import Future
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,17 +7,10 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack.arrays import Array
 from viscotack.result.trajectory import PRESSED
-from viscotack.surrogate import physics
 from viscotack.surrogate.answers import Answers
-from viscotack.surrogate.contact import between
 from viscotack.surrogate.line import Curves
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, together
 
-from .fitting import Fit
-from .recipe import begin_forces
-from .rows import BANDED, BANDS, Rows, band
-from .shop import Shop
+from .rows import Rows
 
 Label = dict[str, Any]
 
@@ -73,44 +64,3 @@ def errors(said: Answers, curves: Curves, labels: list[Label]) -> Array:
     travel = np.where(pressed, np.log10(travel / np.where(pressed, to_zero, 1.0)), np.nan)
     of_numbers = np.log10(said.pull_off_force / force), np.log10(said.work_to_pull_off / work)
     return np.column_stack([*of_numbers, off, travel])
-
-
-@dataclass(frozen=True, eq=False)
-class Band:
-    """A band of one input, and networks for the force that learn from the other bands."""
-
-    column: int
-    number: int
-    held: Rows
-    forces: list[Future[Networks]]
-
-
-def begin_bands(rows: Rows, limits: Surrogate, how: Fit, shop: Shop) -> list[Band]:
-    """Begin to learn the force without each band of Tabor number, modulus ratio and exponent."""
-    found = []
-    for column in BANDED:
-        of_row = band(rows, column)
-        for number in range(BANDS):
-            held = of_row == number
-            forces = begin_forces(rows.chosen(~held), limits, how, shop)
-            found.append(Band(column, number, rows.chosen(held), forces))
-    return found
-
-
-def score_band(one: Band, limits: Surrogate) -> dict[str, Any]:
-    """Return how well the force of a band is told from the other bands, ready for JSON."""
-    groups, true = one.held.groups, np.log10(one.held.force)
-    networks = together([future.result() for future in one.forces])
-    tests = limits.tests(groups)
-    said = between(tests.slow, tests.fast, networks(tests.told)[..., 0])
-    error = said.mean(axis=0) - true
-    values = groups[:, one.column]
-    return {
-        "input": physics.INPUTS[one.column],
-        "from": float(values.min()),
-        "to": float(values.max()),
-        "edge": one.number in (0, BANDS - 1),
-        "rows": len(one.held),
-        "r2": float(1 - np.mean(error**2) / np.var(true)),
-        "mse_log10": float(np.mean(error**2)),
-    }

@@ -3,10 +3,11 @@
 ``python -m training.second CONTACT --out DIR --labels DIR`` fits those of `sphere`, `solids` or
 `punch`, adds them to the file of the package, measures its intervals again and writes it into the
 folder. They know other inputs, have another form, and learn from further rows: where the force has
-two maxima of about the same height (`deep`, `sharp`), and where an adversary found errors (`hard`,
-`steep`, `punch_faces`). Rows that measure intervals or judge are left out. Intervals hold the rows
-of the sets that measure, and fresh cases of a seed (:mod:`training.fresh_cases`), of which curves
-are known at all steps of the simulations. Levels of other solids come from fresh cases of another
+two maxima of about the same height (`deep`, `sharp`, and soft punches of a seed of their own), and
+where an adversary found errors (`hard`, `steep`, `punch_faces`). Rows that measure intervals or
+judge are left out. Intervals hold the rows of the sets that measure, and fresh cases of another
+seed (:mod:`training.fresh_cases`), of which curves are known at all steps of the simulations.
+Levels of other solids come from fresh cases of another
 seed, from which no network has learned: networks of the reach that know only a half of the cases
 with two maxima are so much worse there that levels from the other half are 1.6 times too large.
 With ``--intervals`` the second networks of the file are kept, and only its intervals are measured
@@ -16,7 +17,7 @@ again; with ``--levels`` only the levels of other solids.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -24,18 +25,20 @@ from typing import Any
 import numpy as np
 
 from viscotack import datasets
+from viscotack.arrays import Array
 from viscotack.surrogate import store
 from viscotack.surrogate.contact import SECOND_WAY
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks
+from viscotack.surrogate.network import Networks, together
 from viscotack.version import __version__
 
-from . import fresh_cases, make
+from . import fresh_cases
 from . import train_punch as punches
 from . import train_solids as solids
+from . import train_sphere as spheres
 from .calibration import Apart, by_set, judged, levelled, trusted, untested
-from .fitting import Fit, fit_all
-from .recipe import scaled_task
+from .fitting import Fit
+from .refining import scaled_task
 from .rows import FAR_OFF, LEARNED, Rows, certain, joined, read
 from .shop import Shop
 
@@ -44,26 +47,39 @@ HOW = {
     "solids": Fit(hidden=(48, 48, 48), steps=4000, penalty=5e-7, scale=1.0),
     "punch": Fit(hidden=(32, 32, 32), steps=3000, penalty=1e-7, scale=1.0),
 }
+MEMBERS = {"sphere": 1, "solids": 1, "punch": 3}
 # Every so many rows of `broad` are learned from as solids too.
 _THINNED = 10
 # Seed of the fresh cases that measure intervals. Fewer of a design than this measure nothing; they
 # tell how far errors reach, as rows do that were sought where errors are large.
 SEED, _ENOUGH = 41, 60
 # Seed and numbers of the cases of other solids that measure levels.
-LEVELS = 43, (0, 300, 0, 700, 0)
-Rowed = tuple[Any, Rows]
+LEVELS = 43, {"other solids": 300, "two peaks": 700}
+# Seed and number of the soft punches that second networks learn from.
+SOFT = 45, {"soft punches": 300}
+# Errors of punches below these, about those of the labels, count alike, so that few lie beyond
+# three half widths.
+LEAST = np.array([4e-4, 5e-4, 3e-4, 1e-4])
+# What a surrogate is given, and force and work of these tests.
+Taught = tuple[Any, Array, Array]
 
 
-def learned(contact: str) -> Rowed:
-    """Return what a surrogate is given in the rows that second networks learn from, and these."""
+def learned(contact: str, labels: Path, *, missing: bool) -> Taught:
+    """Return the tests that second networks learn from."""
     if contact == "punch":
-        return _given(joined([*_parted_punches()[0], punches.faces().chosen(slice(0, None, 2))]))
+        rows = joined([*punches.parted()[0], punches.faces().chosen(slice(0, None, 2))])
+        made, pairs = store.shipped("punch"), _labelled(fresh_cases.drawn(*SOFT), labels, missing)
+        soft = np.array([[found["force"], found["work"]] for _, found in pairs])
+        given = fresh_cases.given_of(made, [case for case, _ in pairs])
+        numbers = np.vstack([np.column_stack([rows.force, rows.work]), soft])
+        return np.vstack([rows.groups, given]), *numbers.T
     if contact == "sphere":
-        whole = make.parted()[0]
+        whole = spheres.parted()[0]
         varied = whole.chosen(whole.origin != LEARNED.index("thesis"))
-        return _given(joined([varied, read(*FAR_OFF, "deep")]))
+        rows = joined([varied, read(*FAR_OFF, "deep")])
+        return rows.groups, rows.force, rows.work
     some = [
-        solids.parted(solids.tables(None, rows=None))["learn"],
+        solids.parted(solids.table())["learn"],
         solids.read(datasets.load("sharp")),
         solids.power_laws(_THINNED),
         solids.as_solids(read("deep")),
@@ -71,18 +87,20 @@ def learned(contact: str) -> Rowed:
     likes = [one.like(store.shipped("solids")) for one in some]
     names = likes[0].__dataclass_fields__
     like = type(likes[0])(**{n: np.concatenate([getattr(x, n) for x in likes]) for n in names})
-    return like, joined([one.rows for one in some])
+    rows = joined([one.rows for one in some])
+    return like, rows.force, rows.work
 
 
-def fitted(made: Surrogate, of: Rowed, how: Fit, shop: Shop) -> Networks:
+def fitted(made: Surrogate, of: Taught, how: Fit, shop: Shop) -> Networks:
     """Return second networks that have learned the share of the way, and work over force."""
-    given, rows = of
+    given, force, work = of
     tests = made.tests(given)
     low, high = tests.second_limits
-    share = (np.log10(rows.force) - low) / np.maximum(high - low, SECOND_WAY)
-    work = np.log10(rows.work / rows.force)
+    share = (np.log10(force) - low) / np.maximum(high - low, SECOND_WAY)
+    work = np.log10(work / force)
     task = scaled_task(tests.told_of_second, np.column_stack([share, work]))
-    return task.of(shop.fit(task.task, how).result())
+    begun = [shop.fit(task.task, how, seed=i) for i in range(MEMBERS[made.contact.name])]
+    return task.of(together([one.result() for one in begun]))
 
 
 def measured(made: Surrogate, designs: Sequence[Apart]) -> Surrogate:
@@ -91,20 +109,21 @@ def measured(made: Surrogate, designs: Sequence[Apart]) -> Surrogate:
     few = [one for one in designs if len(one.told) < _ENOUGH]
     match made.contact.name:
         case "sphere":
-            known, test = make.parted()
-            kept = [*(judged(made, rows) for rows in make.measuring_rows(test)), *fresh]
+            known, test = spheres.parted()
+            kept = [*(judged(made, rows) for rows in spheres.measuring_rows(test)), *fresh]
             # networks have not learned from `deep`, and force has two maxima there
             far = [read(name).chosen(certain(name)) for name in FAR_OFF]
             hard = [judged(made, joined(far)), judged(made, read("deep")), *few]
             some = judged(made, known.chosen(slice(None, None, 2)))
             seeds = (0, 1), (0, 1)
-            return trusted(made, some, kept, fit_all, hard=hard, seeds=seeds)
+            return trusted(made, some, kept, hard=hard, seeds=seeds)
         case "punch":
-            known, measuring = (joined(rows) for rows in _parted_punches())
+            known, measuring = (joined(rows) for rows in punches.parted())
             kept = joined([measuring, punches.faces().chosen(slice(0, None, 2))])
             kept = [judged(made, kept), *fresh]
-            return trusted(made, judged(made, known), kept, fit_all, hard=few)
-    part, sharp = solids.parted(solids.tables(None, rows=None)), datasets.load("sharp")
+            some = judged(made, known)
+            return trusted(made, some, kept, hard=few, least=LEAST)
+    part, sharp = solids.parted(solids.table()), datasets.load("sharp")
     return solids.measured(made, part, [solids.read(sharp)], fresh)
 
 
@@ -112,14 +131,26 @@ def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
     """Return the scores of a surrogate, in the form of its file, from those before."""
     match made.contact.name:
         case "sphere":
-            return before | {"kept apart at random": by_set(made, make.parted()[1])}
+            return before | {"kept apart at random": by_set(made, spheres.parted()[1])}
         case "punch":
             return punches.scores(made)
-    return solids.scores(made, solids.parted(solids.tables(None, rows=None)))
+    return solids.scores(made, solids.parted(solids.table()))
 
 
-def _given(rows: Rows) -> Rowed:
-    return rows.groups, rows
+def _labelled(
+    cases: list[fresh_cases.Case], labels: Path, missing: bool
+) -> list[tuple[fresh_cases.Case, dict[str, Any]]]:
+    """Return the cases that have an answer, with their labels."""
+    pairs = fresh_cases.labelled(cases, labels, missing=missing)
+    return [pair for pair in pairs if "failed" not in pair[1]]
+
+
+def _labelled(
+    cases: list[fresh_cases.Case], labels: Path, missing: bool
+) -> list[tuple[fresh_cases.Case, dict[str, Any]]]:
+    """Return the cases that have an answer, with their labels."""
+    pairs = fresh_cases.labelled(cases, labels, missing=missing)
+    return [pair for pair in pairs if "failed" not in pair[1]]
 
 
 def _parted_punches() -> tuple[list[Rows], list[Rows]]:
@@ -135,7 +166,7 @@ def fresh_apart(
     folder: Path,
     *,
     missing: bool,
-    draw: tuple[int, tuple[int, ...]] = (SEED, fresh_cases.COUNTS),
+    draw: tuple[int, Mapping[str, int]] = (SEED, fresh_cases.COUNTS),
     answered: bool = False,
 ) -> list[Apart]:
     """Return how far a surrogate is off on the fresh cases of its kind, a set for each design.
@@ -147,7 +178,7 @@ def fresh_apart(
         Of the labels.
     missing : bool
         Whether missing labels are simulated; otherwise these cases are left out.
-    draw : pair of int and tuple of int
+    draw : pair of int and mapping of str to int
         Seed and numbers of the cases.
     answered : bool
         Whether only cases that the surrogate answers count.
@@ -159,8 +190,7 @@ def fresh_apart(
         doubtful = made.doubtful(tests, made.evaluate(tests))[:, 0]
         asked = tests.inside().all(axis=1) & ~doubtful
         cases = [case for case, one in zip(cases, asked, strict=True) if one]
-    pairs = fresh_cases.labelled(cases, folder, missing=missing)
-    known = [pair for pair in pairs if "failed" not in pair[1]]
+    known = _labelled(cases, folder, missing)
     found = []
     for design in dict.fromkeys(case.design for case, _ in known):
         some, labels = zip(*(pair for pair in known if pair[0].design == design), strict=True)
@@ -189,8 +219,9 @@ def main() -> None:
     path, missing = store.FILES[chosen.contact], not chosen.known
     made = store.load(path)
     if not chosen.intervals and not chosen.levels:
+        of = learned(chosen.contact, chosen.labels, missing=missing)
         with Shop(chosen.out / "networks") as shop:
-            found = fitted(made, learned(chosen.contact), HOW[chosen.contact], shop)
+            found = fitted(made, of, HOW[chosen.contact], shop)
         made = made.having(second=found)
     if not chosen.levels:
         made = measured(made, fresh_apart(made, chosen.labels, missing=missing))

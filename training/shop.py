@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import io
 import os
-from collections.abc import Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -57,10 +56,6 @@ class Shop:
     def fit(self, task: Task, how: Fit, *, seed: int = 0) -> Future[Networks]:
         """Begin to fit a network."""
         return self._pool.submit(_fitted, task, how, seed, self.folder)
-
-    def fit_all(self, jobs: Sequence[tuple[Task, Fit, int]]) -> list[Networks]:
-        """Return the networks of several tasks when all are done."""
-        return [one.result() for one in [self.fit(t, how, seed=seed) for t, how, seed in jobs]]
 
 
 def _fitted(task: Task, how: Fit, seed: int, folder: Path) -> Networks:

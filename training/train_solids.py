@@ -1,22 +1,15 @@
-"""The surrogate of any linear solid, from the sets `solids` and `rough` to its file and its scores.
+"""The surrogate of any linear solid from the sets `solids` and `rough`; two to four minutes.
 
-``python -m training.train_solids --out DIR``: a network learns where the search
-for the power law that a solid is like begins (:mod:`training.likeness`); others
-learn from simulated tests how what that one leaves over bends force and work; then it is learned
-how far errors reach, and measured how many times that half an interval must be. Solids that are
-kept apart are never learned from, and the family of the stretched exponentials neither.
+A network learns where the search for the power law that a solid is like begins
+(:mod:`training.likeness`); others learn from simulated tests how what that one leaves over bends
+force and work. Solids that are kept apart are never learned from, and the family of the stretched
+exponentials neither.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from datetime import UTC, datetime
-from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -32,12 +25,12 @@ from viscotack.surrogate.contact import between
 from viscotack.surrogate.linear_solids import BEND_INPUTS, SAMPLES, SolidContact
 from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks, together
-from viscotack.version import __version__
 
 from . import calibration, likeness
 from .calibration import Apart, trusted, worth
 from .fitting import Fit, Task, fit_all
 from .rows import Rows, of_table
+from .shop import Shop
 
 Mask = npt.NDArray[np.bool_]
 
@@ -48,6 +41,8 @@ CHOSEN, ROUGH = 100_000, 200_000
 # Of the first solids drawn evenly, of the others, and of those chosen one in so many measures
 # intervals, and one judges.
 _FIRST, _EVEN, _OTHERS, _OF_CHOSEN = 900, 3, 6, 5
+# Rows of a trial.
+_TRIED = 1500
 # Labels that are worse than this tell nothing [part of the force].
 _WORST_LABEL = 1e-2
 # Every so many rows of `broad` tell how far errors of power laws reach.
@@ -216,11 +211,17 @@ def across(made: Surrogate, tests: Tests) -> list[Apart]:
     ]
 
 
-def make(table: Any) -> tuple[Surrogate, dict[str, Any]]:
-    """Return what was learned from a table without intervals, and numbers of rows."""
-    part = parted(table)
+def learned(
+    shop: Shop, *, quick: bool = False
+) -> tuple[Surrogate, tuple[str, ...], dict[str, Any]]:
+    """Return the surrogate of other solids without intervals, its sets and its facts.
+
+    Its networks are small; they are fitted here, and not kept.
+    """
+    rows = table()
+    part = parted(rows.slice(0, _TRIED) if quick else rows)
     made = with_range(bent(unbent(), part["learn"]), part["learn"])
-    return made, {"rows": {name: len(some) for name, some in part.items()}}
+    return made, LEARNED, {"rows": {name: len(some) for name, some in part.items()}}
 
 
 def scores(made: Surrogate, part: Mapping[str, Tests]) -> dict[str, Any]:
@@ -256,37 +257,11 @@ def measured(
     known.append(judged(made, power_laws(_THINNED)))
     both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
     kept = [judged(made, part["measure"]), *fresh]
-    return trusted(made, both, kept, fit_all, how=HOW)
+    return trusted(made, both, kept, how=HOW)
 
 
-def tables(path: Path | None, *, rows: int | None) -> Any:
-    """Return the rows of the sets `solids` and `rough`, or of a file, so many of each at most."""
+def table() -> Any:
+    """Return the rows of the sets `solids` and `rough`."""
     import pyarrow as pa
-    import pyarrow.parquet as pq
 
-    found = [datasets.load(name) for name in LEARNED] if path is None else [pq.read_table(path)]
-    return pa.concat_tables(one.slice(0, rows).replace_schema_metadata() for one in found)
-
-
-def main() -> None:
-    """Learn, write and print metadata."""
-    parser = argparse.ArgumentParser(prog="python -m training.train_solids")
-    parser.add_argument("--out", type=Path, required=True, help="folder of the file")
-    parser.add_argument("--table", type=Path, help="Parquet file in place of the sets")
-    parser.add_argument("--rows", type=int, help="only so many rows of each, from the beginning")
-    given = parser.parse_args()
-    began = perf_counter()
-    made, found = make(tables(given.table, rows=given.rows))
-    facts = {
-        "viscotack": __version__,
-        "made": datetime.now(UTC).date().isoformat(),
-        **found,
-    }
-    given.out.mkdir(parents=True, exist_ok=True)
-    store.save(made, given.out / "solids.npz", facts)
-    print(json.dumps(facts, indent=1))
-    print(f"{perf_counter() - began:.0f} s", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    main()
+    return pa.concat_tables(datasets.load(x).replace_schema_metadata() for x in LEARNED)

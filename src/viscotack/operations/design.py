@@ -185,7 +185,9 @@ def _words(found: Any) -> str:
         words = {"work": "work", "dead_load": "dead load"}.get(name, f"force to {name}")
         lines.append(f"d ln P/d ln x of the {words}: {known}")
     if found.front:
-        lines.append(f"front of {len(found.front)} designs, none better in every target: --front")
+        lines.append(
+            f"the output front has {len(found.front)} designs, none better in every target"
+        )
     return "\n".join([*lines, *(_limit_words(each) for each in found.excluded), *_apart(found)])
 
 

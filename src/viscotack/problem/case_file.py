@@ -274,27 +274,36 @@ def _body(table: Table, kind: Any, material: Material) -> Any:
     return table.make(Layer, **table.numbers(Layer), base=base)
 
 
-def shift_deviation(
-    path: str | os.PathLike[str],
+def passport_of_tables(
+    tables: Mapping[str, Any],
     *,
+    where: Path | str = "the case",
     temperature: float | None = None,
     also: Iterable[Any] = (),
-) -> float:
-    """Return the uncertainty of the times of a case's material, from its temperature shift.
+    beside: Callable[[str], Path] | None = None,
+) -> tuple[Passport | None, float]:
+    """Return the passport of a case's material at its temperature, and the doubt of its shift.
 
-    The parameters are those of :func:`read_case`, which has checked the file.
+    The parameters are those of :func:`case_of_tables`, which has checked the tables.
 
     Returns
     -------
-    float
+    passport : Passport or None
+        Moved to the temperature of the case; None if numbers define the material.
+    deviation : float
         Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
     """
-    path = Path(path)
-    table = Table(path, "material", read_toml(path), path.parent.joinpath)
+    table = Table(where, "material", tables, beside)
     if "passport" not in table.values:
-        return 0.0
-    passport, stated = _passport(table, known(also), temperature)
-    return 0.0 if stated is None else passport.shift_deviation(stated)
+        return None, 0.0
+    return moved(*_passport(table, known(also), temperature))
+
+
+def moved(passport: Passport, temperature: float | None) -> tuple[Passport, float]:
+    """Return a passport at a temperature [K], and the standard deviation of its log10 a_T."""
+    if temperature is None:
+        return passport, 0.0
+    return passport.moved_to(temperature), passport.shift_deviation(temperature)
 
 
 def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material:

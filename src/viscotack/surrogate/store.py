@@ -96,6 +96,11 @@ def load(path: str | os.PathLike[str]) -> Surrogate:
 def shipped(contact: str = "sphere") -> Surrogate:
     """Return the surrogate of a contact from the package; it is read once.
 
+    Raises
+    ------
+    OSError
+        If its file is damaged or missing, so that the package must be installed again.
+
     Examples
     --------
     >>> shipped().limits["tabor"]
@@ -108,7 +113,12 @@ def shipped(contact: str = "sphere") -> Surrogate:
 
 @cache
 def _shipped(contact: str) -> Surrogate:
-    return load(FILES[contact])
+    try:
+        return load(FILES[contact])
+    except (InputError, FileNotFoundError) as error:
+        # no refusal of a question: the installation is broken
+        words = "a file of viscotack is damaged; install viscotack again"
+        raise OSError(f"{words} ({error})") from None
 
 
 def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:

@@ -1,21 +1,15 @@
 """The theory of a crack at the edge, learned: cases, answers, networks.
 
-``python -m training.short_range --out DIR [--keep]``. Solids are drawn from a Sobol
-sequence of modulus ratio and exponent; of each the cracks are solved once, and some cases with
-other Tabor numbers, starts and rates are marched at once. Answered solids are kept in the folder,
-so that a run that was stopped goes on. With ``--keep`` the networks of the force are those of the
-package, and only work and curve are learned.
+Solids are drawn from a Sobol sequence of modulus ratio and exponent; of each the cracks are solved
+once, and some cases with other Tabor numbers, starts and rates are marched at once. Answered solids
+are kept in the folder of the shop, so that a run that was stopped goes on. About five minutes.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
 import sys
 from dataclasses import replace
-from datetime import UTC, datetime
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -26,28 +20,32 @@ from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import CrackContact, crack_contacts, unloading
 from viscotack.result.trajectory import POINTS
-from viscotack.surrogate import short_range, store
+from viscotack.surrogate import short_range
 from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, added, from_arrays, together
+from viscotack.surrogate.network import Networks
 from viscotack.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR, Array
 from viscotack.surrogate.short_range import HIGH, LOW, ShortRangeContact
 from viscotack.surrogate.trust import OF
-from viscotack.version import __version__
 
-from .fitting import Fit, Task, fit
-from .recipe import scaled_task
+from .fitting import Fit, Task
+from .refining import Looks, Stage, scaled_task, twice
 from .rows import Rows, of_arrays
 from .scores import errors, labels_of
+from .shop import Shop
 
 # Solids, cases of each, and the part of the solids that no network learns from.
 SOLIDS, CASES, _KEPT = 128, 48, 0.125
 _SEED = 31
-FIRST = Fit((24, 24, 24), steps=2000, scale=0.1, penalty=1e-7)
-SECOND, GAIN = Fit((24, 24, 24), steps=1500, scale=3e-3, penalty=1e-6), 0.03
-STATE = Fit(FIRST.hidden, steps=FIRST.steps, scale=1.0, penalty=1e-8)
-CURVE = Fit((32, 32, 32), steps=2000, scale=1.0, penalty=1e-8)
-LEFT = Fit((24, 24, 24), steps=1500, scale=0.03, penalty=1e-6)
+FORCE = Looks(
+    Fit((24, 24, 24), steps=2000, scale=0.1, penalty=1e-7),
+    Stage(Fit((24, 24, 24), steps=1500, scale=3e-3, penalty=1e-6), 0.03),
+)
+STATE = Fit((24, 24, 24), steps=2000, scale=1.0, penalty=1e-8)
+CURVE = Looks(
+    Fit((32, 32, 32), steps=2000, scale=1.0, penalty=1e-8),
+    Stage(Fit((24, 24, 24), steps=1500, scale=0.03, penalty=1e-6), 0.03),
+)
 _MEMBERS = 2
 # Steps of a curve of the theory at which the networks are compared with it.
 STEPS = 60
@@ -116,47 +114,42 @@ def simulated(folder: Path, count: int, each: int) -> tuple[list[Array], npt.NDA
     return [np.concatenate(x) for x in zip(*found, strict=True)], np.concatenate(number)
 
 
-def forces(tests: Contact, said: Array) -> dict[str, Networks]:
-    """Return networks of the force, and of the energy and zones at the pull-off."""
-    target = np.log10(said[:, :1])
-    force = Task(tests.told, target, np.ones_like(target), (tests.slow, tests.fast))
+def networks(tests: Contact, said: Array, rows: Rows, shop: Shop) -> dict[str, Networks]:
+    """Return networks of the force, of energy and zones at the pull-off, of work and curve.
+
+    Parameters
+    ----------
+    tests : Contact
+    said : ndarray, shape (n, 4)
+        Force, amplification, zones and work.
+    rows : Rows
+        The same tests with their curves.
+    shop : Shop
+        Where networks are fitted.
+    """
+    target, unit = np.log10(said[:, :1]), np.log10(rows.groups[:, TABOR])
+    force, pressed = target[:, 0], rows.start_force > 0
+    known = tests.knowing(force)
+    with_work = np.column_stack([known, np.log10(rows.work)])
+    give = (np.log10(rows.give) - unit)[pressed]
+    of_force = Task(tests.told, target, np.ones_like(target), (tests.slow, tests.fast))
     others = np.column_stack([np.log10(said[:, 1] - 1 + short_range.LEAST), np.log10(said[:, 2])])
     state = scaled_task(tests.told, others)
-    found = []
-    for seed in range(_MEMBERS):
-        one = fit(force, FIRST, seed=seed)
-        left = replace(force, before=one(tests.told)[0], gain=GAIN)
-        found.append(added(one, fit(left, SECOND, seed=seed)))
-    return {"force": together(found), "state": state.of(fit(state.task, STATE, seed=0))}
-
-
-def curves(tests: Contact, rows: Rows) -> dict[str, Networks]:
-    """Return networks of the work, of the travel to zero force and of the shapes of the curve."""
-    force, pressed = np.log10(rows.force), rows.start_force > 0
-    known, unit = tests.knowing(force), np.log10(rows.groups[:, TABOR])
-    with_work = np.column_stack([known, np.log10(rows.work)])
-    work = np.log10(rows.work) - force - unit
-    give = (np.log10(rows.give) - unit)[pressed]
-    works, gives = scaled_task(known, work[:, None]), scaled_task(with_work[pressed], give[:, None])
-    line = scaled_task(with_work, rows.line, rows.known)
-    return {
-        "work": works.of(together([_twice(works.task, seed) for seed in range(_MEMBERS)])),
-        "give": gives.of(_twice(gives.task, 0)),
-        "line": line.of(fit(line.task, CURVE, seed=0)),
+    work = scaled_task(known, (np.log10(rows.work) - force - unit)[:, None])
+    gives, line = (
+        scaled_task(with_work[pressed], give[:, None]),
+        scaled_task(with_work, rows.line, rows.known),
+    )
+    begun = {
+        "force": twice([of_force] * _MEMBERS, FORCE, shop),
+        "work": twice([work.task] * _MEMBERS, CURVE, shop),
+        "give": twice([gives.task], CURVE, shop),
+        "state": shop.fit(state.task, STATE).result,
+        "line": shop.fit(line.task, CURVE.first).result,
     }
-
-
-def _twice(task: Task, seed: int) -> Networks:
-    """Return a network with another of what it leaves over."""
-    one = fit(task, CURVE, seed=seed)
-    left = replace(task, before=one(task.inputs)[0], gain=GAIN)
-    return added(one, fit(left, LEFT, seed=seed))
-
-
-def _shipped() -> dict[str, Networks]:
-    """Return the networks of the force of the file of the package, whatever else it has."""
-    with np.load(store.FILES["short range"], allow_pickle=False) as arrays:
-        return {name: from_arrays(arrays, f"{name}.") for name in ("force", "state")}
+    found = {name: done() for name, done in begun.items()}
+    scaled = {"state": state, "work": work, "give": gives, "line": line}
+    return found | {name: each.of(found[name]) for name, each in scaled.items()}
 
 
 def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict[str, Any]]:
@@ -194,40 +187,22 @@ def measured(made: Surrogate, rows: Rows, steps: Array) -> tuple[Surrogate, dict
     return replace(made, constants={"error": found[:, 1:3]}), cases | scores
 
 
-def main() -> None:
-    """Ask the theory, learn, measure and write."""
-    parser = argparse.ArgumentParser(prog="python -m training.short_range")
-    parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--solids", type=int, default=SOLIDS)
-    parser.add_argument("--keep", action="store_true", help="networks of the force of the package")
-    given = parser.parse_args()
-    began = perf_counter()
-    found, number = simulated(given.out / "solids", given.solids, CASES)
-    known = np.flatnonzero(np.isfinite(found[1]).all(axis=1))
-    groups, said, points, steps = (x[known] for x in found)
+def learned(
+    shop: Shop, *, quick: bool = False
+) -> tuple[Surrogate, tuple[str, ...], dict[str, Any]]:
+    """Return the surrogate of large Tabor numbers with its errors, no sets, and its facts."""
+    count = SOLIDS // 8 if quick else SOLIDS
+    found, number = simulated(shop.folder / "solids", count, CASES)
+    answered = np.flatnonzero(np.isfinite(found[1]).all(axis=1))
+    groups, said, points, steps = (x[answered] for x in found)
     left, force, radius = np.moveaxis(points, 1, 0)
     rows = of_arrays(groups, said[:, 0], said[:, 3], force, radius, left)
     # every so many of a Sobol sequence would be a box of it
-    apart = np.random.default_rng(_SEED).permutation(given.solids)[: round(_KEPT * given.solids)]
-    kept = np.isin(number[known], apart)
-    learned = ~kept
+    apart = np.random.default_rng(_SEED).permutation(count)[: round(_KEPT * count)]
+    kept = np.isin(number[answered], apart)
     made = Surrogate(ShortRangeContact, {}, constants={"error": np.zeros((len(OF), 2))})
-    tests = made.tests(groups[learned])
-    of_force = _shipped() if given.keep else forces(tests, said[learned])
-    made = made.having(**of_force, **curves(tests, rows.chosen(learned)))
+    tests = made.tests(groups[~kept])
+    made = made.having(**networks(tests, said[~kept], rows.chosen(~kept), shop))
     made, scores = measured(made, rows.chosen(kept), steps[kept])
-    facts = {
-        "viscotack": __version__,
-        "made": datetime.now(UTC).date().isoformat(),
-        "solids": given.solids,
-        "cases": len(number),
-        "answered": len(groups),
-        "scores": scores,
-    }
-    store.save(made, given.out / "short_range.npz", facts)
-    print(json.dumps(facts, indent=1))
-    print(f"{perf_counter() - began:.0f} s", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    main()
+    counts = {"solids": count, "cases": len(number), "answered": len(groups)}
+    return made, (), {**counts, "scores": scores}
