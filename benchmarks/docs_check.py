@@ -27,7 +27,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import records  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-# Written whole by a command. Tests compare the first two, and this file the third.
+# Written whole by a command. Tests compare the first two, and this file the third; the last needs
+# checkouts of public repositories: `public_files.py FOLDER... --compare docs/public-files.md`.
 WHOLE = ("replication.md", "gallery.md", "verification.md", "public-files.md")
 # Half a minute each, and what needs their files.
 SLOW = ("viscotack identify rates", "viscotack forecast", "viscotack report")

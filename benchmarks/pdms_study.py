@@ -19,7 +19,7 @@ from viscotack.lab.tack import Measured
 from viscotack.materials.library import published
 
 sys.path.insert(0, str(Path(__file__).parent))
-from slow_test_error import read_as_slow  # noqa: E402, a script beside this one
+from slow_test_error import read_as_slow, told  # noqa: E402, a script beside this one
 
 RADIUS, WORK, PRELOAD = 5.19e-3, 0.1523, 1.5e-3
 SPEEDS = np.array([1.0, 10.0, 100.0, 1000.0]) * 1e-6
@@ -79,15 +79,8 @@ def main():
         records.write("pdms_study", {"table": lines})
     for speed in (1e-9, 0.98e-6):
         tabor, fit = read_as_slow(speed, models=("maugis", "carpick"))
-        read = "; ".join(f"{one.model} {_tabor(one)}" for one in fit.fits)
+        read = "; ".join(f"{one.model} {told(one)}" for one in fit.fits)
         print(f"{1e6 * speed:.3g} um/s, Tabor number {tabor:.3g}, fitted as elastic: {read}")
-
-
-def _tabor(one):
-    ends = one.intervals.get("tabor")
-    if ends is None or not ends.closed_above:
-        return "cannot tell it" if ends is None else f"above {ends.low:.2g}"
-    return f"{one.tabor:.2g} ({ends.low:.2g} to {ends.high:.2g})"
 
 
 if __name__ == "__main__":

@@ -73,11 +73,13 @@ def record():
 
 
 def told(one):
-    """Return the Tabor number that a fit reads, or above which it lies."""
+    """Return the Tabor number that a fit reads, with its interval, or above which it lies."""
     ends = one.intervals.get("tabor")
-    if ends is None or ends.closed_above:
-        return "not told" if ends is None else f"{one.tabor:.2g}"
-    return f"above {ends.low:.2g}"
+    if ends is None:
+        return "not told"
+    if not ends.closed_above:
+        return f"above {ends.low:.2g}"
+    return f"{one.tabor:.2g} ({ends.low:.2g} to {ends.high:.2g})"
 
 
 def main():

@@ -57,7 +57,7 @@ extensions += (
     ]
 )
 
-myst_enable_extensions = ["deflist"]
+myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 4
 # Blocks typed into a terminal are not highlighted as sessions: they have no prompt.
 highlight_language = "none"
@@ -177,6 +177,12 @@ def describe(app, name, template, context, doctree):
         context["metatags"] += f'<meta name="description" content="{escape(words)}">\n'
 
 
+def pack_examples(app, error):
+    """Write the archive of the examples, which pages link, into the site."""
+    if error is None and app.builder.format == "html":
+        example_pages.pack(Path(app.outdir) / "examples.zip")
+
+
 def leave_out(app, kind, name, member, skip, options):
     """Whether to leave out a field of a named tuple: the docstring of its class has it."""
     return True if type(member).__name__ == "_tuplegetter" else None
@@ -196,6 +202,7 @@ def setup(app):
     """Have the reference written before Sphinx looks for pages."""
     app.connect("config-inited", write_reference)
     app.connect("html-page-context", describe)
+    app.connect("build-finished", pack_examples)
     if not PAGES_ALONE:
         app.connect("autodoc-skip-member", leave_out)
         app.connect("autodoc-process-docstring", with_imports)

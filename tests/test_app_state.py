@@ -72,7 +72,9 @@ def test_the_command_line_says_the_accuracy_and_how_far():
     assert "accuracy=0.005, until='pull-off'" in State(FIRST).python(
         accuracy=0.005, until="pull-off"
     )
-    assert "--" not in State(FIRST).command()
+    # two lines that every shell reads, for the case file that is saved beside them
+    commands = "viscotack simulate case case.toml\nviscotack predict case.toml\n"
+    assert State(FIRST).command() == commands
 
 
 @pytest.mark.parametrize(

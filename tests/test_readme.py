@@ -229,6 +229,13 @@ def test_numbers_of_the_pages_are_those_of_their_sources():
     assert wrong == [], "run: python benchmarks/docs_check.py --write"
 
 
+def test_stated_records_have_only_what_pages_quote():
+    text = "".join(page.read_text("utf-8") for page in docs_check.PAGES)
+    for path in sorted((records.FOLDER / "stated").glob("*.json")):
+        unused = [x for x in records._values(path) if f"<!-- = {path.stem}.{x} -->" not in text]
+        assert unused == [], path.name
+
+
 @pytest.fixture
 def recorded(tmp_path, monkeypatch):
     """Return a page that quotes a record of its own."""

@@ -314,6 +314,7 @@ def _at_temperature(
     """Return a material at a temperature, its E0* with uncertainty if known, and a remark."""
     if not isinstance(given, Passport):
         return given, None, []
+    given.refuse_liquid("no test is slow, because the solid does not relax")
     remarks = assumed_temperature(given, () if temperature is None else (temperature,))
     if temperature is not None and given.temperature is not None:
         given = given.moved_to(temperature)

@@ -37,8 +37,8 @@ class IdentifySlow(Operation):
     JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
     against depth, and compared by an information criterion; intervals are profile likelihoods.
     The answer states which parameters the data do not determine. If the test is not slow, the work
-    is an upper bound and the answer says so; with --material it compares the test with the force
-    that `viscotack advise` gives for it.
+    is an upper bound, with the reason; with --material the test is compared with the force that
+    `viscotack advise` gives for it.
 
     Example: viscotack identify slow lens_1um_s.csv --radius "5.19 mm"
     --contact-modulus "1.94 MPa" --contact-modulus-uncertainty "0.06 MPa" --plot slow.png

@@ -108,14 +108,10 @@ class State:
         return "\n".join(lines)
 
     def command(self, *, accuracy: float = DEFAULT_ACCURACY, until: str = "detached") -> str:
-        """Return the command lines that simulate it, with the file they need."""
+        """Return the command lines that simulate and predict it, once it is saved as case.toml."""
         flags = "" if accuracy == DEFAULT_ACCURACY else f" --accuracy {accuracy!r}"
         flags += "" if until == "detached" else f" --until {until}"
-        return (
-            f"cat > case.toml <<'END'\n{self.toml}END\n"
-            f"viscotack simulate case case.toml{flags}\n"
-            "viscotack predict case.toml\n"
-        )
+        return f"viscotack simulate case case.toml{flags}\nviscotack predict case.toml\n"
 
     def python(self, *, accuracy: float = DEFAULT_ACCURACY, until: str = "detached") -> str:
         """Return the Python that simulates it, with every digit."""

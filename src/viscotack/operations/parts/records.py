@@ -165,7 +165,8 @@ def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) 
             "sha256": one.record.source.sha256,
             "format": one.record.source.format,
             "cycles": [
-                cycle_row(cycle, radius, law) | {"notes": list(cycle.source.notes)}
+                cycle_row(cycle, radius, law)
+                | {"notes": list(cycle.source.notes), "cautions": list(cycle.cautions)}
                 for cycle in one.cycles
             ],
             "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
@@ -237,8 +238,12 @@ def rates_record(fit: Any) -> dict[str, Any]:
 
 def forecast_rows(forecast: Any) -> list[dict[str, float]]:
     """Return a row for each speed of a forecast."""
-    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
-    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
+    found = [forecast.speed, forecast.force, forecast.low, forecast.high]
+    names = ["speed_m_s", "pull_off_force_N", "low_N", "high_N"]
+    if forecast.low_of_one is not None:
+        found += [forecast.low_of_one, forecast.high_of_one]
+        names += ["low_of_one_test_N", "high_of_one_test_N"]
+    columns = zip(*found, strict=True)
     return [dict(zip(names, map(float, row), strict=True)) for row in columns]
 
 
