@@ -152,3 +152,14 @@ def test_warnings_appear_again_after_two_threads_caught_them():
             left = [found.result(), other.result()]
         warnings.warn("later", stacklevel=1)
     assert left == [["of True"], ["of False"]]
+
+
+def test_errors_have_the_bases_that_the_page_on_embedding_states():
+    assert issubclass(vt.InputError, ValueError)
+    assert issubclass(vt.OutOfRange, vt.InputError)
+    assert issubclass(vt.NotInstalled, vt.InputError)
+    assert issubclass(vt.NotInstalled, ModuleNotFoundError)
+    assert issubclass(vt.SimulationError, RuntimeError)
+    for ask in (vt.solve, vt.predict, vt.crack_contact):
+        with pytest.raises(TypeError, match="read_case"):
+            ask("lens.toml")

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .design import find_design as find_design
     from .design import read_design as read_design
     from .errors import InputError as InputError
+    from .errors import NotInstalled as NotInstalled
     from .errors import OutOfRange as OutOfRange
     from .forecast import Advice as Advice
     from .forecast import Estimate as Estimate
@@ -144,7 +145,7 @@ if TYPE_CHECKING:
 # Module -> its public names, in the order in which data flow.
 _NAMES = {
     "units": ("parse",),
-    "errors": ("InputError", "OutOfRange"),
+    "errors": ("InputError", "OutOfRange", "NotInstalled"),
     "cards": ("Quantity",),
     "traction": (
         "Dugdale",

@@ -9,8 +9,10 @@ TOO_LARGE = "a number is too large or too small to compute with; check its unit"
 class InputError(ValueError):
     """Invalid input: the message states the problem, the value with its unit, and a remedy.
 
-    Any other exception raised by the package, except an error of the operating system or a
-    missing library, is a defect.
+    It is a `ValueError`. Its subclasses are `OutOfRange` and `NotInstalled`, which is an
+    `ImportError` too. Others are `SimulationError`, a `RuntimeError`, for a simulation that stopped
+    early; `TypeError` for an argument of the wrong kind; and `OSError` of the operating system. Any
+    other exception raised by the package is a defect.
     """
 
 

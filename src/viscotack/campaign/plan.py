@@ -262,7 +262,7 @@ def _of_problem(
 
 
 def _check_own(problem: Any, settings: CaseSettings) -> None:
-    """Refuse a problem of the user's own classes without the files that define them."""
+    """Refuse a problem of user-defined classes without the files that define them."""
     try:
         from_dict(to_dict(problem), settings.nouns())
     except InputError as error:

@@ -103,6 +103,8 @@ def solve(
         of the problem is out of range.
     SimulationError
         If the run stops before its end and `throw` is True.
+    TypeError
+        If the problem is neither a Problem nor Groups, such as the name of a file.
 
     Notes
     -----
@@ -125,6 +127,11 @@ def solve(
     >>> f"{pull_off_force(result):.2f}"
     '7.33'
     """
+    if not isinstance(problem, Problem | Groups):
+        raise TypeError(
+            f"solve needs a Problem or Groups, got {problem!r}; for a file use "
+            "viscotack.read_case(path)"
+        )
     if until not in _UNTIL:
         raise InputError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
     began = perf_counter()

@@ -522,7 +522,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     Returns
     -------
     Result
-        Equal to the one that was saved.
+        With equal problem, arrays, status and versions; ``==`` of results compares identity.
 
     Raises
     ------
