@@ -11,7 +11,8 @@ counts as far as it knows itself: its stated error is taken off. One or two seco
 `python -m benchmarks.adversary --by disagreement --labels FOLDER [--cases 40] [--seed 1]
 [--designs punches ...]`: of 4,000 drawn cases of each design of `training/fresh_cases.py`, it
 simulates those that surrogates answer and in which the second networks differ most, in half widths
-of the interval of force or work.
+of the interval of force or work. With --write numbers of cases and the worst go into the records
+that docs/surrogate.md quotes.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import physics, punch_physics, store
 from viscotack.surrogate.model import Surrogate
 
+from . import records
 from .fresh_coverage import judged
 from .judging import words, worst
 
@@ -182,9 +184,11 @@ def suspects(design: str, count: int, seed: int) -> list[Case]:
     return [case for _, case in sorted(found, key=lambda pair: -pair[0])[:count]]
 
 
-def by_disagreement(labels: Path, designs: list[str], count: int, seed: int) -> None:
-    """Simulate the suspects of each design and print the worst."""
-    found = []
+def by_disagreement(
+    labels: Path, designs: list[str], count: int, seed: int
+) -> dict[str, dict[str, float]]:
+    """Simulate the suspects of each design, print the worst, and return what to record."""
+    found, said = [], {}
     for design in designs:
         cases = suspects(design, count, seed)
         known = labelled(cases, labels, 2e-4)
@@ -196,8 +200,10 @@ def by_disagreement(labels: Path, designs: list[str], count: int, seed: int) -> 
             f"interval; worst {off.max():.1f} half widths",
             flush=True,
         )
+        said[f"disagreement, {design}"] = {"cases": len(some), "worst": float(off.max())}
     for one in worst(found):
         print(words(one))
+    return said
 
 
 def main() -> None:
@@ -209,12 +215,16 @@ def main() -> None:
     parser.add_argument("--punch", action="store_true", help="of a punch on a layer")
     parser.add_argument("--by", choices=("evolution", "disagreement"), default="evolution")
     parser.add_argument("--labels", type=Path, help="folder of the labels of disagreement")
+    parser.add_argument("--write", action="store_true", help="into the records")
     parser.add_argument("--designs", nargs="+", choices=tuple(COUNTS), default=list(COUNTS))
     given = parser.parse_args()
     if given.by == "disagreement":
         if given.labels is None:
             parser.error("--by disagreement needs --labels")
-        return by_disagreement(given.labels, given.designs, given.cases, given.seed)
+        said = by_disagreement(given.labels, given.designs, given.cases, given.seed)
+        if given.write:
+            records.write("adversary", said)
+        return
     of: Of = OfPunch if given.punch else OfSphere
     random = np.random.default_rng(given.seed)
     done: list[tuple[float, list[float]]] = []
@@ -239,6 +249,9 @@ def main() -> None:
                 file.write(json.dumps(done[-1]) + "\n")
     off = np.array([each for each, _ in done if each >= 0])
     print(f"{len(off)} simulated; {np.mean(off > 1):.0%} beyond their interval")
+    if given.write:
+        name = "punch" if given.punch else "sphere"
+        records.write("adversary", {name: {"cases": len(off), "worst": float(off.max())}})
     print("worst, half widths, and its case:")
     for each, row in sorted(done, reverse=True)[:5]:
         words = ", ".join(f"{n} {x:.4g}" for n, x in zip(of.inputs, row, strict=True))

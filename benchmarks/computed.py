@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,10 @@ import numpy as np
 from steady_crack import LAWS, SPEEDS, standard
 
 from viscotack import datasets as sets
+from viscotack.forecast import predict
 from viscotack.operations.parts.library import library_table
+from viscotack.problem.case_file import case_of_tables
+from viscotack.protocol import AtForce, Retraction
 from viscotack.theory import SteadyCrack, lennard_jones, maugis, punch
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -33,6 +38,32 @@ def steady_crack() -> list[str]:
         f"| opening | {' | '.join(f'{x:.{_decimals(x)}f}' for x in opening)} |",
         f"| closing | {' | '.join(f'{x:.4f}' for x in closing)} |",
     ]
+
+
+def shore() -> list[str]:
+    """Return Young's moduli by Shore A hardness, by Gent's relation."""
+    S = np.arange(20, 81, 10)
+    E = 0.0981 * (56 + 7.62336 * S) / (0.137505 * (254 - 2.54 * S))
+    return [
+        f"| Shore A | {' | '.join(map(str, S))} |",
+        "|---" * (len(S) + 1) + "|",
+        f"| E, MPa | {' | '.join(f'{x:.2f}' for x in E)} |",
+    ]
+
+
+def gripper_tip() -> list[str]:
+    """Return pull-off forces of the tip of docs/grippers.md [mN], a row for each preload."""
+    words = re.search(r"```toml\n(.*?)```", (ROOT / "docs/grippers.md").read_text("utf-8"), re.S)
+    assert words is not None, "the page states the tip"
+    tip = case_of_tables(tomllib.loads(words[1]))
+    speeds, preloads = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2), (1e-4, 5e-3, 0.1)
+    rows = ["| preload, mN | 1 um/s | 10 um/s | 100 um/s | 1 mm/s | 10 mm/s |", "|---:" * 6 + "|"]
+    for preload in preloads:
+        pulls = (Retraction(AtForce(preload), speed) for speed in speeds)
+        forces = [predict(replace(tip, protocol=pull)).pull_off_force for pull in pulls]
+        unit = 1e3 * tip.scales().force
+        rows.append(f"| {1e3 * preload:g} | {' | '.join(f'{unit * x:.2f}' for x in forces)} |")
+    return rows
 
 
 def punch_envelope() -> list[str]:
@@ -191,6 +222,8 @@ COMPUTED: dict[str, Any] = {
     function.__name__: function
     for function in (
         steady_crack,
+        shore,
+        gripper_tip,
         punch_envelope,
         published,
         verification,

@@ -44,10 +44,12 @@ SAVED = (
     re.compile(r"```(?:python|toml)\n# (\w+\.(?:py|toml))\n(.*?)```", re.DOTALL),
     re.compile(r"`(\w+\.json)`[^\n]*\n\n```json\n(.*?)```", re.DOTALL),
 )
+TYPED = ("viscotack ", "python -m viscotack", "python -m pip install ", "curl ")
 SERVER = "localhost:8642"
 # What a folder with the examples and an installed package do not have.
 ELSEWHERE = {
     r"tcp://|tls://": "a cluster",
+    r"pip install (-e|\S* ?FOLDER|.*viscotack)": "what this script installs itself",
     r"api/jobs/ID\b": "the name of a job",
     r"viscotack\.datasets \w": "twenty minutes of simulations",
     r"(?m)^(from|import) (benchmarks|replication|training)\b": "a checkout",
@@ -94,7 +96,7 @@ def steps(page: str) -> Iterator[Step]:
             if found := INSTALL.search(line):
                 extra = found[1]
             command = line.removeprefix("$ ")
-            if command.startswith(("viscotack ", "python -m viscotack", "curl ")):
+            if command.startswith(TYPED) and not found:
                 yield Step(extra, command)
 
 
@@ -110,7 +112,7 @@ def environment(folder: Path, release: Path, extra: str) -> Path:
     uv, programs = shutil.which("uv"), folder / "bin"
     if (folder / "installed").exists():
         return programs
-    venv.create(folder, with_pip=not uv, clear=True)
+    venv.create(folder, with_pip=True, clear=True)
     python = programs / "python"
     pip = [uv, "pip", "install", "--python", python] if uv else [python, "-m", "pip", "install"]
     name = f"viscotack[{extra}]" if extra else "viscotack"

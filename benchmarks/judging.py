@@ -50,6 +50,7 @@ NEEDED = dict.fromkeys(FAMILIES, _SPHERES) | {
     "large Tabor numbers": ("sphere", "short range"),
     "punches": ("punch",),
     "soft punches": ("punch",),
+    "shallow soft punches": ("punch",),
     "stamps": ("punch",),
 }
 _COLUMNS = ("design", "kind", "inputs", "method", *(f"{x}, half widths" for x in OF))

@@ -641,8 +641,8 @@ PAGE = """# Public files, and how they are read
 
 Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco, RHEOS and of thirteen smaller
 repositories was read by `viscotack.lab` and compared with an independent parse. This command, given
-checkouts of the repositories, measures and writes the page; `--compare FILE` compares the rows of some
-of them with a page, and `--names FILE` writes the outcome of each file as CSV:
+checkouts of the repositories, measures and writes the page; `--compare FILE` compares the rows of
+some of them with a page, and `--names FILE` writes the outcome of each file as CSV:
 
 ```console
 python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\

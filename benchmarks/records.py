@@ -70,7 +70,7 @@ _INPUT = rf"(?:{_NAMES})(?:[ ](?:=|of|from|above|below|between|at|up[ ]to|beyond
 _FORMS = re.compile(
     rf"""(?mx)
     \b(?:Eqs?|Figs?|Secs?|Tables?|Figures?|Sections?|[Cc]hapter|[Pp]art|[Vv]ersions?|Python|FMI|ISO
-       |IR|SciPy|pymoo|uPlot|NiceGUI|Runtime|HTTP|API|SHA|UTF|Latin)s?[.]?[- ]\d[\d.]*
+       |IR|SciPy|pymoo|uPlot|NiceGUI|Octave|Runtime|HTTP|API|SHA|UTF|Latin)s?[.]?[- ]\d[\d.]*
        (?:(?:,|[ ]and|[ ]to)[ ]\d[\d.]*)*
     | \((?:[^()\n]*[ ,])?(?:18|19|20)\d\d(?:;[^()\n]*)?\) | [A-Z]\w+,?[ ](?:18|19|20)\d\d\b
     | \b\d{{4}}-\d\d-\d\d\b | \b(?:doi|arXiv):\S+ | \b\d+[ ]x[ ]\d+\b

@@ -1,12 +1,12 @@
 """How far predictions jump where the range of the surrogate of simulations ends.
 
-`python benchmarks/seam.py [--count 400] [--seed 9] [--judged 30]`: spheres on power laws just below
-and above a Tabor number of 10, where the surrogate of the crack theory begins, other inputs even in
-the logarithm in both ranges; and on both sides of the ends of the range beyond which it is
-extrapolated. Prints the share that both sides answer, the jumps of force and work, and how often
-the two intervals do not overlap. `--judged` simulates so many cases at Tabor numbers of 10 to 20, a
-second each, and prints the errors of the force with and without the factor that makes it
-continuous.
+`python benchmarks/seam.py [--count 400] [--seed 9] [--judged 30] [--write]`: spheres on power laws
+just below and above a Tabor number of 10, where the surrogate of the crack theory begins, other
+inputs even in the logarithm in both ranges; and on both sides of the ends of the range beyond which
+it is extrapolated. Prints the share that both sides answer, the jumps of force and work, and how
+often the two intervals do not overlap. `--judged` simulates so many cases at Tabor numbers of 10 to
+20, a second each, and prints the errors of the force with and without the factor that makes it
+continuous. `--write` puts the largest jumps into the records that docs/surrogate.md quotes.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import argparse
 from collections.abc import Iterator
 
 import numpy as np
+import records
 
 from viscotack import OutOfRange, predict, pull_off_force, solve
 from viscotack.campaign.columns import KINDS
@@ -49,12 +50,16 @@ def at_end(name: str, end: int, count: int, seed: int) -> Iterator[tuple[dict[st
         yield tuple(inputs | {name: limit * (1 + side * outward * _BESIDE)} for side in (-1, 1))
 
 
-def jumps(name: str, end: int, count: int, seed: int) -> str:
-    """Return how far force and work jump at an end of the range, in words."""
+def jumps(name: str, end: int, count: int, seed: int) -> tuple[str, str]:
+    """Return how far force and work jump at an end of the range, in words and as a line of a table.
+
+    The line has the largest jumps.
+    """
     pairs = [tuple(map(_said, pair)) for pair in at_end(name, end, count, seed)]
     both = [(a, b) for a, b in pairs if a is not None and b is not None]
     inside, limit = sum(a is not None for a, _ in pairs), physics.LIMITS[name][end]
     words = [f"{name} {limit:g}: {inside} of {count} answered inside, {len(both)} on both sides"]
+    cells = [f"{name.replace('_', ' ')} {limit:g}", f"{inside}, {len(both)}"]
     for number, interval in (
         ("pull_off_force", "interval"),
         ("work_to_pull_off", "work_interval"),
@@ -66,15 +71,17 @@ def jumps(name: str, end: int, count: int, seed: int) -> str:
         ]
         if not known:
             words.append(f"{number}: never on both sides")
+            cells.append("not given beyond")
             continue
         (inner, low, high), (outer, least, most) = np.array(known).transpose(1, 2, 0)
         jump, apart = np.abs(outer / inner - 1), np.maximum(low, least) > np.minimum(high, most)
+        cells.append(f"{jump.max():.2%}")
         words.append(
             f"{number}, {len(known)}: jump of {np.median(jump):.2%} in the median, "
             f"{np.quantile(jump, 0.9):.2%} in nine of ten, {jump.max():.2%} at most; intervals "
             f"that do not overlap: {apart.sum()}"
         )
-    return "; ".join(words)
+    return "; ".join(words), f"| {' | '.join(cells)} |"
 
 
 def errors(count: int, seed: int) -> str:
@@ -114,9 +121,13 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=400)
     parser.add_argument("--seed", type=int, default=9)
     parser.add_argument("--judged", type=int, default=0)
+    parser.add_argument("--write", action="store_true", help="the table, into the records")
     given = parser.parse_args()
-    for name, end in ENDS:
-        print(jumps(name, end, given.count, given.seed))
+    found = [jumps(name, end, given.count, given.seed) for name, end in ENDS]
+    print("\n".join(words for words, _ in found))
+    if given.write:
+        head = "| end | answered inside, on both sides | largest jump: force | work |"
+        records.write("seam", {"table": [head, "|---|---|---:|---:|", *(row for _, row in found)]})
     if given.judged:
         print(errors(given.judged, given.seed))
 

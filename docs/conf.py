@@ -57,7 +57,7 @@ extensions += (
     ]
 )
 
-myst_enable_extensions = ["deflist"]
+myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 4
 # Blocks typed into a terminal are not highlighted as sessions: they have no prompt.
 highlight_language = "none"

@@ -93,7 +93,10 @@ def test_a_simulation_is_a_job_whose_curve_grows_and_whose_digits_are_those_of_s
     assert drawn["profiles"][0].keys() == {"step", "radius", "gap", "pressure", "flank"}
     later = ask("GET", f"/api/jobs/{found['id']}", params={"points_from": 10}).json()
     assert later["points"] == found["points"][10:]
-    assert ask("DELETE", f"/api/jobs/{found['id']}").status_code == 200
+    told = ask("DELETE", f"/api/jobs/{found['id']}")
+    # what was read is not sent again
+    assert told.status_code == 200 and told.json()["state"] == "done"
+    assert (told.json()["answer"], told.json()["points"]) == (None, [])
     assert ask("GET", f"/api/jobs/{found['id']}").status_code == 404
 
 

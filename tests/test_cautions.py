@@ -9,7 +9,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.forecast import cautions
+from viscotack.forecast import cautions_on
 from viscotack.materials.library import published
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import write_passport
@@ -64,34 +64,34 @@ def test_the_frequency_is_the_speed_of_the_simulated_edge_over_its_zone():
     crack = SteadyCrack(RUBBER, vt.LennardJones(1.0, 1.0))
     energy = float(crack.amplification(speed * 0.01 / unit))
     expected = speed / (0.75 * unit * energy)
-    (words,) = cautions(problem, passport=measured(1e-6, 1e-5))
+    (words,) = cautions_on(problem, passport=measured(1e-6, 1e-5))
     assert stated(words) == pytest.approx(expected, rel=0.15)
     assert "'rubber' was measured from" in words
 
 
 def test_frequencies_inside_the_measured_range_have_no_caution():
-    (words,) = cautions(lens(), passport=measured(1e-6, 1e-5))
+    (words,) = cautions_on(lens(), passport=measured(1e-6, 1e-5))
     here = stated(words)
-    assert cautions(lens(), passport=measured(here / 1.1, here * 1.1)) == ()
-    assert cautions(lens(), passport=measured(here * 1.1, here * 10))
-    assert cautions(lens()) == ()
-    assert cautions(lens(), passport=replace(measured(1, 2), frequencies=None)) == ()
+    assert cautions_on(lens(), passport=measured(here / 1.1, here * 1.1)) == ()
+    assert cautions_on(lens(), passport=measured(here * 1.1, here * 10))
+    assert cautions_on(lens()) == ()
+    assert cautions_on(lens(), passport=replace(measured(1, 2), frequencies=None)) == ()
 
 
 def test_groups_and_other_contacts_have_the_same_frequency():
     problem, passport = lens(), measured(1e-6, 1e-5)
-    (words,) = cautions(problem, passport=passport)
-    assert cautions(problem.groups(), passport=passport) == (words,)
+    (words,) = cautions_on(problem, passport=passport)
+    assert cautions_on(problem.groups(), passport=passport) == (words,)
     # a spring has no closed form; its edge is that of a steady crack
     spring = replace(problem, protocol=replace(problem.protocol, stiffness=1e9))
-    (other,) = cautions(spring, passport=passport)
+    (other,) = cautions_on(spring, passport=passport)
     assert stated(other) == pytest.approx(stated(words), rel=0.15)
 
 
 def test_a_fast_edge_is_faster_than_linear_theory_holds():
-    (words,) = cautions(lens(1e-3))
+    (words,) = cautions_on(lens(1e-3))
     assert "Above 100 um/s" in words and words in vt.advise(lens(1e-3)).sentences
-    assert cautions(lens(1e-3).groups()) == ()
+    assert cautions_on(lens(1e-3).groups()) == ()
 
 
 def test_every_command_has_the_cautions(tmp_path, capsys):
@@ -101,7 +101,7 @@ def test_every_command_has_the_cautions(tmp_path, capsys):
         ("vhb-4910", "10 um/s", "measured from 0.318 to 194 mHz"),
     ):
         case.write_text(CASE.format(name, speed))
-        found = cautions(vt.read_case(case), passport=published(name))
+        found = cautions_on(vt.read_case(case), passport=published(name))
         assert any(word in words for words in found)
         for command in ("predict", "advise"):
             assert exit_status([command, str(case), "--json"]) == 0

@@ -12,7 +12,7 @@ from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import methods
 from viscotack.app.cli import reading
-from viscotack.forecast import cautions
+from viscotack.forecast import cautions_on
 from viscotack.operations.parts import predict_table
 from viscotack.surrogate import physics, store, trust
 from viscotack.units import readable
@@ -85,7 +85,7 @@ def test_flags_and_a_file_give_what_python_gives(lens, capsys):
     for problem, words in ((groups, [*SPHERE, *RATE]), (vt.read_case(lens), [lens])):
         expected = vt.prediction_summary(vt.predict(problem, confidence=0.8))
         assert expected["inside"]
-        expected["cautions"] = list(cautions(problem))
+        expected["cautions"] = list(cautions_on(problem))
         assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
     assert answer(capsys, "sphere", lens) == answer(capsys, lens)
 
@@ -138,7 +138,7 @@ def test_compare_reports_a_missed_interval_and_a_missing_simulation(monkeypatch,
     assert stopped in capsys.readouterr().out
 
 
-def test_a_theory_predicts_outside_the_range_and_is_compared_by_force_alone(capsys):
+def test_a_theory_predicts_outside_the_range_and_is_compared(capsys):
     deep = [*SPHERE, "--rate", "1", "--preload", "600"]
     found = answer(capsys, *deep, "--compare")
     assert found["method"] != "surrogate" and found["inside"] is False
@@ -149,7 +149,7 @@ def test_a_theory_predicts_outside_the_range_and_is_compared_by_force_alone(caps
     assert abs(found["difference"]["pull_off_force"]) < 0.3
     assert call(*deep) == 0
     out = capsys.readouterr().out
-    assert out.startswith("outside of the surrogates: preload is 600 h0") and "work" not in out
+    assert out.startswith("outside of the surrogates: preload is 600 h0") and "work to" not in out
     assert f"by the theory {found['method']!r}" in out
 
 

@@ -119,7 +119,7 @@ def test_the_curve_ends_at_the_stress_and_its_area_is_the_work(made):
     curves = surrogate.curves(rows, said)
     assert curves.force[:, -1] == pytest.approx(-said.pull_off_force, rel=1e-9)
     assert curves.depth[:, 0] == pytest.approx(rows[:, physics.PRELOAD])
-    assert curves.force[:, 0] == pytest.approx(surrogate.relaxed(rows)[0], rel=1e-9)
+    assert curves.force[:, 0] == pytest.approx(surrogate.tests(rows).start[0], rel=1e-9)
     assert np.all(curves.contact_radius <= rows[:, [physics.SIZE]])
     travel = curves.depth[:, 8:9] - curves.depth[:, 8:]
     areas = [
@@ -220,7 +220,7 @@ def test_faster_is_never_weaker():
 def test_the_start_by_stress_is_that_of_its_depth():
     for size, thickness, depth in ((64.85, 3.24, 1.0), (5.0, 300.0, 20.0), (150.0, 0.2, 0.3)):
         rows = np.array([[size, thickness, 0.1, depth, 1.0]])
-        stress = float(shipped().relaxed(rows)[0][0])
+        stress = float(shipped().tests(rows).start[0][0])
         assert shipped().start_depth(size, thickness, force=stress) == pytest.approx(
             depth, rel=2e-3
         )
@@ -373,7 +373,7 @@ def test_a_damaged_or_foreign_file_is_refused(tmp_path):
         with pytest.raises(ValueError, match=words):
             store.load(path)
     whole = store.FILES["punch"].read_bytes()
-    assert len(whole) < 5e5
+    assert len(whole) < 5.5e5
     for content in (b"nothing", whole[: len(whole) // 2], whole[:5000] + b"x" + whole[5001:]):
         path.write_bytes(content)
         with pytest.raises(ValueError, match="not the file of a surrogate|checksum"):

@@ -98,6 +98,7 @@ def anywhere(tmp_path, monkeypatch):
     docs_check.stage(tmp_path)
     save_files_of(OWN, tmp_path)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
 
 
 def test_the_readme_has_one_short_example(anywhere, capsys):
@@ -174,10 +175,12 @@ def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
     checked = [line.split()[1] for line in commands(OWN) if line.startswith("python my_")]
     assert checked == [file for file in files if file.endswith(".py")]
     assert len(checked) == 4
+    stated = iter(re.findall(r"`(\d+ of \d+) checks passed`", OWN.read_text()))
     for file in checked:
         done = subprocess.run([sys.executable, file], cwd=tmp_path, capture_output=True, text=True)
         passed, of = re.search(r": (\d+) of (\d+) checks passed", done.stdout).groups()
         assert passed == of, done.stdout
+        assert next(stated, None) in (f"{passed} of {of}", None)
 
 
 @pytest.mark.slow
@@ -224,6 +227,13 @@ def test_numbers_of_the_pages_are_those_of_their_sources():
     quotes = [(page.name, q) for page in docs_check.PAGES for q in records.quotes(page.read_text())]
     wrong = [(page, q.source, q.difference) for page, q in quotes if not q.agrees]
     assert wrong == [], "run: python benchmarks/docs_check.py --write"
+
+
+def test_stated_records_have_only_what_pages_quote():
+    text = "".join(page.read_text("utf-8") for page in docs_check.PAGES)
+    for path in sorted((records.FOLDER / "stated").glob("*.json")):
+        unused = [x for x in records._values(path) if f"<!-- = {path.stem}.{x} -->" not in text]
+        assert unused == [], path.name
 
 
 @pytest.fixture

@@ -140,7 +140,7 @@ def test_the_curve_ends_at_the_force_and_its_area_is_the_work(made):
     assert curves.force[:, -1] == pytest.approx(-said.pull_off_force, rel=1e-9)
     assert np.all(np.diff(curves.depth, axis=1) <= 0)
     assert np.all(np.diff(curves.force, axis=1) <= 1e-9 * np.abs(curves.force).max(axis=1)[:, None])
-    start, _ = surrogate.relaxed(groups)
+    start, _ = surrogate.tests(groups).start
     assert curves.depth[:, 0] == pytest.approx(groups[:, 3])
     usable = start > -0.99 * said.pull_off_force
     assert curves.force[usable, 0] == pytest.approx(start[usable], rel=1e-9)
@@ -269,12 +269,12 @@ def test_a_start_by_force_or_radius_is_found_again():
     surrogate = shipped()
     for mu, depth in ((0.05, 3.0), (1.0, 0.3), (8.0, 200.0), (8.0, 3.0)):
         groups = np.array([[mu, 0.1, 1.0, depth, 1.0]])
-        force, radius = (float(a[0]) for a in surrogate.relaxed(groups))
+        force, radius = (float(a[0]) for a in surrogate.tests(groups).start)
         assert surrogate.start_depth(mu, force=force) == pytest.approx(depth, rel=1e-4)
         assert surrogate.start_depth(mu, contact_radius=radius) == pytest.approx(depth, rel=1e-4)
     # there the force hardly depends on the depth, so the depth is told less well, but always told
     for mu, depth in itertools.product((6.0, 8.0, 10.0), np.geomspace(0.006, 1.0, 12)):
-        radius = float(surrogate.relaxed(np.array([[mu, 0.1, 1.0, depth, 1.0]]))[1][0])
+        radius = float(surrogate.tests(np.array([[mu, 0.1, 1.0, depth, 1.0]])).start[1][0])
         assert surrogate.start_depth(mu, contact_radius=radius) == pytest.approx(depth, abs=0.1)
     with pytest.raises(ValueError, match="no relaxed start .* contact radius of 1e"):
         surrogate.start_depth(1.0, contact_radius=1e9)
@@ -474,11 +474,13 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_errors_on_test_rows_equal_those_in_the_file():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.calibration import judged, worth
+    from training.calibration import judged
     from training.train_sphere import parted
 
-    found = worth(shipped(), judged(shipped(), parted()[1]))
+    apart = judged(shipped(), parted()[1])
+    widths = np.column_stack(shipped().trust.widths(apart.told, 0.9))
     said = store.facts()["scores"]["kept apart at random"]["all"]
-    for name in ("force", "work"):
-        for what in ("mse_log10", "cover"):
-            assert found[name][what] == pytest.approx(said[name][what], rel=1e-3)
+    for i, name in enumerate(("force", "work")):
+        error = np.abs(apart.error[:, i])
+        assert np.mean(error**2) == pytest.approx(said[name]["mse_log10"], rel=1e-3)
+        assert np.mean(error <= widths[:, i]) == pytest.approx(said[name]["cover"], rel=1e-3)

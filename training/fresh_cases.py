@@ -48,6 +48,7 @@ SOFT_PUNCHES = (
     ((1.0, 200.0), (10.0, 1000.0), (1e-3, 0.02), (0.1, 10.0), (0.1, 100.0)),
     ((1.0, 6.0), (100.0, 1000.0), (1e-3, 5e-3), (1.0, 10.0), (0.1, 4.0)),
 )
+SHALLOW_PUNCHES = (1.0, 4.0), (100.0, 1000.0), (1e-3, 4e-3), (1.5e-3, 0.05), (1.0, 30.0)
 Random = np.random.Generator
 _DIGITS = 8
 # Numbers of cases of each design that measure intervals.
@@ -58,6 +59,7 @@ COUNTS = {
     "two peaks": 300,
     "light tension": 300,
     "soft punches": 400,
+    "shallow soft punches": 100,
 }
 # Largest Tabor number of the design of large ones: beyond it a simulation takes minutes.
 LARGEST = 20.0
@@ -130,12 +132,20 @@ def soft_punch(random: Random) -> Case:
 
     There an adversary found errors of five half widths of earlier intervals.
     """
-    ends = SOFT_PUNCHES[int(random.random() < 0.5)]
+    return _on_soft("soft punches", SOFT_PUNCHES[int(random.random() < 0.5)], random)
+
+
+def shallow_punch(random: Random) -> Case:
+    """Draw a narrow punch on a thick, soft layer from a shallow start: he found works there."""
+    return _on_soft("shallow soft punches", SHALLOW_PUNCHES, random)
+
+
+def _on_soft(design: str, ends: tuple[tuple[float, float], ...], random: Random) -> Case:
     size, thickness, ratio, stress, part = (between(random, *each) for each in ends)
     depth = stress * float(punch_physics.compliance(np.array([[size, thickness]]))[0])
     drawn = (size, thickness, ratio, depth, part * depth)
     inputs = dict(zip(punch_physics.INPUTS, drawn, strict=True))
-    return Case("soft punches", "punch", {"cohesion": 0.05, **inputs})
+    return Case(design, "punch", {"cohesion": 0.05, **inputs})
 
 
 def two_peaks(random: Random) -> Case:
@@ -190,6 +200,7 @@ DESIGNS: dict[str, tuple[int, Callable[[Random], Case]]] = {
     "light tension": (4, light_tension),
     "large Tabor numbers": (5, large_tabor),
     "soft punches": (6, soft_punch),
+    "shallow soft punches": (7, shallow_punch),
 } | {name: (100 + i, partial(of_engineers, name)) for i, name in enumerate(FAMILIES)}
 
 

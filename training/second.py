@@ -11,7 +11,7 @@ Levels of other solids come from fresh cases of another
 seed, from which no network has learned: networks of the reach that know only a half of the cases
 with two maxima are so much worse there that levels from the other half are 1.6 times too large.
 With ``--intervals`` the second networks of the file are kept, and only its intervals are measured
-again; with ``--levels`` only the levels of other solids.
+again.
 """
 
 from __future__ import annotations
@@ -213,18 +213,16 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
     parser.add_argument("--labels", type=Path, required=True, help="folder of the fresh labels")
     parser.add_argument("--intervals", action="store_true", help="keep the second networks")
-    parser.add_argument("--levels", action="store_true", help="only levels of other solids")
     parser.add_argument("--known", action="store_true", help="only cases with a stored label")
     chosen = parser.parse_args()
     path, missing = store.FILES[chosen.contact], not chosen.known
     made = store.load(path)
-    if not chosen.intervals and not chosen.levels:
+    if not chosen.intervals:
         of = learned(chosen.contact, chosen.labels, missing=missing)
         with Shop(chosen.out / "networks") as shop:
             found = fitted(made, of, HOW[chosen.contact], shop)
         made = made.having(second=found)
-    if not chosen.levels:
-        made = measured(made, fresh_apart(made, chosen.labels, missing=missing))
+    made = measured(made, fresh_apart(made, chosen.labels, missing=missing))
     fresh: dict[str, Any] = {"seed": SEED, "counts": fresh_cases.COUNTS}
     if chosen.contact == "solids":
         some = fresh_apart(made, chosen.labels, missing=missing, draw=LEVELS, answered=True)

@@ -106,7 +106,7 @@ def parse(value: str | float, unit: str) -> float:
         )
     number, words = float(match[1]), match[2]
     if words == "" and unit != "1":
-        raise InputError(f"{value!r} has no unit; write for example '{match[1]} {unit}'")
+        raise InputError(f"{value!r} has no unit; write it behind the number, as in '1 {unit}'")
     if words != "":
         number = _converted(value, number, words, unit)
     return finite(repr(value), number, unit)

@@ -266,7 +266,7 @@ def test_a_problem_in_si_is_its_groups():
     assert problem.tabor > 500
     assert found.problem is problem
     assert found.inside
-    assert "measured up to a Tabor number of 200; the error shrinks beyond" in found.why
+    assert "measured up to a Tabor number of 200, extrapolated beyond" in found.why
 
 
 def test_what_the_theory_cannot_answer_is_refused_with_the_reason():

@@ -26,7 +26,7 @@ from .tiers import SOON, THEORIES, TIERS, Tier, best
 
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
 _DMT, _JKR = 0.1, 3.0
-# Effective Tabor number up to which a simulation takes about a second.
+# Range-corrected Tabor number up to which a simulation takes about a second.
 _FAST_TABOR = 15.0
 _SMALL_STRAIN = 0.2
 # Strain of a film up to which linear elasticity is a good approximation.
@@ -42,11 +42,11 @@ class Advice:
     tabor : float
         Tabor number of the relaxed solid.
     effective_tabor, glassy_tabor : float
-        Tabor number by the effective range of the law (the same for Lennard-Jones), and Tabor
-        number of the fast limit, the effective one times k^(1/3).
+        Range-corrected Tabor number, by the effective range of the law (the same for
+        Lennard-Jones), and that of the fast limit, times k^(1/3).
     adhesion : str
-        "jkr" (effective Tabor number above 3, and on a film forces that do not reach through it),
-        "transition" or "dmt" (below 0.1).
+        "jkr" (range-corrected Tabor number above 3, and on a film forces that do not reach through
+        it), "transition" or "dmt" (below 0.1).
     pull_off_force : float or None
         Prediction of :func:`viscotack.predict` with its default budget [1.5 pi R dg0]; None if
         no tier within it is verified for this problem.
@@ -62,8 +62,8 @@ class Advice:
     preload : str
         Effect on the force of pressing to twice that radius: "raises" or "lowers", if the whole
         ``preload_change`` does, or "same"; "any" in quasi-static retraction, where the start has no
-        effect; "unknown" below an effective Tabor number of 1, without a start, and for laws as
-        steep as Dugdale's.
+        effect; "unknown" below a range-corrected Tabor number of 1, without a start, and for laws
+        as steep as Dugdale's.
     preload_change : tuple of float or None
         90 % interval of the relative change of the force by this pressing.
     crack_speed_at_pull_off_m_per_s : float or None
@@ -292,7 +292,7 @@ def _simulated(groups: Groups) -> Estimate:
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high or too_short(groups):
         note = (
-            f"the simulation accepts effective Tabor numbers from {low:g} to {high:g}, for "
+            f"the simulation accepts range-corrected Tabor numbers from {low:g} to {high:g}, for "
             "elastic solids to "
         )
         return Estimate(SIMULATION, None, 2e-3, False, f"{note}{ELASTIC_TABOR:g}")
@@ -395,7 +395,7 @@ def _statements(advice: Advice) -> list[str]:
     simulate = "" if advice.pull_off_force else " No fast tier was verified here: simulate."
     effective = ""
     if abs(advice.effective_tabor / advice.tabor - 1) > 1e-9:
-        effective = f", {advice.effective_tabor:.3g} (effective) for the range of this law"
+        effective = f", {advice.effective_tabor:.3g} (range-corrected) for the range of this law"
     found = [
         f"{words[advice.adhesion]} Tabor number {advice.tabor:.3g}{effective}.",
         f"{words[advice.rate_regime]}{_headline(advice)}{simulate}",

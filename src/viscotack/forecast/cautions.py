@@ -1,4 +1,4 @@
-r"""Cautions: what is known against the material of a prediction, or against linear theory.
+r"""Cautions on the material of a prediction, and on linear theory.
 
 The interval of a prediction is the error of its method. How well material and interface describe
 the real contact is not part of it, and matters more where one of these cautions applies.
@@ -39,8 +39,8 @@ class _Edge(NamedTuple):
     energy: float
 
 
-def cautions(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
-    """Return what is known against a prediction of this problem, as sentences.
+def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
+    """Find the cautions on a prediction of this problem, as sentences.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def cautions(problem: Case, *, passport: Passport | None = None) -> tuple[str, .
     >>> case = Groups(
     ...     tabor=10.0, material=passport.material.reduced(), start=AtDepth(30), rate=1.0
     ... )
-    >>> cautions(case, passport=passport)[0].split(":")[0]
+    >>> cautions_on(case, passport=passport)[0].split(":")[0]
     "'Dragon Skin 30 (platinum silicone of Smooth-On)' was tested at one rate"
     """
     groups = problem.groups()

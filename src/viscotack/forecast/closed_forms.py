@@ -5,9 +5,9 @@ ranges and errors were measured against :func:`viscotack.solve` with power laws 
 modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8 and rates 0.1 to 1e8;
 :mod:`.tiers` rejects other problems.
 A law other than Lennard-Jones is replaced by the one of the same work and strength, at its
-effective Tabor number. The resulting error was measured with exponential laws of decay 0.25 to 3,
-Dugdale's law with falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective
-Tabor numbers 0.1 to 10.
+range-corrected Tabor number. The resulting error was measured with exponential laws of decay 0.25
+to 3, Dugdale's law with falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1,
+range-corrected Tabor numbers 0.1 to 10.
 """
 
 from __future__ import annotations

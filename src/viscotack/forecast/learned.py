@@ -44,13 +44,7 @@ POWER_LAWS = Verified(
     starts=(AtDepth, AtForce, AtRadius),
 )
 # Any linear solid: its creep is compared with that of the training data.
-OTHER_SOLIDS = Verified(
-    shapes=(Sphere,),
-    bodies=(HalfSpace,),
-    laws=(LennardJones,),
-    solids=ANY,
-    starts=(AtDepth, AtForce, AtRadius),
-)
+OTHER_SOLIDS = replace(POWER_LAWS, solids=ANY)
 INSIDE = "every input is in the training range"
 # Tabor number from which the theory of the crack is used as it is.
 _FADED = 20.0
@@ -292,7 +286,7 @@ def _at_seam(asked: Question) -> Array:
         return np.ones(2)
     answers, said = simulated.evaluate(rows), theory.evaluate(rows)
     force_doubtful, work_doubtful = simulated.doubtful(rows, answers)[0].tolist()
-    if force_doubtful or not theory.holds(rows, said)[0]:
+    if force_doubtful or not theory.tests(rows).holds(said)[0]:
         return np.ones(2)
     ratio = np.append(
         answers.pull_off_force / said.pull_off_force,
@@ -315,7 +309,7 @@ def said_of_crack(asked: Question) -> tuple[ShortRangeContact, Answers] | str:
     if not learned.inside(tests).all():
         return "out of the training range of the surrogate of the crack theory"
     said = learned.evaluate(tests)
-    if not learned.holds(tests, said)[0]:
+    if not tests.holds(said)[0]:
         return "the crack theory behind the surrogate does not hold there"
     if elsewhere := not_measured(groups):
         return f"the band of the crack theory was not measured here: {elsewhere}"

@@ -136,13 +136,13 @@ def solve(
         if _too_short(groups, chosen):
             if fields:
                 raise InputError(
-                    "profiles exist for simulations only, and the Tabor number of "
-                    f"{groups.effective_tabor:.4g} is too large to simulate; use fields=False"
+                    "profiles exist for simulations only, and the range-corrected Tabor number "
+                    f"of {groups.effective_tabor:.4g} is too large to simulate; use fields=False"
                 )
             if sensitivities:
                 raise InputError(
-                    "derivatives exist for simulations only, and the Tabor number of "
-                    f"{groups.effective_tabor:.4g} is too large to simulate"
+                    "derivatives exist for simulations only, and the range-corrected Tabor number "
+                    f"of {groups.effective_tabor:.4g} is too large to simulate"
                 )
             return _handed_over(problem, chosen.accuracy, began)
         return simulate(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
 
-# What the intervals of a prediction leave out.
+# Meaning of the intervals of a prediction.
 OF_METHOD = "Intervals are the error of the method; material and interface are taken as given."
 # What a simulation would only repeat.
 _SAID_ONCE = (
@@ -133,7 +133,7 @@ class Predict(Operation):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import cautions, predict
+        from viscotack.forecast import cautions_on, predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
@@ -158,7 +158,7 @@ class Predict(Operation):
                     "--plot, or simulate"
                 )
             result = _simulated(self.problem.problem) if self.compare else None
-        warned = cautions(found.problem, passport=self.problem.passport)
+        warned = cautions_on(found.problem, passport=self.problem.passport)
         record = prediction_summary(found) | {"cautions": list(warned)}
         if result is not None:
             record |= _comparison(found, result)
@@ -235,7 +235,7 @@ class Advise(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
         from viscotack.forecast.advice import advise
-        from viscotack.forecast.cautions import cautions
+        from viscotack.forecast.cautions import cautions_on
 
         problem = self.problem.problem
         if problem.groups().in_plane_strain:
@@ -244,7 +244,7 @@ class Advise(Operation):
                 "viscotack predict answers"
             )
         advice = advise(problem)
-        warned = cautions(problem, passport=self.problem.passport)
+        warned = cautions_on(problem, passport=self.problem.passport)
         # the sentences of the advice have one of the cautions already
         sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(

@@ -164,7 +164,7 @@ def posed_contact(problem: Problem, settings: Settings) -> PosedContact:
     groups, si = problem.groups(), problem.scales()
     if handover.too_short(groups):
         raise OutOfRange(
-            f"the effective Tabor number of the contact of {problem.geometry} is "
+            f"the range-corrected Tabor number of the contact of {problem.geometry} is "
             f"{groups.effective_tabor:.4g}, too large to simulate"
         )
     contact = contact_of(groups)

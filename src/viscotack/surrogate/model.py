@@ -45,7 +45,7 @@ class Surrogate:
     -----
     Methods accept rows of inputs in the order of ``contact.inputs``, shape (n, inputs); for solids
     other than power laws the output of :func:`.linear_solids.like`; or the :meth:`tests` of these.
-    :meth:`inside` and :meth:`holds` check the training range; the other methods do not.
+    :meth:`inside` checks the training range; the other methods do not.
     """
 
     contact: type[Contact]
@@ -98,10 +98,6 @@ class Surrogate:
         """
         with np.errstate(invalid="ignore", divide="ignore"):
             return self.tests(given).inside()
-
-    def holds(self, given: Any, said: Answers) -> npt.NDArray[np.bool_]:
-        """Return a mask of the tests to which the surrogate applies, shape (n,)."""
-        return self.tests(given).holds(said)
 
     # Evaluation -----------------------------------------------------------------------------
 
@@ -216,10 +212,6 @@ class Surrogate:
 
     # Starts ---------------------------------------------------------------------------------
 
-    def relaxed(self, given: Any) -> tuple[Array, Array]:
-        """Return force and contact radius of the relaxed starts, shape (n,) each."""
-        return self.tests(given).start
-
     def start_depth(
         self, *known: float, force: float | None = None, contact_radius: float | None = None
     ) -> float:
@@ -256,7 +248,7 @@ class Surrogate:
         for look in range(looks):
             rows[:, preload] = np.geomspace(low, high, count)
             # in tension and at large Tabor numbers it rises by less than the error of the networks
-            found = np.maximum.accumulate(self.relaxed(rows)[which])
+            found = np.maximum.accumulate(self.tests(rows).start[which])
             if look == 0 and not found[0] <= wanted <= found[-1]:
                 words = {"wanted": wanted, "least": found[0], "most": found[-1]}
                 what = ("force [1.5 pi R dg0]", "contact radius")[which]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.forecast import cautions, predict
+from viscotack.forecast import cautions_on, predict
 from viscotack.forecast.advice import advice_on, estimates_without_advice
 from viscotack.forecast.closed_forms import Estimate
 from viscotack.forecast.question import Question
@@ -103,7 +103,7 @@ def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, An
         words, estimates = advice.statements, advice.estimates
     except InputError:
         estimates = estimates_without_advice(question)
-    warned = cautions(problem, passport=state.passport)
+    warned = cautions_on(problem, passport=state.passport)
     revolution = not isinstance(problem.geometry, FlatPunch)
     return {
         "numbers": numbers,

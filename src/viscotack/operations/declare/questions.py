@@ -461,6 +461,8 @@ def _refuse_missing(
     if missing:
         of_solid = any(name not in given for name in needs)
         why = f" for --material {solid['material']}" if of_solid else ""
+        if of_solid and "material" not in given:
+            why += ", the one that is taken without --material (sls, elastic and others exist)"
         more = f"; also give {start}" if start else ""
         raise InputError(f"{listed(missing)} missing{why}{more}; see --help")
     if start:
