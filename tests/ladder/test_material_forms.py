@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from viscotack.errors import InputError
 from viscotack.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.materials.conversion import (
     PronyForm,
@@ -16,7 +17,7 @@ from viscotack.materials.conversion import (
     slowed,
 )
 from viscotack.materials.library import published
-from viscotack.materials.passport import Passport
+from viscotack.materials.passport import Evidence, Passport
 from viscotack.materials.shift import WLF
 from viscotack.methods import solve
 from viscotack.problem import Groups
@@ -150,3 +151,13 @@ def test_a_prony_form_holds_as_hard_as_its_power_law(n, k, rate):
 
 def _standard():
     return StandardSolid(rubbery_modulus=E0, glassy_modulus=9e6, tau0=0.3, poisson_ratio=0.4)
+
+
+def test_only_the_passport_of_a_liquid_is_refused_where_contacts_relax():
+    solid = published("pdms-10-1")
+    solid.refuse_liquid("no contact relaxes")
+    said = "this is a liquid: at the slowest point it flows. It has no rubbery plateau"
+    evidence = Evidence(numbers=40, constants=4, level=0.9, undetermined=(said,))
+    melt = Passport(name="melt", material=solid.material, evidence=evidence)
+    with pytest.raises(InputError, match="melt has no rubbery plateau .*: no contact relaxes"):
+        melt.refuse_liquid("no contact relaxes")
