@@ -140,9 +140,9 @@ docs-check: $(VENV)/.installed
 	$(BIN)/python benchmarks/docs_check.py $(if $(WRITE),--write)
 
 # Follows the commands of the pages as a stranger does, in an environment for each extra, from the release folder
-# that `make release` writes; an hour. EXTRA=lab follows those with one extra.
+# that `make release` writes; an hour. EXTRA=lab follows those with one extra. out/follow keeps what is done.
 follow: $(VENV)/.installed
-	$(BIN)/python benchmarks/follow.py $(if $(EXTRA),--extra $(EXTRA))
+	$(BIN)/python benchmarks/follow.py --work out/follow $(if $(EXTRA),--extra $(EXTRA))
 
 # The manuscript: out/paper/html, and out/paper/manuscript.pdf where latexmk and pdflatex are. One minute.
 paper: $(VENV)/.demo

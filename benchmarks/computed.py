@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +17,11 @@ import numpy as np
 from steady_crack import LAWS, SPEEDS, standard
 
 from viscotack import datasets as sets
-from viscotack.theory import SteadyCrack, punch
-from viscotack.theory.crack.steady import best_strength_ratio, compared
+from viscotack.forecast import predict
+from viscotack.operations.parts.library import library_table
+from viscotack.problem.case_file import case_of_tables
+from viscotack.protocol import AtForce, Retraction
+from viscotack.theory import SteadyCrack, lennard_jones, maugis, punch
 
 ROOT = Path(__file__).resolve().parents[1]
 # Versions in the table of costs.
@@ -35,22 +40,30 @@ def steady_crack() -> list[str]:
     ]
 
 
-def other_cracks() -> list[str]:
-    """Return how far closed forms are off the steady crack, a row for each law."""
-    rows = []
-    for name, law in LAWS.items():
-        crack = SteadyCrack(standard(), law)
-        others, (alpha, off) = compared(crack, SPEEDS), best_strength_ratio(crack)
-        spans = [_span(others.off(theory)) for theory in ("persson_brener", "greenwood")]
-        name = name.replace(", ", ", decay ")
-        his = ": it is his crack" if name == "Dugdale" else ""
-        rows.append(f"| {name} | {spans[0]} | {alpha:.3f}, {100 * off:.1f} % | {spans[1]}{his} |")
+def shore() -> list[str]:
+    """Return Young's moduli by Shore A hardness, by Gent's relation."""
+    S = np.arange(20, 81, 10)
+    E = 0.0981 * (56 + 7.62336 * S) / (0.137505 * (254 - 2.54 * S))
     return [
-        "| law | Persson-Brener, α = π/9 | its best α, and off by | Greenwood, length of the "
-        "strength |",
-        "|---|---|---|---|",
-        *rows,
+        f"| Shore A | {' | '.join(map(str, S))} |",
+        "|---" * (len(S) + 1) + "|",
+        f"| E, MPa | {' | '.join(f'{x:.2f}' for x in E)} |",
     ]
+
+
+def gripper_tip() -> list[str]:
+    """Return pull-off forces of the tip of docs/grippers.md [mN], a row for each preload."""
+    words = re.search(r"```toml\n(.*?)```", (ROOT / "docs/grippers.md").read_text("utf-8"), re.S)
+    assert words is not None, "the page states the tip"
+    tip = case_of_tables(tomllib.loads(words[1]))
+    speeds, preloads = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2), (1e-4, 5e-3, 0.1)
+    rows = ["| preload, mN | 1 um/s | 10 um/s | 100 um/s | 1 mm/s | 10 mm/s |", "|---:" * 6 + "|"]
+    for preload in preloads:
+        pulls = (Retraction(AtForce(preload), speed) for speed in speeds)
+        forces = [predict(replace(tip, protocol=pull)).pull_off_force for pull in pulls]
+        unit = 1e3 * tip.scales().force
+        rows.append(f"| {1e3 * preload:g} | {' | '.join(f'{unit * x:.2f}' for x in forces)} |")
+    return rows
 
 
 def punch_envelope() -> list[str]:
@@ -87,6 +100,42 @@ def published() -> dict[str, float]:
     return counts | {name: percent / 100 for name, percent in shares.items()}
 
 
+def verification() -> dict[str, float]:
+    """Return what the page of comparisons, which its command writes, states of forces."""
+    page = (ROOT / "docs/verification.md").read_text("utf-8")
+    elastic = re.findall(r"(?m)^\| elastic, .* \| peer \|.*\(([-+.\d]+) %\)", page)
+    found = re.search(
+        r"pull-off of (\d+) published detachments .*?median ([\d.]+) %, 95 % below ([\d.]+) %", page
+    )
+    assert elastic and found is not None
+    rows, median, below = (float(x) for x in found.groups())
+    largest = max(abs(float(x)) for x in elastic)
+    shares = {"elastic": largest, "median": median, "below": below}
+    return {"rows": rows} | {name: percent / 100 for name, percent in shares.items()}
+
+
+def elastic_pull_off() -> list[str]:
+    """Return simulated elastic pull-off forces and those of Maugis by the Tabor number."""
+    words = {
+        0.01: "`theory.bradley` (4/3)",
+        0.1: "simulate; Maugis is {:.0f} % low",
+        0.3: "simulate; Maugis is {:.0f} % low",
+        1.0: "simulate; Maugis is {:.0f} % low",
+        3.24: "`theory.jkr` (1) is {:.0f} % low",
+        5.0: "`theory.jkr` is {:.0f} % low",
+    }
+    rows = []
+    for tabor, use in words.items():
+        force = float(lennard_jones.pull_off_ratio(tabor))
+        strength = 16 / (9 * np.sqrt(3)) * tabor
+        unit = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+        other = maugis.pull_off_force(strength=strength, **unit) / (1.5 * np.pi)
+        low = 100 * (1 - (other if "Maugis" in use else 1.0) / force)
+        shown = f"{other:.3f}" if tabor > 0.05 else ""
+        rows.append(f"| {tabor:g} | {force:.3f} | {shown} | {use.format(low)} |")
+    return ["| μ | simulated | Maugis | use |", "|---:|---:|---:|---|", *rows]
+
+
 def replication() -> dict[str, float]:
     """Return figures and minutes of processor time of the kept numbers of the replication."""
     kept = [json.loads(x.read_text("utf-8")) for x in (ROOT / "replication/kept").glob("*.json")]
@@ -95,7 +144,7 @@ def replication() -> dict[str, float]:
 
 
 def datasets() -> dict[str, dict[str, float]]:
-    """Return rows and size of each published set."""
+    """Return rows and size of each published set, and the size of all."""
     from pyarrow.parquet import read_metadata
 
     found = {}
@@ -103,6 +152,7 @@ def datasets() -> dict[str, dict[str, float]]:
         path = sets.path(name)
         size = path.stat().st_size / 1e6
         found[name] = {"rows": read_metadata(path).num_rows, "megabytes": size}
+    found["all"] = {"megabytes": sum(each["megabytes"] for each in found.values())}
     return found
 
 
@@ -138,6 +188,23 @@ def _coverage(names: tuple[str, ...], columns: tuple[str, ...]) -> list[str]:
     return [f"| set | {heads} |", "|---" * (len(columns) + 1) + "|", *rows]
 
 
+def library() -> list[str]:
+    """Return the table of the published materials."""
+    return library_table().split("\n")
+
+
+def public_files() -> dict[str, float]:
+    """Return how many public files are read and refused, from the page that its command writes."""
+    page = (ROOT / "docs/public-files.md").read_text("utf-8")
+    found = re.search(
+        r"(\d+) files\n +(\d+) read as .*\n +(\d+) read with .*\n +(\d+) refused", page
+    )
+    assert found is not None
+    files, bare, flagged, refused = (float(x) for x in found.groups())
+    counts = {"files": files, "bare": bare, "flagged": flagged, "refused": refused}
+    return counts | {"read": bare + flagged}
+
+
 def history() -> list[str]:
     """Return a table of the last lines of the history of costs, a column each."""
     lines = [json.loads(x) for x in (ROOT / "benchmarks/history.jsonl").read_text().splitlines()]
@@ -155,13 +222,18 @@ COMPUTED: dict[str, Any] = {
     function.__name__: function
     for function in (
         steady_crack,
-        other_cracks,
+        shore,
+        gripper_tip,
         punch_envelope,
         published,
+        verification,
+        elastic_pull_off,
         replication,
         datasets,
         coverage_of_spheres,
         coverage_of_punches,
+        library,
+        public_files,
         history,
     )
 }
@@ -169,9 +241,3 @@ COMPUTED: dict[str, Any] = {
 
 def _decimals(value: float) -> int:
     return 4 if value < 1.1 else 3
-
-
-def _span(off: Any) -> str:
-    ends = (100 * float(x) for x in (np.min(off), np.max(off)))
-    low, high = (f"{x:+.{1 if abs(x) < 9.5 else 0}f}".replace("-", "−") for x in ends)
-    return f"{low} to {high} %"

@@ -1,6 +1,7 @@
 """Compare the pages with what their commands print, and their numbers with records of benchmarks.
 
-With --write the pages are renewed; --count counts the numbers of their prose by source.
+With --write the pages are renewed; --count counts the numbers of their prose by source, and --list
+prints results without one.
 
 A session is a `viscotack` command behind `$ ` in a console block, and the lines below it. Numbers
 agree to one unit of their last stated digit; a line `...` stands for any lines. A command without
@@ -26,7 +27,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import records  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-# Written whole by a command. Tests compare the first two, and this file the third.
+# Written whole by a command. Tests compare the first two, and this file the third; the last needs
+# checkouts of public repositories: `public_files.py FOLDER... --compare docs/public-files.md`.
 WHOLE = ("replication.md", "gallery.md", "verification.md", "public-files.md")
 # Half a minute each, and what needs their files.
 SLOW = ("viscotack identify rates", "viscotack forecast", "viscotack report")
@@ -139,19 +141,27 @@ def counts(pages: list[Path]) -> str:
     for page in pages:
         found = Counter(records.count(page.read_text("utf-8")))
         if page.name in WHOLE:
-            found["written"] = found["all"]
-        found["no source"] = found["all"] - sum(found[x] for x in _SOURCES)
+            found = Counter(written=found.total())
+        found["all"] = found.total()
         total += found
         lines.append(_row(page.name, found))
-    head = f"{'page':24s}" + "".join(f"{x:>10s}" for x in ("all", *_SOURCES, "no source"))
+    head = f"{'page':24s}" + "".join(f"{x:>10s}" for x in _KINDS)
     return "\n".join([head, *lines, _row("all pages", total)])
 
 
-_SOURCES = ("written", "measured", "as stated")
+def sourceless(page: Path) -> list[str]:
+    """Return the results of a page that name no source, with their lines."""
+    if page.name in WHOLE:
+        return []
+    found = records.kinds(page.read_text("utf-8"))
+    return [f"{page.name}:{line}: {x}" for line, x, kind in found if kind == "no source"]
+
+
+_KINDS = ("all", records.GIVEN, "written", "measured", "as stated", "no source")
 
 
 def _row(name: str, found: Counter[str]) -> str:
-    return f"{name:24s}" + "".join(f"{found[x]:10d}" for x in ("all", *_SOURCES, "no source"))
+    return f"{name:24s}" + "".join(f"{found[x]:10d}" for x in _KINDS)
 
 
 def main() -> int:
@@ -160,6 +170,7 @@ def main() -> int:
     parser.add_argument("pages", nargs="*", type=Path, help="pages; all by default")
     parser.add_argument("--write", action="store_true", help="renew the pages")
     parser.add_argument("--count", action="store_true", help="count the numbers of the prose")
+    parser.add_argument("--list", action="store_true", help="print results that name no source")
     parser.add_argument(
         "--quote",
         action="store_true",
@@ -169,6 +180,9 @@ def main() -> int:
     pages = [path.resolve() for path in given.pages] or PAGES
     if given.count:
         print(counts(pages))
+        return 0
+    if given.list:
+        print("\n".join(line for page in pages for line in sourceless(page)))
         return 0
     if given.quote:
         print("\n".join(source for page in pages for source in records.quoted(page)))

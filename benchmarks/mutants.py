@@ -257,7 +257,8 @@ class Bench:
 def outcome(output: str, code: int) -> tuple[str, str]:
     """Read the name of the test that failed or hung, or "", and the line on it."""
     lines = output.splitlines()
-    if code == 0:
+    # 5: a module without a test, which fails only where it cannot be imported
+    if code in (0, 5):
         return "", lines[-1].strip("= ")
     summary = next((line for line in lines if line.startswith(("FAILED ", "ERROR "))), "")
     for line in lines:

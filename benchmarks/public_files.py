@@ -586,6 +586,7 @@ def main():
     parser.add_argument("folders", nargs="+", metavar="FOLDER")
     parser.add_argument("--page", type=Path, help="write the page with the numbers of files here")
     parser.add_argument("--names", type=Path, help="write a CSV row for each file here")
+    parser.add_argument("--compare", type=Path, help="compare the rows of these folders in a page")
     parser.add_argument("--fuzz", type=int, default=0, help="mutated copies to read")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -601,8 +602,14 @@ def main():
         with arguments.names.open("w", encoding="utf-8", newline="") as file:
             rows = [(name, kind, why) for name, (kind, why) in results.items()]
             csv.writer(file).writerows([("file", "outcome", "reason"), *rows])
+    stale = set()
+    if arguments.compare is not None:
+        shown = arguments.compare.read_text("utf-8").splitlines()
+        names = tuple(f"| {Path(folder).name} |" for folder in arguments.folders)
+        stale = {row for row in shown if row.startswith(names)} ^ {*rows_of(results)}
+        print("\n".join([*sorted(stale), f"{len(stale)} rows of {arguments.compare} differ"]))
     broken = fuzz(arguments.folders, arguments.fuzz) if arguments.fuzz else 0
-    sys.exit(bool(wrong or broken or not results))
+    sys.exit(bool(wrong or broken or stale or not results))
 
 
 def words_of(counts, total):
@@ -618,20 +625,24 @@ def words_of(counts, total):
 
 def page(results, counts):
     """Page with the number of files by repository and outcome."""
+    return PAGE.format(counts=words_of(counts, len(results)), rows="\n".join(rows_of(results)))
+
+
+def rows_of(results):
+    """Rows of the page: number of files by repository and outcome."""
     groups = Counter(
         (name.partition("/")[0], kind if kind == "read" else f"{kind}: {why}")
         for name, (kind, why) in results.items()
     )
-    rows = [f"| {folder} | {kind} | {number} |" for (folder, kind), number in groups.items()]
-    return PAGE.format(counts=words_of(counts, len(results)), rows="\n".join(rows))
+    return [f"| {folder} | {kind} | {number} |" for (folder, kind), number in groups.items()]
 
 
 PAGE = """# Public files, and how they are read
 
 Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco, RHEOS and of thirteen smaller
 repositories was read by `viscotack.lab` and compared with an independent parse. This command, given
-checkouts of the repositories, measures and writes the page; `--names FILE` writes the outcome of
-each file as CSV:
+checkouts of the repositories, measures and writes the page; `--compare FILE` compares the rows of
+some of them with a page, and `--names FILE` writes the outcome of each file as CSV:
 
 ```console
 python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\

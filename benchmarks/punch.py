@@ -4,7 +4,8 @@
 solid with k = 0.1, a = 64.85 a0 and a cohesion of 0.05 where nothing else is said: the pull-off
 stress by thickness and rate (Fig. 3.6) between the two elastic ones, the six loading protocols of
 Table 3.1 (Fig. 3.5), surface energy (Fig. 3.9) and work of separation (Fig. 3.10); and elastic runs
-beside the exact curve between thin and thick layers. --draw makes the pictures of the page.
+beside the exact curve between thin and thick layers. --draw makes the pictures of the page,
+--record writes the records that it quotes.
 """
 
 from __future__ import annotations
@@ -12,11 +13,12 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any, NamedTuple
 
 import matplotlib.style
 import numpy as np
+import records
 from cases import spread_out, standard_solid
 from matplotlib.figure import Figure
 
@@ -112,11 +114,11 @@ def glassy(thickness: float, size: float = SIZE) -> Groups:
 
 def measure(work: Work) -> Answer:
     """Solve a case."""
-    began = perf_counter()
+    began = process_time()
     result = solve(
         work.groups, accuracy=work.accuracy, until=work.until, estimate_error=work.estimate
     )
-    seconds = perf_counter() - began
+    seconds = process_time() - began
     thin = work.groups.body.thickness < 4 / np.pi * work.groups.geometry.half_width
     return Answer(
         stress=pull_off_stress(result),
@@ -135,14 +137,14 @@ def table(works: list[Work]) -> np.ndarray:
     return np.array(spread_out(measure, works))
 
 
-def thickness_and_rate() -> None:
-    """Print Fig. 3.6: 120 cases between the two elastic ones."""
-    began = perf_counter()
+def thickness_and_rate() -> dict[str, Any]:
+    """Print Fig. 3.6, 120 cases between the two elastic ones, and return errors and times."""
     found = table([Work(case(float(b), r)) for b in THICKNESSES for r in RATES])
-    seconds = perf_counter() - began
+    seconds = found[:, 6].sum()
     stress = found[:, 0].reshape(-1, len(RATES))
     print(
-        f"120 cases of Fig. 3.6: {seconds:.1f} s, energy residual {found[:, 5].max():.1e} at most"
+        f"120 cases of Fig. 3.6: {seconds:.1f} s of processor time, energy residual "
+        f"{found[:, 5].max():.1e} at most"
     )
     limits = table([Work(f(float(b))) for b in THICKNESSES for f in (relaxed, glassy)])
     slow, fast = limits[:, 0].reshape(-1, 2).T
@@ -180,17 +182,31 @@ def thickness_and_rate() -> None:
     print("  b/a0      slow    0.1      1       10      100     fast")
     for row in np.column_stack([THICKNESSES, slow, stress, fast])[::3]:
         print("  " + "".join(f"{x:8.4f}" if i else f"{x:7.2f} " for i, x in enumerate(row)))
+    return {
+        "largest_error": np.max(errors),
+        "median_error": np.median(errors),
+        "covered": int(np.sum(estimated >= errors)),
+        "compared": len(some),
+        "estimate_over_error": ratio,
+        "residual": max(found[:, 5].max(), limits[:, 5].max()),
+        "below_slow": np.max(slow[:, None] / stress - 1),
+        "above_fast": np.max(stress / fast[:, None] - 1),
+        "seconds": seconds,
+    }
 
 
-def trial_values() -> None:
-    """Print the two values of an independent program."""
+def trial_values() -> dict[str, Any]:
+    """Print two values beside those of an independent program, and return them."""
+    values = {}
     for b, rate, expected in ((3.24, 1.0, 0.947), (32.42, 10.0, 0.4465)):
         found = measure(Work(case(b, rate), accuracy=1e-4)).stress
         print(f"trial value b = {b} a0, rate {rate:g}: {found:.4f} beside {expected}")
+        values[f"{b:.0f}"] = found
+    return {"trial": values}
 
 
-def protocols() -> None:
-    """Print the spread over the six protocols of Table 3.1."""
+def protocols() -> dict[str, Any]:
+    """Print and return the spread over the six protocols of Table 3.1."""
     thicknesses = SIZE * np.array([0.001, 0.005, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 3.0, 10.0])
     works = []
     for b in thicknesses:
@@ -203,11 +219,14 @@ def protocols() -> None:
     print(f"six protocols: relative to the relaxed start [%], residual {found[:, 5].max():.1e}")
     for b, row in zip(thicknesses, change, strict=True):
         print(f"  b/a0 {b:7.3f}: " + " ".join(f"{x:+6.2f}" for x in row))
-    print(f"  spread {np.ptp(change, axis=1).max():.2f} % at most")
+    spread = np.ptp(change, axis=1)
+    print(f"  spread {spread.max():.2f} % at most")
+    return {"protocols": spread.max() / 100}
 
 
-def enhancement() -> None:
-    """Print the inset of Fig. 3.9: the largest surface energy by thickness."""
+def enhancement() -> dict[str, Any]:
+    """Print the inset of Fig. 3.9, the largest surface energy by thickness; return its table."""
+    lines = []
     print("largest surface energy, Eq. 3.30 with the ligament / whole, over what the size allows")
     sizes = (32.42, 64.84, 129.69)
     ratios = np.array([1.5, 2.0, 3.0, 5.0, 8.0, 12.7, 20.0, 32.42])
@@ -221,11 +240,20 @@ def enhancement() -> None:
             print(f"  rate {rate:g}, a = {size} a0")
             for words, row in (("ligament", with_), ("whole", without)):
                 print(f"    {words:<9}" + " ".join(f"{x:6.3f}" for x in row))
+                if rate == 100.0:
+                    case_ = f"a = {size} a0, ligament" if words == "ligament" else words
+                    lines.append(f"| {case_} | {' | '.join(f'{x:.3f}' for x in row)} |")
     print("    b/a0     " + " ".join(f"{b:6.2f}" for b in ratios))
+    head = f"| b/a0 | {' | '.join(f'{b:.3g}' for b in ratios)} |"
+    return {"surface_energy": [head, "|---" * (len(ratios) + 1) + "|", *lines]}
 
 
-def bell() -> None:
-    """Print Fig. 3.10: the work of separation has a maximum over the rate."""
+def bell() -> dict[str, Any]:
+    """Print Fig. 3.10, the work of separation by thickness and rate; return its table."""
+    lines = [
+        "| b/a0 | rate 1e-3 | largest | at rate | rate 1e4 | elastic theory |",
+        "|---" * 6 + "|",
+    ]
     rates = np.geomspace(1e-3, 1e4, 22)
     found = table([Work(case(b, float(r)), until="detached") for b in FOUR for r in rates])
     works = found[:, 4].reshape(len(FOUR), -1)
@@ -240,9 +268,26 @@ def bell() -> None:
             f"  b = {b:5.2f} a0: {row[0]:.3f} slow, {row[top]:.3f} at rate {rates[top]:.3g} (crack "
             f"speed {speed[top]:.3g} h0/tau), {row[-1]:.3f} fast; elastic theory {elastic:.3f}"
         )
+        lines.append(
+            f"| {b} | {row[0]:.2f} | {row[top]:.2f} | {rates[top]:.2g} | {row[-1]:.3f} "
+            f"| {elastic:.3f} |"
+        )
+    return {"work": lines}
 
 
-def crossover() -> None:
+def crack_speeds() -> dict[str, Any]:
+    """Print the crack speed at pull-off over the rate at two accuracies; return its table."""
+    rates = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 1e4)
+    lines = ["| rate | 1 | 3 | 10 | 30 | 100 | 300 | 1000 | 1e4 |", "|---" * (len(rates) + 1) + "|"]
+    for accuracy, words in ((2e-3, "2e-3"), (1e-4, "1e-4")):
+        speeds = table([Work(case(3.24, r), accuracy=accuracy) for r in rates])[:, 2]
+        over = " | ".join(f"{v / r:.0f}" for v, r in zip(speeds, rates, strict=True))
+        lines.append(f"| accuracy {words} | {over} |")
+    print("\n".join(lines))
+    return {"crack_speed": lines}
+
+
+def crossover() -> dict[str, Any]:
     """Print elastic runs, extrapolated to small cohesive zones, beside the exact curve.
 
     A crack of finite zone recedes by a part of the punch before pull-off, which falls as the root
@@ -257,6 +302,7 @@ def crossover() -> None:
     exact = exact_curve.pull_off_stress(
         ratios, half_width=1.0, contact_modulus=1.0, work_of_adhesion=2 / np.pi, base=Frictionless()
     )
+    lines = ["| b/a | 64 | 256 | 1024 | limit | exact | off by |", "|---" * 7 + "|"]
     print("elastic pull-off stress over that of a thin layer or a half-plane, the larger one;")
     print(f"residual {found[:, 5].max():.1e}; runs at a/a0 = 64, 256 and 1024, and their limit")
     for B, row, limit, value in zip(ratios, stress, limits, np.asarray(exact), strict=True):
@@ -267,6 +313,13 @@ def crossover() -> None:
             + f", limit {limit / envelope:.4f}, exact {value / envelope:.4f} "
             + f"({100 * (limit / value - 1):+.2f} %)"
         )
+        name = "4/pi (b1)" if 1 < B < 2 else f"{B:g}"
+        cells = [
+            *(f"{x / envelope:.3f}" for x in row),
+            *(f"{x / envelope:.4f}" for x in (limit, value)),
+        ]
+        lines.append(f"| {name} | {' | '.join(cells)} | {100 * (limit / value - 1):.2f} % |")
+    return {"crossover": lines}
 
 
 def bonded() -> None:
@@ -274,7 +327,8 @@ def bonded() -> None:
     sizes, B = np.array([64.0, 256.0, 1024.0]), 0.05
     for nu in (0.0, 0.3, 0.45):
         base = Bonded(poisson_ratio=nu)
-        found = table([Work(replace(relaxed(B * float(s), float(s)), base=base)) for s in sizes])
+        cases = [replace(relaxed(B * s, s), body=Layer(B * s, base)) for s in sizes.tolist()]
+        found = table([Work(groups) for groups in cases])
         limit = np.polynomial.polynomial.polyfit(
             1 / np.sqrt(sizes), found[:, 0] * np.sqrt(sizes), 2
         )[0]
@@ -349,18 +403,22 @@ def main() -> None:
     """Measure, and draw if asked."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--draw", action="store_true", help="make the pictures of docs/punch.md")
+    parser.add_argument("--record", action="store_true", help="record what docs/punch.md quotes")
     parser.add_argument("--only", help="one of the parts, by the name of its function")
     options = parser.parse_args()
     if options.draw:
         draw()
         return
     parts = (
-        thickness_and_rate, trial_values, twin, protocols, enhancement, bell, crossover, bonded,
+        thickness_and_rate, trial_values, twin, protocols, enhancement, bell, crack_speeds,
+        crossover, bonded,
     )  # fmt: skip
     for part in parts:
         if options.only in (None, part.__name__):
             began = perf_counter()
-            part()
+            values = part()
+            if options.record and values:
+                records.write("punch", values)
             print(f"  {perf_counter() - began:.1f} s\n", flush=True)
 
 

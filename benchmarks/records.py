@@ -12,12 +12,22 @@ source of all numbers of the paragraph or table below it, which are lines of tex
     <!-- = speed.table -->
     | case | times faster |
 
-Sources are values of records; `computed.NAME`, what a function of `computed.py` computes now;
+A number is a result if another version of the package, another machine or another draw could change
+it, and only results need a source. Definitions are the others: inputs of an example, conditions,
+units, references and names. Known by form are years and numbers of equations, figures, tables and
+versions; exponents, fractions and multiples of pi; numbers of list items; m x n; values behind the
+name of an input (mu, k, n, nu, Tabor number, modulus ratio, rate, seed, accuracy); the level of an
+interval; a speed, temperature or frequency behind "at"; and the heading and the first column of a
+table, which name its cases. Other definitions have the mark `<!-- = given -->`: behind a number,
+above a block, or above a heading, where it covers the section.
+
+Sources are `above`, the numbers that the code blocks above show, which tests compare with what
+commands print; values of records; `computed.NAME`, what a function of `computed.py` computes now;
 `kept.NAME.PATH` of replication/kept; and `viscotack.MODULE.NAME`, a constant of the package.
-`python benchmarks/docs_check.py` compares them, with `--write` renews the page, and with `--count`
-says how many numbers have a source. `--quote PAGE` puts marked blocks that no record has into a
-record of the folder `stated`, as the page states them: for what takes hours to measure again. A
-value that a benchmark writes comes before it.
+`python benchmarks/docs_check.py` compares them, with `--write` renews the page, with `--count`
+counts numbers by source, and with `--list` prints results without one. `--quote PAGE` puts marked
+blocks that no record has into a record of the folder `stated`, as the page states them: for what
+takes hours to measure again. A value that a benchmark writes comes before it.
 """
 
 from __future__ import annotations
@@ -28,6 +38,7 @@ import platform
 import re
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import date
@@ -47,7 +58,31 @@ MARK = re.compile(r" ?<!-- = ([\w.-]+)(?: \* ([\d.e+-]+))? -->")
 BLOCK = re.compile(r"((?: *(?!<!-- =)\S.*(?:\n|\Z))+)")
 # What a command writes between two comments, and is compared by a test of its own.
 WRITTEN = re.compile(r"(?s)<!-- (?!= )[^>]+ -->\n.*?<!-- end[^>]*-->")
-_CODE = re.compile(r"(?ms)^ *(```|~~~).*?^ *\1 *$")
+_CODE = re.compile(r"(?ms)^ *(```|~~~).*?^ *\1 *$|^ {4}[^\n]*$")
+# The mark of a definition.
+GIVEN = "given"
+# The source of what the page shows in a code block above.
+ABOVE = "above"
+_VALUE = r"[-+−±]?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?"
+_VALUES = rf"{_VALUE}(?:(?:,|[ ]and|[ ]to|[ ]or|,[ ]and)[ ]{_VALUE})*"
+_NAMES = r"mu|μ|μeff|k|n|ν|nu|b|[Tt]abor[ ]numbers?|[Mm]odulus[ ]ratios?|seeds?|accurac\w+|rates?"
+_INPUT = rf"(?:{_NAMES})(?:[ ](?:=|of|from|above|below|between|at|up[ ]to|beyond|to|is))*"
+_FORMS = re.compile(
+    rf"""(?mx)
+    \b(?:Eqs?|Figs?|Secs?|Tables?|Figures?|Sections?|[Cc]hapter|[Pp]art|[Vv]ersions?|Python|FMI|ISO
+       |IR|SciPy|pymoo|uPlot|NiceGUI|Octave|Runtime|HTTP|API|SHA|UTF|Latin)s?[.]?[- ]\d[\d.]*
+       (?:(?:,|[ ]and|[ ]to)[ ]\d[\d.]*)*
+    | \((?:[^()\n]*[ ,])?(?:18|19|20)\d\d(?:;[^()\n]*)?\) | [A-Z]\w+,?[ ](?:18|19|20)\d\d\b
+    | \b\d{{4}}-\d\d-\d\d\b | \b(?:doi|arXiv):\S+ | \b\d+[ ]x[ ]\d+\b
+    | ^[ ]*\d+\.[ ]
+    | \^\(?[-−]?\d+(?:/\d+)?\)? | (?<![\w./])\d+/\d+(?![\w./]) | [\d./]+[ ]?(?:pi|π)\b
+    | (?<![\w.])\d/(?=[A-Za-zτμ(])
+    | (?<![\w.]){_INPUT}[ ]{_VALUES}
+    | \b90[ ]?%[ ](?=(?:interval|band|region|prediction|level)) | (?<=interval[ ]of[ ])90[ ]%
+    | \bat[ ]{_VALUES}[ ](?:[nuµm]?m/s|degC|K|[mkMG]?Hz)\b
+    | ^[ ]*\|.*\n(?=[ ]*\|[ ]?[-:]) | ^[ ]*\|[^|\n]*\|
+    """
+)
 # Code, targets of links, comments and names of files are no prose.
 _NO_PROSE = re.compile(r"(?s)`[^`\n]*`|\]\([^)\n]*\)|<!--.*?-->|<[^>\n]*>|https?://\S+")
 
@@ -160,24 +195,38 @@ def quotes(page: str, *, missing: bool = False) -> Iterator[Quote]:
     prose = _blank(_NO_PROSE, bare)
     for mark in MARK.finditer(bare):
         source, line = mark[1], bare.rfind("\n", 0, mark.start()) + 1
+        if source == GIVEN:
+            continue
         if not bare[line : mark.start()].strip():
             block = BLOCK.match(bare, mark.end() + 1)
             if block is None:
                 raise LookupError(f"no lines stand below the comment of {source}")
-            yield Quote(source, block.span(), block[0], _lines(source, missing))
+            found = _above(page, block) if source == ABOVE else _lines(source, missing)
+            yield Quote(source, block.span(), block[0], found)
             continue
         before = [*NUMBER.finditer(prose, line, mark.start())]
         if not before:
             raise LookupError(f"no number stands before the comment of {source}")
+        if source == ABOVE:
+            yield Quote(source, before[-1].span(), before[-1][0], _above(page, before[-1]))
+            continue
         share = "%" in prose[before[-1].end() : mark.start()]
         number = float(value(source)) * float(mark[2] or (100 if share else 1))
         yield Quote(source, before[-1].span(), before[-1][0], rounded(number, before[-1][0]))
 
 
+def _above(page: str, place: re.Match[str]) -> str:
+    """Return those numbers of a part of a page that its code blocks above show, rounded."""
+    blocks = " ".join(match[0] for match in _CODE.finditer(page[: place.start()]))
+    shown = [float(number.replace(",", "")) for number in NUMBER.findall(blocks)]
+    found = numbers(place[0])
+    return " ".join(x for x in found if any(rounded(value, x) == x for value in shown))
+
+
 def renewed(page: str) -> str:
     """Return a page with the numbers of its sources, in the digits that it has."""
     for quote in reversed([*quotes(page)]):
-        if not (quote.agrees or quote.as_stated):
+        if not (quote.agrees or quote.as_stated or quote.source == ABOVE):
             page = page[: quote.place[0]] + quote.found + page[quote.place[1] :]
     return page
 
@@ -201,14 +250,49 @@ def numbers(text: str) -> list[str]:
     return NUMBER.findall(_blank(_NO_PROSE, _blank(_CODE, text)))
 
 
-def count(page: str) -> dict[str, int]:
-    """Return how many numbers the prose of a page has, and of them those with a source, by kind."""
-    found: dict[str, int] = dict.fromkeys(("all", "written", "measured", "as stated"), 0)
-    found["all"] = len(numbers(page))
-    found["written"] = found["all"] - len(numbers(WRITTEN.sub("", page)))
+def kinds(page: str) -> Iterator[tuple[int, str, str]]:
+    """Yield line, text and kind of every number in the prose of a page, in order.
+
+    Kinds are `written`, `measured`, `as stated`, `given` (a definition) and `no source`.
+    """
+    prose = _blank(_NO_PROSE, _blank(_CODE, page))
+    bare = _blank(_FORMS, prose)
+    spans = [(match.span(), "written") for match in WRITTEN.finditer(page)]
     for quote in quotes(page):
-        found["as stated" if quote.as_stated else "measured"] += len(numbers(quote.shown))
-    return found
+        spans.append((quote.place, "as stated" if quote.as_stated else "measured"))
+    spans += [(place, GIVEN) for place in _given(page)]
+    for number in NUMBER.finditer(prose):
+        at = number.start()
+        kind = next((kind for (begin, end), kind in spans if begin <= at < end), "no source")
+        if kind in ("as stated", "no source") and bare[at : number.end()] != number[0]:
+            kind = GIVEN
+        yield page.count("\n", 0, at) + 1, number[0], kind
+
+
+def count(page: str) -> dict[str, int]:
+    """Return how many numbers the prose of a page has, by kind."""
+    return Counter(kind for _, _, kind in kinds(page))
+
+
+def _given(page: str) -> Iterator[tuple[int, int]]:
+    """Yield where definitions begin and end that a page marks."""
+    bare = _blank(_CODE, page)
+    for mark in MARK.finditer(bare):
+        line = bare.rfind("\n", 0, mark.start()) + 1
+        if mark[1] != GIVEN:
+            continue
+        if bare[line : mark.start()].strip():
+            prose = _blank(_NO_PROSE, bare)
+            yield [*NUMBER.finditer(prose, line, mark.start())][-1].span()
+        elif heading := re.match(r"(#+) ", bare[mark.end() + 1 :]):
+            begin = mark.end() + 1 + heading.end()
+            end = re.search(rf"(?m)^#{{1,{len(heading[1])}}} ", bare[begin:])
+            yield begin, begin + end.start() if end else len(page)
+        else:
+            block = BLOCK.match(bare, mark.end() + 1)
+            if block is None:
+                raise LookupError("no lines stand below the comment of a definition")
+            yield block.span()
 
 
 def quoted(page: Path) -> list[str]:

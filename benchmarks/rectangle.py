@@ -1,6 +1,7 @@
 """Compare the bounds of rectangular punches with contacts that open cell by cell.
 
     python benchmarks/rectangle.py --cells 24 --ratios 1 2 4
+    python benchmarks/rectangle.py --record
 
 The contact of a rigid flat punch on a half-space is divided into square cells of even pressure. At
 a depth the cell that releases most energy opens as soon as this exceeds its work of adhesion, and
@@ -11,6 +12,7 @@ disc of as many cells shows; forces are divided by its root.
 import argparse
 
 import numpy as np
+import records
 
 from viscotack.theory.elastic.disc import pull_off_force
 from viscotack.theory.punch.rectangle import bounds
@@ -58,20 +60,43 @@ def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--cells", type=int, default=24)
     options.add_argument("--ratios", type=float, nargs="+", default=[1.0, 2.0, 4.0])
+    options.add_argument("--record", action="store_true", help="record the table of the page")
     given = options.parse_args()
-    n = given.cells
+    if given.record:
+        record()
+    else:
+        compare(given.cells, given.ratios)
+
+
+def record():
+    """Record bounds and forces by the fineness of the cells, for the pages."""
+    several = {count: compare(count, [1.0, 2.0, 4.0]) for count in (12, 20)}
+    heads = " | ".join(f"{count} cells across" for count in several)
+    lines = [f"| ratio of the sides | bounds | {heads} |", "|---" * (2 + len(several)) + "|"]
+    for ratio in (1.0, 2.0, 4.0):
+        low, high, _ = several[12][ratio]
+        forces = " | ".join(f"{found[ratio][2]:.3f}" for found in several.values())
+        lines.append(f"| {ratio:g} | {low:.3f} to {high:.3f} | {forces} |")
+    records.write("rectangle", {"table": lines})
+
+
+def compare(n, ratios):
+    """Print bounds and computed force by the ratio of the sides, and return them."""
+    several = {}
     x, y = cells(n, n)
     inside = np.hypot(x, y) < n / 2
     radius = np.sqrt(inside.sum() / np.pi)
     round_ = pulled(x[inside], y[inside], 1.0)
     scale = round_ / pull_off_force(contact_radius=radius, **_SOLID)
     print(f"disc of {inside.sum()} cells: {scale:.3f} of Kendall's force")
-    for ratio in given.ratios:
+    for ratio in ratios:
         long = round(ratio * n)
         one = pull_off_force(contact_radius=n / 2, **_SOLID)
         low, high = (P / one for P in bounds(long / 2, half_width=n / 2, **_SOLID))
         found = pulled(*cells(n, long), 1.0) / scale / one
         print(f"{long / n:.3g} : 1  between {low:.3f} and {high:.3f}, computed {found:.3f}")
+        several[ratio] = (low, high, found)
+    return several
 
 
 if __name__ == "__main__":

@@ -47,8 +47,10 @@ ROWS = 200
 
 HEAD = """# Verification
 
-What is proven, on which rung of the ladder (identity, limit, order, peer or plain twin,
-experiment), and what was measured. `make verification` measures everything on this page and writes
+What is proven, on which rung of the ladder (identity, limit, order, peer or plain twin), and what
+was measured. Peers are refined runs by this package, the published algorithm (plain twin) and the
+published table; a [second code](../replication/second_code/README.md) by another method is compared
+apart. No row is a measurement. `make verification` measures everything on this page and writes
 it; the tests in `tests/ladder` guard each line. Pull-off forces are in 1.5 pi R dg0, depths of the
 relaxed start in h0, seconds those of the processor.
 Closed forms and materials are checked against 20-digit

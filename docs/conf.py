@@ -7,14 +7,17 @@ pages are the same in the checkout and on the site.
 import importlib
 import shutil
 import sys
+import textwrap
+from html import escape
 from pathlib import Path
 from types import ModuleType
 
-from docutils.nodes import math_block
+from docutils.nodes import math_block, paragraph
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "docs")]
 
+import example_imports  # noqa: E402
 import example_pages  # noqa: E402
 
 from viscotack.version import __version__  # noqa: E402
@@ -54,7 +57,7 @@ extensions += (
     ]
 )
 
-myst_enable_extensions = ["deflist"]
+myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 4
 # Blocks typed into a terminal are not highlighted as sessions: they have no prompt.
 highlight_language = "none"
@@ -90,6 +93,8 @@ html_title = "viscotack"
 # The page that predicts without Python, where `make docs` has written it.
 html_extra_path = ["site", *(str(p) for p in [ROOT / "out/extra"] if p.exists())]
 html_copy_source = False
+html_favicon = str(ROOT / "src/viscotack/app/page/icon.svg")
+html_context = {"default_mode": "auto"}
 html_static_path = ["style"]
 html_css_files = ["site.css"]
 html_theme_options = {
@@ -165,16 +170,42 @@ def math_in_page(writer, node):
     raise SkipNode
 
 
+def describe(app, name, template, context, doctree):
+    """Give a page the beginning of its first paragraph as its description to search engines."""
+    if doctree is not None and (first := next(doctree.findall(paragraph), None)):
+        words = textwrap.shorten(first.astext(), 160, placeholder=" …")
+        context["metatags"] += f'<meta name="description" content="{escape(words)}">\n'
+
+
+def pack_examples(app, error):
+    """Write the archive of the examples, which pages link, into the site."""
+    if error is None and app.builder.format == "html":
+        example_pages.pack(Path(app.outdir) / "examples.zip")
+
+
 def leave_out(app, kind, name, member, skip, options):
     """Whether to leave out a field of a named tuple: the docstring of its class has it."""
     return True if type(member).__name__ == "_tuplegetter" else None
 
 
+def with_imports(app, what, name, thing, options, lines):
+    """Put the imports of an example's names in front of it, so that it can be pasted."""
+    first = next((i for i, line in enumerate(lines) if line.startswith(">>>")), None)
+    owner = getattr(thing, "fget", thing)
+    module = thing.__name__ if what == "module" else getattr(owner, "__module__", None)
+    if first is not None and module in sys.modules:
+        needed = example_imports.imports("\n".join(lines), module)
+        lines[first:first] = [f">>> {line}" for line in needed]
+
+
 def setup(app):
     """Have the reference written before Sphinx looks for pages."""
     app.connect("config-inited", write_reference)
+    app.connect("html-page-context", describe)
+    app.connect("build-finished", pack_examples)
     if not PAGES_ALONE:
         app.connect("autodoc-skip-member", leave_out)
+        app.connect("autodoc-process-docstring", with_imports)
     app.add_html_math_renderer("mathml", (math_in_page, None), (math_in_page, None))
     # the buttons of the theme's menu have no name for screen readers
     label = (

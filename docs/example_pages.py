@@ -1,8 +1,9 @@
-"""What sphinx-gallery needs beside it: examples with a title, and the pictures that they save."""
+"""Examples on the site: titles for sphinx-gallery, their pictures, and an archive of files."""
 
 import hashlib
 import re
 import shutil
+import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -16,6 +17,19 @@ Scripts, run
 Each script of the folder ``examples``, run when this site was built, with its picture, what it
 prints and its code. :doc:`Examples </docs/examples>` lists the files beside them.
 """
+
+
+def pack(target):
+    """Write an archive of the examples, which commands of the pages find when it is unpacked."""
+    examples = ROOT / "examples"
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in sorted(examples.rglob("*")):
+            name = path.relative_to(ROOT)
+            # what running them has left is hidden, or compiled
+            if path.is_file() and not any(part.startswith((".", "__")) for part in name.parts):
+                archive.write(path, name)
+        # pages call the case of their text lens.toml
+        archive.write(examples / "from_toml/lens.toml", "lens.toml")
 
 
 def stage():

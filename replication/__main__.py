@@ -13,7 +13,7 @@ from .contents import CONTENTS
 from .figures.catalogue import Figure, figures
 from .gallery import GALLERY
 from .gallery import write as write_gallery
-from .kept import difference, kept, path_of
+from .kept import difference, kept, path_of, without_errors
 from .ledger.contents import named
 from .ledger.page import PAGE, page
 from .making import Maker, picture
@@ -184,7 +184,7 @@ def _published(archive: Path, out: Path, workers: int) -> None:
 
 def _beside(maker: Maker, name: str, before: Numbers) -> str:
     """Return how far numbers made now are from those that were kept, and which most."""
-    now = maker.of(name)
+    now, before = without_errors(maker.of(name)), without_errors(before)
     off = difference(now, before)
     if off == float("inf"):
         return "of another kind"

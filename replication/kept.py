@@ -96,6 +96,21 @@ def difference(one: Any, other: Any) -> float:
     return float(np.round(np.max(np.abs(a - b) / np.where(scale > 0, scale, 1.0)), 12))
 
 
+def without_errors(numbers: Any) -> Any:
+    """Return numbers without estimates of their error, which change more than what they are of.
+
+    Examples
+    --------
+    >>> without_errors({"force": [1.0], "force_error": [1e-3]})
+    {'force': [1.0]}
+    """
+    if isinstance(numbers, dict):
+        return {k: without_errors(x) for k, x in numbers.items() if "error" not in k}
+    if isinstance(numbers, list):
+        return [without_errors(x) for x in numbers]
+    return numbers
+
+
 def _content(name: str, folder: Path | None = None) -> Any:
     path = path_of(name, folder)
     if not path.exists():

@@ -93,7 +93,10 @@ def test_a_simulation_is_a_job_whose_curve_grows_and_whose_digits_are_those_of_s
     assert drawn["profiles"][0].keys() == {"step", "radius", "gap", "pressure", "flank"}
     later = ask("GET", f"/api/jobs/{found['id']}", params={"points_from": 10}).json()
     assert later["points"] == found["points"][10:]
-    assert ask("DELETE", f"/api/jobs/{found['id']}").status_code == 200
+    told = ask("DELETE", f"/api/jobs/{found['id']}")
+    # what was read is not sent again
+    assert told.status_code == 200 and told.json()["state"] == "done"
+    assert (told.json()["answer"], told.json()["points"]) == (None, [])
     assert ask("GET", f"/api/jobs/{found['id']}").status_code == 404
 
 
@@ -287,6 +290,21 @@ def test_a_file_of_a_rig_is_read_and_its_place_is_nobodys_business(ask):
         6.19e-3, rel=0.01
     )
     assert "viscotack-" not in answer.text
+
+
+def test_a_table_that_is_sent_changes_the_problem_sent_with_it(ask):
+    rows = [{"lens": "a", "radius": "1 mm"}, {"lens": "b", "radius": "2 mm"}]
+    told = ask("POST", "/api/predict", json={"problem": FIRST, "cases": rows}).json()
+    text = "Lens;radius [mm]\na;1,0\n;\nb;2,0\n"
+    sent = [("cases", ("cases.csv", text.encode()))]
+    data = {"problem": json.dumps(FIRST), "outputs": "csv"}
+    answer = ask("POST", "/api/predict", files=sent, data=data).json()
+    outputs = [row["outputs"] for row in answer["rows"]]
+    assert outputs == [told["rows"][0]["outputs"], None, told["rows"][1]["outputs"]]
+    alone = FIRST | {"sphere": {"radius": "1 mm"}}
+    alone = ask("POST", "/api/predict", json={"problem": alone}).json()
+    assert outputs[0]["pull_off_force_N"] == pytest.approx(alone["pull_off_force_N"], rel=1e-12)
+    assert answer["beside"]["files"]["csv"].splitlines()[2].endswith(",empty row")
 
 
 def test_a_file_that_is_none_is_refused_by_its_name_alone(ask):

@@ -1,6 +1,7 @@
 """The state of the page: the same case as tables, link, file, command line and Python."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -71,7 +72,9 @@ def test_the_command_line_says_the_accuracy_and_how_far():
     assert "accuracy=0.005, until='pull-off'" in State(FIRST).python(
         accuracy=0.005, until="pull-off"
     )
-    assert "--" not in State(FIRST).command()
+    # two lines that every shell reads, for the case file that is saved beside them
+    commands = "viscotack simulate case case.toml\nviscotack predict case.toml\n"
+    assert State(FIRST).command() == commands
 
 
 @pytest.mark.parametrize(
@@ -231,6 +234,22 @@ def test_another_solid_has_what_was_learned_of_solids_and_its_speeds():
     low, force, high = (np.array(speeds[name]) for name in ("low", "force", "high"))
     assert np.all((low < force) & (force < high)) and force[-1] > 1.5 * force[0]
     assert json.loads(json.dumps(found, allow_nan=False)) == found
+
+
+def test_beyond_the_surrogate_of_power_laws_the_other_speeds_are_answered_at_once():
+    # a Tabor number of 158, and speeds beyond the learned crack, where only theories answer
+    interface = FIRST["interface"] | {"equilibrium_gap": "20 nm"}
+    state = State(
+        FIRST | {"interface": interface, "protocol": {"preload_depth": "6 um", "speed": "3 m/s"}}
+    )
+    found, problem = quick(state), state.problem
+    speeds, (learned, *_) = found["speeds"], found["numbers"]
+    assert learned["method"] == "learned crack contact"
+    assert 3 < len(speeds["speed"]) < 17
+    for speed, force in zip(speeds["speed"][::3], speeds["force"][::3], strict=True):
+        other = replace(problem, protocol=replace(problem.protocol, speed=speed))
+        answer = predict(other, budget=AT_ONCE)
+        assert force == pytest.approx(answer.pull_off_force * problem.scales().force, rel=1e-4)
 
 
 def test_a_pad_has_what_was_learned_of_punches_and_its_speeds():

@@ -171,8 +171,10 @@ def test_payload_is_the_force_over_gravity_acceleration_and_safety(small):
     assert one.payload == pytest.approx(pulled.interval[0] / 9.80665, rel=1e-9)
     assert other.payload == pytest.approx(one.payload / 6, rel=1e-9)
     assert one.release_time == pytest.approx(np.max(pulled.released) / stated.speed)
-    # an elastic pad holds less than its pull-off force for ever
+    # an elastic pad holds less than its pull-off force for ever, without acceleration
     assert one.time == inf
+    assert one.lasting == pytest.approx(one.payload, rel=1e-9)
+    assert other.lasting == pytest.approx(one.payload / 3, rel=1e-9)
     assert holding(stated.array, pulled, Hold(1.0), **how).holds is False
 
 
@@ -186,6 +188,12 @@ def test_viscoelastic_pads_creep_off_under_a_weight_that_a_fast_pull_holds(small
     how = {"speed": 1e-4, "preload": stated.preload}
     pulled = pull_array(stated.array, **how)
     heavy, light = (holding(stated.array, pulled, Hold(mass), **how) for mass in (2.5e-3, 0.7e-3))
-    assert heavy.holds is True
+    assert heavy.holds is True and heavy.payload > 2.5e-3
+    # what lasts is the pull-off force of the relaxed pads
+    assert heavy.lasting == light.lasting
+    small.write_text(SMALL.replace('"10 nm"', '"600 nm"'))
+    elastic = pull_array(read_array(small).array, speed=1.0, preload=stated.preload)
+    assert heavy.lasting * 9.80665 == pytest.approx(elastic.interval[0], rel=1e-9)
+    assert 0.7e-3 < heavy.lasting < 2.5e-3
     assert 0.01 < heavy.time < 100
     assert light.time == inf

@@ -239,3 +239,21 @@ def test_a_pull_off_at_the_start_of_the_retraction_has_a_curve_of_one_point():
     assert row["travel_to_pull_off"] == 0
     assert set(row["trajectory_force"]) == {-row["pull_off_force"]}
     assert vt.predict(groups, exact=True).curve.force[-1] < 0
+
+
+def test_the_curve_of_a_problem_in_si_has_each_column_in_si_too():
+    lens = vt.Problem(
+        material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+        traction=vt.LennardJones(work_of_adhesion=0.05, equilibrium_gap=2e-6),
+        geometry=vt.Sphere(1e-3),
+        protocol=vt.Retraction(start=AtDepth(2e-6), speed=1e-5),
+    )
+    row, scales = measure(lens, QUICK), lens.scales()
+    names = [name for name in row if name.startswith(("travel", "force_at", "trajectory"))]
+    plain = [name for name in names if not name.endswith(("_m", "_N"))]
+    assert len(names) == 2 * len(plain) == 16
+    for name in plain:
+        tail, unit = ("N", scales.force) if "force" in name else ("m", scales.length)
+        unit = scales.radius if "radius" in name else unit
+        assert row[f"{name}_{tail}"] == pytest.approx(np.multiply(row[name], unit))
+    assert row["trajectory_force_N"][-1] == -row["pull_off_force_N"]

@@ -145,7 +145,7 @@ def test_every_start_can_be_written(line, start, tmp_path):
         ),
         (
             edited('"5.19 mm"', "5.19"),
-            r"\[sphere\] radius must be text with a unit, got 5.19; write for example",
+            r"\[sphere\] radius has no unit, got 5.19; write .* in quotes, radius = \"5.19 mm\"",
         ),
         (edited('"5.19 mm"', '"5.19"'), r"\[sphere\] radius: '5.19' has no unit"),
         (

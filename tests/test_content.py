@@ -184,6 +184,24 @@ def test_the_sheet_with_a_test_is_read_and_another_by_its_name(file):
         lab.read(path, table="4")
 
 
+def test_sheets_of_sweeps_at_temperatures_of_their_own_are_one_test(file):
+    def rows(celsius):
+        lines = [["w", "G'", "G''", "T"], ["rad/s", "Pa", "Pa", "°C"]]
+        return [*lines, *([omega, 100.0 + celsius, 10.0, celsius] for omega in OMEGA)]
+
+    details = [["Sample", "Gel A"], ["Geometry", "PP25"]]
+    sheets = {"Details": details, "FS -10 °C": rows(-10), "FS 25 °C": rows(25)}
+    found = lab.read(file(sheets, "book.xlsx"))
+    assert set(found.storage) == {90.0, 125.0} and found.sweep.size == 2 * len(OMEGA)
+    assert "2 sheets of sweeps are read: 'FS -10 °C', 'FS 25 °C'" in found.source.notes
+    # two samples at one temperature are not one test
+    found = lab.read(file({"A": rows(25), "B": rows(25.2)}, "book.xlsx"))
+    assert set(found.storage) == {125.0}
+    assert any(
+        note.startswith("2 sheets hold sweeps, and only 'A' is read") for note in found.source.notes
+    )
+
+
 def test_a_sheet_of_gaps_is_no_test(file):
     gaps = [["f [Hz]", "G' [Pa]", "G'' [Pa]"], ["---", 2.0, 1.0]]
     step = [["t [s]", "stress [Pa]", "strain [-]"], [1.0, "---", "---"]]

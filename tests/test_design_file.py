@@ -86,7 +86,7 @@ def test_materials_to_choose_from_have_names(small):
         ("[bounds]", "[bouds]", "did you mean bounds"),
         ('hold = "5 mN"\nrelease = "2.5 mN"', "", "needs a target"),
         ('hold = "5 mN"', 'hold = "-5 mN"', "must be positive"),
-        ('hold = "5 mN"', "hold = 5", "text with a unit"),
+        ('hold = "5 mN"', "hold = 5", 'in quotes, hold = "5 mN"'),
         ('hold = "5 mN"', 'hold = "5 mN"\nlift = "1 mN"', "unknown key 'lift'"),
         ('"1 mm..4 mm"', '"4 mm..1 mm"', "ascending"),
         ('"1 mm..4 mm"', '"1 mm..4 s"', "radius"),

@@ -1,8 +1,10 @@
 """Every example runs, with fast settings where it takes any, and says what it should."""
 
 import importlib.util
+import re
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -170,13 +172,30 @@ def test_a_probe_on_a_gel_snaps_in_and_lets_go():
     assert unit < force < 4 / 3 * unit * 2
 
 
-def test_every_example_has_a_title_for_its_page_of_the_site():
+def load_pages():
+    """Return the module of the site that prepares the examples."""
     spec = importlib.util.spec_from_file_location(
         "example_pages", EXAMPLES.parent / "docs/example_pages.py"
     )
     pages = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(pages)
+    return pages
+
+
+def test_every_example_has_a_title_for_its_page_of_the_site():
+    pages = load_pages()
     for example in EXAMPLES.glob("*.py"):
         title, line, empty, *_ = pages.with_title(example.read_text()).split("\n")
         assert 10 < len(title) - 3 == len(line) < 100 and set(line) == {"="} and empty == ""
         assert not title.endswith(".")
+
+
+def test_the_archive_of_the_site_has_every_file_that_a_command_of_a_page_names(tmp_path):
+    pages = load_pages()
+    pages.pack(tmp_path / "examples.zip")
+    names = set(zipfile.ZipFile(tmp_path / "examples.zip").namelist())
+    text = "".join(path.read_text("utf-8") for path in (EXAMPLES.parent / "docs").glob("*.md"))
+    blocks = "".join(re.findall(r"```console\n(.*?)```", text, re.DOTALL))
+    named = set(re.findall(r"examples/[\w/.-]+\.(?:toml|csv|py)", blocks))
+    assert len(named) > 15 and named | {"lens.toml"} <= names
+    assert not any("__pycache__" in name for name in names)

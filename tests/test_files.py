@@ -425,11 +425,20 @@ def test_another_encoding_says_how_to_convert(tmp_path):
     path = tmp_path / "a.toml"
     path.write_bytes('x = 1\nradius = "5 µm"\n'.encode("cp1252"))
     with pytest.raises(
-        InputError, match=r"a.toml is not .* UTF-8 \(line 2\); .*: iconv -f WINDOWS"
+        InputError, match=r"a.toml is not .* UTF-8 \(line 2\); .* in Notepad by Save as"
     ):
         read_toml(path)
     path.write_bytes("x = 1\n".encode("utf-16-le"))
-    with pytest.raises(InputError, match="zero bytes; if it is UTF-16, .*: iconv -f UTF-16"):
+    with pytest.raises(
+        InputError, match="zero bytes; if it is UTF-16, save it as UTF-8, in Notepad"
+    ):
+        read_toml(path)
+
+
+def test_a_workbook_where_text_is_read_says_how_to_save_it(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"PK\x03\x04" + bytes(40))
+    with pytest.raises(InputError, match="is a workbook or an archive, .* as CSV UTF-8"):
         read_toml(path)
 
 
@@ -449,6 +458,7 @@ def test_another_encoding_says_how_to_convert(tmp_path):
         ("x = { a = 1, a = 2 }\n", "line 1, `x = { a = 1, a = 2 }`: duplicate inline table key"),
         ("x = 1\nradius 5 mm\n", "a.toml is not a TOML file, line 2, `radius 5 mm`: expected '='"),
         ("x = 1\n\ny =", "line 3, `y =`: invalid value"),
+        ('passport = "C:\\Users\\a.toml"\n', "write a path with / or in single quotes"),
         ('x = "' + 70 * "a" + "\n", 'line 1, `x = "' + 55 * "a" + " ...`: illegal character"),
     ],
 )  # fmt: skip

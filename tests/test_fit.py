@@ -7,7 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from reference_data import DMA
+from viscotack.errors import InputError
 from viscotack.geometry import Sphere
+from viscotack.identify import PullOff, identify_rates
 from viscotack.lab import (
     fit,
     fit_errors,
@@ -22,6 +24,7 @@ from viscotack.lab.fit_power_law import fit_constants
 from viscotack.lab.fit_prony import fit_series
 from viscotack.lab.observed import observed
 from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest
+from viscotack.lab.tack import Measured
 from viscotack.lab.thinned import thinned
 from viscotack.materials import (
     FractionalKelvinVoigt,
@@ -402,10 +405,16 @@ def test_a_liquid_is_called_one():
             # (1e5 0.1 + 2e4 1)/3 Pa s
             assert "shear viscosity about 1e+04 Pa s" in words
             assert "not a property of the material" in words
+            passport = issued(report, name="melt")
+            assert passport.liquid.startswith("this is a liquid")
+            series = [PullOff(speed, Measured(1e-3, 1e-5), preload=1e-3) for speed in (1e-6, 1e-5)]
+            with pytest.raises(InputError, match="no rubbery plateau.* rate series cannot be"):
+                identify_rates(series, material=passport, radius=5e-3)
     t = np.geomspace(1e-2, 1e4, 40)
     flowing = CreepTest(t, 1e-6 + 1e-7 * t, "E")
     assert "this is a liquid" in fit(flowing, poisson_ratio=0.5, model="prony", draws=2).words()
-    assert "liquid" not in fit(curve(), poisson_ratio=0.5, model="prony", draws=2).words()
+    solid = fit(curve(), poisson_ratio=0.5, model="prony", draws=2)
+    assert "liquid" not in solid.words() and not issued(solid, name="solid").liquid
 
 
 SPRINGPOTS = {

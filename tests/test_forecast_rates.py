@@ -27,6 +27,7 @@ from viscotack.materials.shift import WLF, TabulatedShift
 from viscotack.operations import operation
 from viscotack.operations.declare.study import read_study, study_text
 from viscotack.operations.identify import IdentifyRates
+from viscotack.operations.parts.records import forecast_rows
 from viscotack.operations.parts.rig import Rig
 
 SOLID = vt.RetardationPowerLaw(
@@ -89,6 +90,13 @@ def test_a_forecast_covers_the_true_value_and_widens_away_from_the_data(fit, for
     width = np.log(found.high / found.low)
     assert width[1] > 1.5 * width[0]
     assert "beyond them the prediction depends on the material" in " ".join(found.words)
+    assert found.low_of_one is None
+    # a single test scatters about the mean of many
+    single = forecast_rates(replace(fit, between_tests=0.1), speed)
+    assert single.low == pytest.approx(found.low)
+    wide = np.log(single.high_of_one / single.low_of_one)
+    assert wide == pytest.approx(np.hypot(width, 2 * 1.645 * 0.1), rel=0.05)
+    assert list(forecast_rows(single)[0])[4:] == ["low_of_one_test_N", "high_of_one_test_N"]
 
 
 def test_doubt_about_the_material_widens_the_answer(exact, fit):
@@ -123,7 +131,7 @@ def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
     words = "uncertainty of 2 K (stated), by which the times of the material change by 15.4%"
     assert words in " ".join(fits[1].words)
     assert "the passport has no shift of times with temperature" in " ".join(fits[2].words)
-    assert not any("temperature" in one for one in fits[0].words)
+    assert not any("the temperature of the tests has" in one for one in fits[0].words)
     for kelvin in (-1.0, 275.15):
         with pytest.raises(InputError, match="must lie between 0 and 50 K"):
             identify_rates(series, material=sure, radius=RADIUS, temperature_uncertainty=kelvin)

@@ -89,7 +89,7 @@ def test_a_slow_test_beside_the_series_narrows_the_range():
 @pytest.mark.slow
 def test_intervals_cover_the_true_value_at_their_stated_probability():
     true, inside = forces(200e-9), []
-    for seed in range(60):
+    for seed in range(30):
         rng = np.random.default_rng(seed)
         fit = identify_rates(series(true * (1 + 0.03 * rng.standard_normal(6))), theory=0.0, **CASE)
         for name, value in (("work_of_adhesion", WORK), ("equilibrium_gap", 200e-9)):

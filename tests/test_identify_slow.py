@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from command_line import exit_status
 from viscotack.errors import InputError
 from viscotack.identify import Objective, Parameter, SlowTest, identify_slow, slow_test
 from viscotack.lab import tack
+from viscotack.materials.library import passport_of
 from viscotack.theory import jkr, maugis
 
 LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}
@@ -63,6 +65,9 @@ def test_of_a_short_range_the_data_tell_only_that_it_is_short():
     assert fit.best.model == "jkr"
     words = " ".join(fit.words)
     assert "the Tabor number is above" in words and "do not distinguish" in words
+    works = [one.intervals["work_of_adhesion"] for one in fit.fits]
+    covered = min(one.low for one in works), max(one.high for one in works)
+    assert (fit.work_of_adhesion.low, fit.work_of_adhesion.high) == covered
     ends = next(one for one in fit.fits if one.model == "maugis").intervals["tabor"]
     assert ends.closed_below and not ends.closed_above and ends.low > 2
 
@@ -96,6 +101,29 @@ def test_without_contact_radii_the_range_is_weakly_determined():
     ends = next(x for x in by_depth.fits if x.model == "maugis").intervals["tabor"]
     other = by_radius.best.intervals["tabor"]
     assert ends.high / ends.low > 1.5 * other.high / other.low
+
+
+@pytest.mark.parametrize("modulus, contradicts", [(1.5e6, True), (1.95e6, False)])
+def test_a_modulus_that_the_test_contradicts_leaves_an_upper_bound(modulus, contradicts):
+    fit = identify_slow(of_jkr(1), models=["jkr"], contact_modulus=(modulus, 0.03 * modulus))
+    assert bool(fit.upper_bound) == contradicts
+    assert fit.work_of_adhesion.closed_below != contradicts
+    assert fit.work_of_adhesion.high > LENS["work_of_adhesion"]
+    assert ("is at most" in fit.words[0]) == contradicts
+    if contradicts:
+        assert "standard deviations from the given 1.5 MPa +- 45 kPa" in fit.upper_bound[0]
+
+
+@pytest.mark.parametrize(
+    "speed, slow", [pytest.param(1e-8, True, marks=pytest.mark.slow), (1e-4, False)]
+)
+def test_a_known_material_shows_whether_the_test_was_slow(speed, slow):
+    test = replace(of_jkr(1), speed=speed, preload=1.5e-3)
+    fit = identify_slow(test, models=["jkr"], material=passport_of("pdms-10-1"))
+    assert bool(fit.upper_bound) != slow
+    said = " ".join(fit.words)
+    assert ("the test was slow" in said) == slow and "times the slow force" in said
+    assert "no temperature of the tests is stated: 20 C of the material is assumed" in said
 
 
 def error_study():

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates
 from viscotack.identify.forward import Forward
+from viscotack.identify.objective import Interval
 from viscotack.identify.pull_off import History
 from viscotack.identify.study import Study, answer
 from viscotack.identify.temperatures import shifted
@@ -123,6 +125,9 @@ def test_a_series_whose_temperatures_are_not_usable_is_refused():
     same, said = shifted(SERIES[:3], fixed)
     assert same == SERIES[:3] and "but the material has no shift" in said[0]
     assert shifted(SERIES[:3], bare) == (SERIES[:3], [])
+    unknown = [replace(one, temperature=None) for one in SERIES]
+    assumed = "no temperature of the tests is stated: 20 C of the material is assumed"
+    assert shifted(unknown, PASSPORT) == (unknown, [assumed])
 
 
 def test_the_record_has_true_and_shifted_speeds(fit):
@@ -133,6 +138,24 @@ def test_the_record_has_true_and_shifted_speeds(fit):
         assert row["shifted_speed_m_s"] == pytest.approx(factor * row["speed_m_s"])
     axes = draw_rate_series(fit).axes[0]
     assert axes.get_xlabel().startswith("speed $a_T v$ at 20 °C")
+
+
+def test_a_forecast_at_one_speed_is_drawn_and_an_open_range_has_no_value(fit):
+    ends = [np.array([force]) for force in (2e-3, 1.8e-3, 2.4e-3)]
+    names = ("force", "low", "high")
+    one = SimpleNamespace(
+        **dict(zip(names, ends, strict=True)),
+        speed=np.array([3e-4]), preload=1.5e-3, temperature=293.15, dwell=None, level=0.9,
+    )  # fmt: skip
+    axes = draw_rate_series(fit, one).axes[0]
+    (bar,) = [drawn for drawn in axes.containers if "forecast" in drawn.get_label()]
+    load = bar.lines[0].get_ydata()[0]
+    low, high = bar.lines[2][0].get_segments()[0][:, 1]
+    assert (low / load, high / load) == pytest.approx((0.9, 1.2))
+    bound = Interval(1e-8, 5e-7, False, True)
+    open_range = replace(fit, intervals=fit.intervals | {"equilibrium_gap": bound})
+    legend = draw_rate_series(open_range).axes[0].get_legend()
+    assert any("range below 500 nm" in text.get_text() for text in legend.get_texts())
 
 
 def test_a_study_takes_temperatures_from_its_files_unless_one_is_given(tmp_path, monkeypatch):
@@ -155,4 +178,4 @@ def test_a_study_takes_temperatures_from_its_files_unless_one_is_given(tmp_path,
     assert own.value.args[0] == pytest.approx([288.15, 298.15])
     with pytest.raises(Asked) as given:
         answer(replace(study, temperature=303.15))
-    assert given.value.args[0] == [None, None]
+    assert given.value.args[0] == [303.15, 303.15]

@@ -17,6 +17,7 @@ PACKAGE = Path(viscotack.__file__).parent
 ROOMS = (
     "version",
     "arrays",
+    "threads",
     "clock",
     "renamed",
     "errors",

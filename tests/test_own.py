@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.campaign import Store, read_plan, run
+from viscotack.campaign import Store, read_plan, run, space_filling
 from viscotack.materials import WLF, Passport, read_passport, write_passport
 from viscotack.materials.conversion import slowed
 from viscotack.problem.nouns import known, own_nouns
@@ -378,3 +378,10 @@ def test_a_sweep_has_their_numbers(case_file, tmp_path):
     assert status == 0, err
     (row,) = json.loads(out)["rows"]
     assert row["outputs"]["largest_contact_radius_m"] > 0
+
+
+def test_a_campaign_of_an_own_class_without_its_file_says_where_to_name_it(problem):
+    with pytest.raises(vt.InputError, match=r"settings=CaseSettings\(own=\[.*to run") as wrong:
+        space_filling(problem, {"protocol.speed": {"log": [1e-6, 1e-5]}}, cases=2)
+    assert type(problem.traction).__name__ in str(wrong.value)
+    assert "also=" not in str(wrong.value)

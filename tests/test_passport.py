@@ -2,6 +2,7 @@
 
 import json
 import re
+import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +25,7 @@ from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.operations.declare import questions
-from viscotack.problem.case_file import read_case, shift_deviation
+from viscotack.problem.case_file import passport_of_tables, read_case
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {
@@ -188,8 +189,8 @@ def test_a_problem_may_name_a_passport(tmp_path):
     case.write_text(CASE.format(temperature='temperature = "60 degC"'))
     with pytest.raises(ValueError, match=r"case.toml, \[material\] .* was measured from"):
         read_case(case)
-    case.write_text(CASE.format(temperature='rubbery_modulus = "1 MPa"'))
-    with pytest.raises(ValueError, match="unknown key 'rubbery_modulus'"):
+    case.write_text(CASE.format(temperature='glassy_modulus = "1 MPa"'))
+    with pytest.raises(ValueError, match="unknown key 'glassy_modulus'"):
         read_case(case)
 
 
@@ -250,7 +251,25 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     plan.write_text(f'temperature = "0 degC"\n{grid}')
     with pytest.raises(ValueError, match="temperature goes with problem"):
         read_plan(plan)
-    assert shift_deviation(case, temperature=273.15) == pytest.approx(0.15)
+    tables = tomllib.loads(case.read_text())
+    beside = {"beside": case.parent.joinpath, "temperature": 273.15}
+    passport, deviation = passport_of_tables(tables, **beside)
+    assert deviation == pytest.approx(0.15)
+    assert passport.temperature == 273.15 and passport.material == moved.material
+
+
+def test_a_passport_is_scaled_to_another_rubbery_modulus(tmp_path):
+    case = lens_with(uncertain(), tmp_path)
+    own = read_case(case).material
+    case.write_text(case.read_text().replace("[material]", '[material]\nrubbery_modulus = "3 MPa"'))
+    solid = read_case(case).material
+    assert solid == replace(own, rubbery_modulus=3e6, glassy_modulus=3 * own.glassy_modulus)
+    tables = tomllib.loads(case.read_text())
+    scaled, _ = passport_of_tables(tables, beside=case.parent.joinpath)
+    assert (scaled.name, scaled.material) == ("m, scaled to 3 MPa", solid)
+    case.write_text(case.read_text().replace('"3 MPa"', '"-3 MPa"'))
+    with pytest.raises(ValueError, match="rubbery_modulus must be positive"):
+        read_case(case)
 
 
 def test_a_case_is_simulated_at_a_temperature_beside_its_file(tmp_path, capsys):

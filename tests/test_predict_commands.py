@@ -12,6 +12,7 @@ from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import methods
 from viscotack.app.cli import reading
+from viscotack.forecast import cautions_on
 from viscotack.operations.parts import predict_table
 from viscotack.surrogate import physics, store, trust
 from viscotack.units import readable
@@ -84,6 +85,7 @@ def test_flags_and_a_file_give_what_python_gives(lens, capsys):
     for problem, words in ((groups, [*SPHERE, *RATE]), (vt.read_case(lens), [lens])):
         expected = vt.prediction_summary(vt.predict(problem, confidence=0.8))
         assert expected["inside"]
+        expected["cautions"] = list(cautions_on(problem))
         assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
     assert answer(capsys, "sphere", lens) == answer(capsys, lens)
 
@@ -92,7 +94,7 @@ def test_words_have_the_interval_and_si(lens, capsys):
     assert call(lens) == 0
     out = capsys.readouterr().out
     found = answer(capsys, lens)
-    assert out.startswith("every input is in the training range")
+    assert out.startswith("by surrogate: every input is in the training range")
     assert f"= {readable(found['pull_off_force_N'], 'N')}" in out
     low, high = found["interval_N"]
     assert "90 % between" in out and f"= {readable(low, 'N', to=high)}" in out
@@ -136,7 +138,7 @@ def test_compare_reports_a_missed_interval_and_a_missing_simulation(monkeypatch,
     assert stopped in capsys.readouterr().out
 
 
-def test_a_theory_predicts_outside_the_range_and_is_compared_by_force_alone(capsys):
+def test_a_theory_predicts_outside_the_range_and_is_compared(capsys):
     deep = [*SPHERE, "--rate", "1", "--preload", "600"]
     found = answer(capsys, *deep, "--compare")
     assert found["method"] != "surrogate" and found["inside"] is False
@@ -147,7 +149,7 @@ def test_a_theory_predicts_outside_the_range_and_is_compared_by_force_alone(caps
     assert abs(found["difference"]["pull_off_force"]) < 0.3
     assert call(*deep) == 0
     out = capsys.readouterr().out
-    assert out.startswith("outside of the surrogates: preload is 600 h0") and "work" not in out
+    assert out.startswith("outside of the surrogates: preload is 600 h0") and "work to" not in out
     assert f"by the theory {found['method']!r}" in out
 
 
@@ -214,14 +216,15 @@ def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
     book.active.cell(5, 1).data_type = "s"
     book.save(cases)
     found = answer(capsys, cases, "--xlsx", answers)
-    assert (found["rows"], found["unanswered"]) == (3, 2)
+    assert (found["rows"], found["unanswered"]) == (4, 2)
     told = list(openpyxl.load_workbook(answers)["predictions"].iter_rows(values_only=True))
-    kept = [row for row in rows if any(row)]
-    assert list(told[0][:6]) == columns and [list(row[:6]) for row in told[1:]] == kept
+    # an empty row keeps its place, so that answers may be pasted beside the cases
+    assert list(told[0][:6]) == columns and [list(row[:6]) for row in told[1:]] == rows
+    assert told[2][-1] == "empty row"
     # the same table as CSV has the same answers; openpyxl writes sixteen digits
     plain, text = tmp_path / "cases.csv", tmp_path / "answers.csv"
     with plain.open("w", newline="") as stream:
-        csv.writer(stream).writerows([columns, *kept])
+        csv.writer(stream).writerows([columns, *rows])
     answer(capsys, plain, "--csv", text)
     expected = table(text)
     for row, other in zip(told[1:], expected, strict=True):
@@ -241,8 +244,8 @@ def test_a_workbook_that_cannot_be_read_and_two_outputs_are_refused(tmp_path, ca
     target = tmp_path / "answers.xlsx"
     assert "expected an Excel workbook" in wrong(capsys, damaged, "--xlsx", target)
     both = wrong(capsys, damaged, "--xlsx", target, "--csv", tmp_path / "answers.csv")
-    assert "--csv answers.csv or --xlsx answers.xlsx" in both
-    assert "is for a table CASES.csv" in wrong(capsys, *SPHERE, *RATE, "--xlsx", target)
+    assert "choose one output" in both and "--csv or --xlsx" in both
+    assert "is for a table of cases" in wrong(capsys, *SPHERE, *RATE, "--xlsx", target)
     assert not target.exists()
 
 
@@ -278,7 +281,12 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
     again.write_text("tabor,modulus_ratio,exponent,preload,rate,why\n1,0.1,0.8,5,10,x\n")
     out = ["--csv", tmp_path / "out.csv"]
     for words, arguments in (
-        ("--csv answers.csv", [cases]),
+        ("choose one output for the answers", [cases]),
+        ("before its table of cases", [cases, lens]),
+        ("give one table of cases", [cases, cases]),
+        ("'tabor' is no number that this problem states", [lens, cases, *out]),
+        ("leave out --compare", [lens, cases, *out, "--compare"]),
+        ("the headings tabor, rate", [other, *out]),
         ("leave out --compare", [cases, *out, "--compare"]),
         ("remove --tabor", [cases, *out, "--tabor", "1"]),
         ("has the inputs tabor, modulus_ratio, exponent, rate", [other, *out]),

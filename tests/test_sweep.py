@@ -116,7 +116,9 @@ def test_a_case_that_failed_keeps_its_inputs_in_the_table(quick, tmp_path):
     [
         ([], "cases missing"),
         ([{"rate": 1.0}, {"tabor": 1.0}], "all cases must replace the same numbers"),
-        ([{"speed": 1.0}], "no number 'speed'"),
+        ([{"speed": 1.0}], "no column is a number of the problem, got speed; it has tabor"),
+        ([{"rate": 1.0, "material.speed": 1.0}], "unknown column 'material.speed'"),
+        ([{"Rate": 1.0, "Start.depth [h0]": 1.0}], "dimensionless; leave out the unit"),
         ([{"rate": "fast"}], "fast"),
         ([1.0], "expected rows"),
         ({"rate": 1.0}, "expected rows"),
@@ -127,15 +129,59 @@ def test_cases_that_say_nothing_are_refused(cases, words):
         ask("sweep", problem=REDUCED, cases=cases)
 
 
-def test_a_table_is_read_as_that_of_a_plan(case, tmp_path):
+def test_tables_that_would_be_misread_are_refused(case, tmp_path):
     for text, words in (
         ("protocol.speed\n", "a case a row below it"),
-        ("protocol.speed\n1e-5\nfast\n", "line 3: could not convert"),
+        ("protocol.speed\n1e-5\nfast\n", "case 2: protocol.speed: 'fast' is not a number"),
         ("protocol.speed,geometry.radius\n1e-5\n", "line 2: 1 values for 2 columns"),
+        ("speed,radius\n1,5,2\n", "line 2: 3 values for 2 columns; numbers need decimal points"),
+        ("speed;radius\n1.000;1,5\n", "line 2: '1.000' beside decimal commas"),
+        ("radius\n5.19\n", r"'5.19' has no unit; write it in the heading, 'radius \[mm\]'"),
+        ("radius [mm]\n\n5 km\n", "case 2: .* must lie between 1e-15 and 100 m"),
+        ("raduis\n5 mm\n", "unknown column 'raduis'; did you mean radius"),
+        ("radius,temperature\n5 mm,20 degC\n", "'temperature' is no number that this problem"),
+        ("radius,sphere.radius\n5 mm,5 mm\n", "radius and sphere.radius state one number"),
+        ("radius [N]\n5\n", r"heading 'radius \[N\]': '1 N' has the wrong dimension"),
+        ("name\na\n", "no column is a number of the problem, got name"),
     ):
         (tmp_path / "wrong.csv").write_text(text)
-        with pytest.raises(InputError, match=f"wrong.csv.*{words}"):
+        with pytest.raises(InputError, match=words):
             ask("sweep", problem=case, cases=tmp_path / "wrong.csv")
+
+
+def test_a_workbook_has_units_in_headings_or_cells_names_and_empty_rows(case, quick, tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for row in (
+        ["Lens", "Radius [mm]", "speed_um_per_s", "Preload depth"],
+        ["a", 1, 10, "1 um"],
+        [None] * 4,
+        ["=b", 2000, 20, "500 nm"],
+        [None] * 4,
+    ):
+        book.active.append(row)
+    book.active.cell(4, 1).data_type = "s"
+    book.save(tmp_path / "cases.xlsx")
+    plain = tmp_path / "cases.csv"
+    plain.write_text(
+        "Lens;Radius [mm];speed_um_per_s;Preload depth\na;1,0;10;1 um\n;;;\n=b;2000;20;500 nm\n"
+    )
+    given = ["geometry.radius", "protocol.speed", "protocol.start.depth"]
+    expected = [dict(zip(given, (1e-3, 1e-5, 1e-6), strict=True)), None]
+    expected += [dict(zip(given, (2.0, 2e-5, 5e-7), strict=True))]
+    for table in (plain, tmp_path / "cases.xlsx"):
+        answer = ask("sweep", problem=case, cases=table)
+        rows = answer.record()["rows"]
+        assert [row["inputs"] for row in rows] == expected
+        assert [row["carried"]["Lens"] for row in rows] == ["a", "", "=b"]
+        assert (rows[1]["reason"], answer.status) == ("empty row", 0)
+        assert "columns without effect, carried along: Lens" in answer.notes
+        assert "case 3: Radius [mm] of 2 m is improbable; check its unit" in answer.notes
+        answer.files["csv"](tmp_path / "rows.csv")
+        with (tmp_path / "rows.csv").open(newline="") as stream:
+            written = list(csv.DictReader(stream))
+        assert [row["Lens"] for row in written] == ["a", "", "'=b"]
+        assert [float(row["Radius [mm]"] or 0) for row in written] == [1, 0, 2000]
 
 
 def test_an_exponent_goes_with_what_its_coefficient_follows_from(case):

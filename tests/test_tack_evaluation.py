@@ -344,3 +344,31 @@ def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
         found = signals.judged(signals.Signal(record, test.truth, {}))
         ratios.append(found[signals.QUANTITIES.index("preload_depth")][1])
     assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 1.1
+
+
+def pulled_film(tail, step):
+    """Return a test of a thin film: a peak 5 um behind zero force, then a plateau of a third."""
+    down = np.arange(-200e-6, 10e-6, 1e-6)
+    up = np.arange(10e-6, -1e-3, -step)
+    way = np.concatenate([down, np.full(20, 10e-6), up])
+    time = 0.05 * np.arange(down.size + 20.0)
+    travel = 10e-6 - up
+    time = np.concatenate([time, time[-1] + 1e-3 + travel / 1e-3])
+    ends = [0, 5e-6, 10e-6, 30e-6, 30e-6 + tail]
+    ramp = np.where(travel > ends[-1], 0.0, np.interp(travel, ends, [0.5, 0, -0.5, -0.17, -0.17]))
+    force = np.concatenate([0.5 * (np.maximum(down, 0) / 1e-5) ** 1.5, np.full(20, 0.5), ramp])
+    noise = 2e-3 * np.random.default_rng(1).standard_normal(force.size)
+    return tack.TackRecord(time, force + noise, way)
+
+
+def test_a_tension_that_lasts_behind_the_pull_off_is_a_sign_of_fibrils():
+    (fibrils,) = tack.evaluate(pulled_film(5e-4, 5e-7), into=1).cycles
+    assert "fibrils or cavities" in fibrils.cautions[0]
+    (sphere,) = tack.evaluate(pulled_film(1e-6, 5e-7), into=1).cycles
+    assert sphere.cautions == ()
+
+
+def test_a_speed_as_uncertain_as_it_is_large_is_refused():
+    found = tack.evaluate(pulled_film(1e-6, 6e-6), into=1)
+    assert not found.cycles
+    assert "the true speed is not determined" in found.refused[0].reason

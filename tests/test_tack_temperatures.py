@@ -12,6 +12,7 @@ from command_line import exit_status
 from viscotack.errors import InputError
 from viscotack.identify import pull_offs
 from viscotack.identify.speed_table import speed_table
+from viscotack.lab.tables import stated_temperature
 from viscotack.lab.tack import Measured, survey
 from viscotack.materials.shift import WLF
 from viscotack.pictures.tack import draw_tests
@@ -41,7 +42,7 @@ def test_the_temperature_of_a_test_is_that_of_column_header_or_name(tmp_path):
     fahrenheit = only(with_column(tmp_path / "f.csv", "T [°F]", np.full(count, 95.0)))
     assert fahrenheit.temperature == pytest.approx(308.15)
     header = tmp_path / "b.csv"
-    header.write_text("\n".join(["# Temperature: 35 °C", *LINES, ""]))
+    header.write_text("\n".join(["Temperature (°C),35.0", *LINES, ""]))
     assert only(header).temperature == pytest.approx(308.15)
     named = tmp_path / "lens_35C_2.csv"
     named.write_text("\n".join([*LINES, ""]))
@@ -49,6 +50,19 @@ def test_the_temperature_of_a_test_is_that_of_column_header_or_name(tmp_path):
     assert only(named, temperature_in_name=True).temperature == pytest.approx(308.15)
     # the rest of the evaluation does not depend on it
     assert by_column.pull_off_force == only(named).pull_off_force
+
+
+@pytest.mark.parametrize("line, kelvins", [
+    ("# Temperature: 35 °C", 308.15), ("Temperature,25.0 degC", 298.15),
+    ("Temperatur;25,5 °C", 298.65), ("Temperature (°C),25.0", 298.15), ("Temp [C];25,0", 298.15),
+    ('"Temperature","-10.0","°C"', 263.15), ("Test temperature 77 °F", 298.15),
+    ("Temperature\t25 °C\tOperator\tX", 298.15), ("Temp. (C) = 25", 298.15),
+    ("Temperature,25.0", None), ("Glass transition temperature: -70 °C", None),
+    ("Temperature: 20 °C to 30 °C", None), ("Speed,25 um/s", None), ("Time 25 s", None),
+])  # fmt: skip
+def test_a_line_above_the_columns_states_the_temperature_with_its_unit(line, kelvins):
+    for row in ([line], line.split("\t")):
+        assert stated_temperature([row]) == (kelvins and pytest.approx(kelvins))
 
 
 def test_a_temperature_that_cannot_be_read_or_changes_is_noted(tmp_path):

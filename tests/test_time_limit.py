@@ -215,7 +215,7 @@ def test_the_progress_line_forecasts_how_long_it_will_take(monkeypatch):
     [
         ("sphere --tabor 60 --modulus-ratio 1 --exponent 1 --preload 1 --rate 1",
          r"\d+ % of the motion is simulated: the cohesive zone is small beside the contact "
-         r"\(effective Tabor number 60\), .* Cheaper: --accuracy 0.02, --until pull-off, "),
+         r"\(range-corrected Tabor number 60\), .* Cheaper: --accuracy 0.02, --until pull-off, "),
         ("punch --size 100 --thickness 3 --cohesion 0.05 --modulus-ratio 1 --preload 1 --rate 10"
          " --accuracy 0.001",
          r"the punch is 100 a0 wide.*; the accuracy is 0.001\. Cheaper: --accuracy 0.02"),

@@ -36,10 +36,11 @@ def test_text_with_a_unit_becomes_si(text, unit, value):
 @pytest.mark.parametrize(
     ("text", "unit", "words"),
     [
-        ("5.19", "m", "no unit; write for example '5.19 m'"),
+        ("5.19", "m", "has no unit; write it behind the number, as in '1 m'"),
         ("5.19 kg", "m", "has the wrong dimension; expected a quantity in m"),
         ("5.19 mmm", "m", "unknown unit 'mmm'"),
-        ("5,19 mm", "m", "decimal point"),
+        ("5,19 mm", "m", "write it like '5.19 mm', with a decimal point"),
+        ("5,19", "m", "write it like '5.19 m', with a decimal point"),
         ("five mm", "m", "not a number and a unit"),
         ("", "m", "not a number and a unit"),
         ("nan m", "m", "not a number and a unit"),

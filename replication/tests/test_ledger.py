@@ -37,7 +37,7 @@ def test_the_page_is_what_is_measured(measured):
 
 def test_a_wrong_number_in_the_ledger_is_seen(measured):
     written = PAGE.read_text(encoding="utf-8")
-    for number, wrong in (("88.9 ± 0.6 %", "78.9 ± 0.6 %"), ("4.5037 printed", "4.5073 printed")):
+    for number, wrong in (("88.9 ± 0.5 %", "78.9 ± 0.5 %"), ("4.5037 printed", "4.5073 printed")):
         assert number in written
         assert written.replace(number, wrong) != measured
 
@@ -131,7 +131,7 @@ def test_commands_refuse_in_words():
 
 def test_a_claim_is_measured_by_its_command(measured):
     code, said = asked("claim", "upper-bound-between")
-    assert code == 0 and "holds" in said and "88.9 ± 0.6 %" in said
+    assert code == 0 and "holds" in said and "88.9 ± 0.5 %" in said
     code, said = asked("ledger")
     assert code == 0 and said.strip() == measured.strip()
 

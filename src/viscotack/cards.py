@@ -31,6 +31,30 @@ PLAUSIBLE = {
     "J/m2": (1e-12, 1e6),
 }
 
+# Magnitudes of tests in laboratories, from microscopes to gecko pads for climbers: what lies
+# outside of these is computed, with a warning.
+USUAL = {
+    "m": (1e-11, 1.0),
+    "m/s": (1e-12, 10.0),
+    "N": (1e-12, 1e4),
+    "Pa": (1e-1, 1e13),
+    "J/m^2": (1e-7, 1e5),
+}
+
+
+def unusual(name: str, number: float | None, unit: str) -> str:
+    """Return a warning about a number in SI of an improbable magnitude; "" otherwise.
+
+    Examples
+    --------
+    >>> unusual("radius", 2.0, "m")
+    'radius of 2 m is improbable; check its unit'
+    """
+    smallest, largest = USUAL.get(unit, (0.0, math.inf))
+    if not number or smallest <= abs(number) <= largest:
+        return ""
+    return f"{name} of {as_given(number, unit)} is improbable; check its unit"
+
 
 def plausible(name: str, number: float, unit: str) -> float:
     """Return a number in SI that a user states; InputError if its magnitude is absurd.

@@ -12,6 +12,7 @@ from typing import Any
 from viscotack.errors import InputError
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*[A-Za-zµμ°Ω%][^,]*|[+-]?\d*,\d+")
 # Users write "J/m2" or "J/m^2"; the unit library needs "J/m**2".
 # The unit library ignores other characters and would read "5 ?m" as metres.
 _UNIT_MARKS = re.compile(r"[A-Za-zµμ°Ω%0-9 .·⋅*/^()⁻¹²³-]*")
@@ -97,12 +98,15 @@ def parse(value: str | float, unit: str) -> float:
     match = _NUMBER_AND_UNIT.fullmatch(value)
     if match is None or match[2].startswith(","):
         what, example = ("number", "5.19") if unit == "1" else ("number and a unit", f"5.19 {unit}")
+        if _DECIMAL_COMMA.fullmatch(value):
+            example = value.strip().replace(",", ".")
+            example += f" {unit}" if unit != "1" and example[-1].isdigit() else ""
         raise InputError(
             f"{value!r:.80} is not a {what}; write it like '{example}', with a decimal point"
         )
     number, words = float(match[1]), match[2]
     if words == "" and unit != "1":
-        raise InputError(f"{value!r} has no unit; write for example '{match[1]} {unit}'")
+        raise InputError(f"{value!r} has no unit; write it behind the number, as in '1 {unit}'")
     if words != "":
         number = _converted(value, number, words, unit)
     return finite(repr(value), number, unit)

@@ -1,6 +1,7 @@
 """Contacts whose edge is a steady crack: limits, twins, published physics, simulation."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -37,6 +38,7 @@ from viscotack.theory import SteadyCrack, profiles
 from viscotack.theory.crack.contact import (
     Contact,
     Drive,
+    history,
     profile_of,
     radius_at_depth,
     radius_at_force,
@@ -264,7 +266,7 @@ def test_a_problem_in_si_is_its_groups():
     assert problem.tabor > 500
     assert found.problem is problem
     assert found.inside
-    assert "measured up to a Tabor number of 200; the error shrinks beyond" in found.why
+    assert "measured up to a Tabor number of 200, extrapolated beyond" in found.why
 
 
 def test_what_the_theory_cannot_answer_is_refused_with_the_reason():
@@ -350,3 +352,12 @@ def test_steps_at_one_time_before_the_pull_off_do_not_stop_a_fast_retraction():
     # warnings are errors: a slope between steps at one time was a division by zero
     forces = [crack_contact(Groups(**common, rate=v)).pull_off_force for v in (1e6, 2e6, 4e6)]
     assert forces == pytest.approx([forces[0]] * 3, rel=1e-3)
+
+
+@pytest.mark.parametrize(("travel", "rate"), [(-1.0, 0.2), (0.0, 0.2), (0.1, 0.25), (5.0, 0.0)])
+def test_the_rate_of_an_edge_is_of_second_order_unless_it_turns(travel, rate):
+    # mean rate 0.2 in this step, `travel` in the one before: 0.1 to 0.2 in mean goes on to 0.25,
+    # and an edge that slows down does not turn within a step
+    step = object.__new__(history._Step)
+    step._dt, step._before = 0.1, SimpleNamespace(radius=1.0, travel=travel, step=0.1)
+    assert step.rate(1.02) == pytest.approx(rate, rel=1e-9)

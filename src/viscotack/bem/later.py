@@ -2,12 +2,12 @@ r"""Criterion for the end of a retraction: no later tension maximum can exceed t
 
 The force of a fast pull from a deep start may have two peaks: one while the bulk is still glassy
 and the contact almost whole, and one after the bulk has relaxed, when the crack runs. In a relaxed
-solid a JKR contact pulls off when the Hertz force at its radius equals the pull-off force, for any
-work of separation of the crack. A contact that can still pull off with a force F must have a radius
-at which the Hertz force is at least F. In a retraction the edge only recedes. Once it is inside
-this radius, no later peak can exceed F.
+solid a JKR contact whose energy does not change with the radius pulls off when the Hertz force at
+its radius equals the pull-off force. The energy of a crack that accelerates rises as the contact
+shrinks, and the tension then exceeds the Hertz force, by half in computed cases. In a retraction
+the edge only recedes, so no later peak is expected to exceed F once the Hertz force at the edge is
+below half of F. The factor of a half is a heuristic.
 
-The work of separation grows with the crack speed, so the criterion uses half of F for safety.
 `benchmarks/peaks.py` compares runs that end by this rule with complete runs.
 """
 

@@ -277,11 +277,11 @@ def contact_of(groups: Groups) -> Contact:
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high:
         span = effective_range(groups.traction)
-        over = "" if span == 1 else f" over the range of the traction law ({span:.3g} h0)"
+        over = "" if span == 1 else f" (over the range of the law, {span:.3g} h0)"
         raise InputError(
-            f"the Tabor number{over} must be between {low:g} and {high:g} for a simulation, got "
-            f"{groups.effective_tabor:.4g}; below take theory.bradley, above theory.jkr on a "
-            "half-space and theory.elastic.indenter on another body"
+            f"the range-corrected Tabor number{over} must be between {low:g} and {high:g} for a "
+            f"simulation, got {groups.effective_tabor:.4g}; below take theory.bradley, above "
+            "theory.jkr on a half-space and theory.elastic.indenter on another body"
         )
     assert groups.tabor is not None
     match groups.geometry, groups.body:

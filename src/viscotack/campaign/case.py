@@ -255,7 +255,7 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
         of :func:`viscotack.result.trajectory.shares`. Names, units and signs are those of the
         columns of the geometry: of a punch ``stress``, tension positive, and ``ligament``. Forces
         follow a monotone cubic between the steps of the run, radii a straight line; None without an
-        edge.
+        edge. A problem in SI has each in SI as well, ``trajectory_force_N``.
     """
     depths, steps, edge = retraction(result)
     start = float(depths[0])
@@ -284,7 +284,23 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     radii[-1] = found.contact_radius
     radii = scale * radii
     row[f"trajectory_{edge_name}"] = [a if np.isfinite(a) else None for a in radii.tolist()]
-    return row
+    return row | _in_si(row, result)
+
+
+def _in_si(row: dict[str, Any], result: Result) -> dict[str, Any]:
+    """Return the columns of a curve in SI, by their names with the unit; none without scales."""
+    outputs, scales = result.problem.outputs, result.scales
+    if scales is None:
+        return {}
+    found: dict[str, Any] = {}
+    for name, value in row.items():
+        word = name.removeprefix("trajectory_").partition("_at_")[0]
+        unit = outputs.series["depth" if word == "travel_to_pull_off" else word].unit
+        factor = getattr(scales, unit.scale)
+        many = isinstance(value, list)
+        scaled = [None if x is None else x * factor for x in (value if many else [value])]
+        found[f"{name}_{unit.tail}"] = scaled if many else scaled[0]
+    return found
 
 
 def retraction(result: Result) -> tuple[Array, Array, Array]:

@@ -1,9 +1,9 @@
-"""Cases that are listed one by one: the rows of a CSV file, read when they are needed."""
+"""Cases that are listed one by one: the rows of a table, read when they are needed."""
 
 import csv
 import re
-from collections.abc import Iterator, Mapping
-from itertools import chain
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
@@ -13,43 +13,110 @@ from viscotack.problem.older import upgraded_path
 
 # Of a text as read_text returns it; as a file in memory it would be four times as large.
 _LINE = re.compile(r"[^\n]*\n|[^\n]+")
+_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
+_THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(\.\d{3})+\s*")
+
+Line = tuple[int, list[str]]
 
 
 def read_words(
-    path: Path, text: str | None = None
-) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    """Return the names in the first row of a CSV file, and the other rows with their lines.
+    path: Path, text: str | None = None, *, empty: bool = False
+) -> tuple[list[str], Iterator[Line]]:
+    """Return the names in the first row of a table, and the other rows with their lines.
 
-    Rows are read when they are needed, of the text of the file where it was read before; one that
-    is wrong is refused then.
+    Parameters
+    ----------
+    path : Path
+        A CSV file, or a workbook .xlsx, whose first sheet is read. Columns are separated by commas;
+        by semicolons or tabs where the first row has these and no comma, with decimal commas.
+    text : str, optional
+        The text of a CSV file that was read before.
+    empty : bool
+        Whether empty rows between others are kept; those at the end never are.
+
+    Notes
+    -----
+    Rows are read when they are needed; one that is wrong is refused then.
     """
-    rows = _filled(path, read_text(path) if text is None else text)
+    if text is None and is_workbook(path):
+        rows = _of_sheet(path)
+    else:
+        rows = _of_text(path, read_text(path) if text is None else text)
     names = [name.strip() for name in next(rows, (0, []))[1]]
+    rows = _filled(rows, empty=empty)
     first = next(rows, None)
     if first is None or len(set(names)) != len(names):
         raise InputError(
             f"{path}: needs a first row of different column names and a case a row below it"
         )
 
-    def checked() -> Iterator[tuple[int, list[str]]]:
+    def checked() -> Iterator[Line]:
         for line, row in chain([first], rows):
+            if not any(row):
+                yield line, [""] * len(names)
+                continue
             if len(row) != len(names):
-                raise InputError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
+                cure = "; numbers need decimal points, not commas" if len(row) > len(names) else ""
+                raise InputError(
+                    f"{path}, line {line}: {len(row)} values for {len(names)} columns{cure}"
+                )
             yield line, row
 
     return names, checked()
 
 
-def _filled(path: Path, text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a text in CSV that are not empty, with their lines; the first as it is."""
-    reader = csv.reader(found[0] for found in _LINE.finditer(text))
+def is_workbook(path: Path) -> bool:
+    """Return whether a table of cases is a workbook, by its ending."""
+    return path.suffix.lower() == ".xlsx"
+
+
+def _of_sheet(path: Path) -> Iterator[Line]:
+    """Return the rows of the first sheet of a workbook."""
+    from viscotack.lab.lab_file import load
+    from viscotack.lab.workbook_layout import sheets
+
     try:
-        yield 1, next(reader, [])
+        first = next(iter(sheets(load(path)).values()), [])
+    except ImportError as error:
+        raise InputError(str(error)) from None
+    # a sheet may have empty columns that were formatted
+    width = max((i + 1 for row in first for i, word in enumerate(row) if word.strip()), default=0)
+    return enumerate((row[:width] for row in first), 1)
+
+
+def _of_text(path: Path, text: str) -> Iterator[Line]:
+    """Yield the rows of a text in CSV, with their lines."""
+    head = text.partition("\n")[0]
+    mark = next((mark for mark in ";\t" if mark in head and "," not in head), ",")
+    reader = csv.reader((found[0] for found in _LINE.finditer(text)), delimiter=mark)
+    try:
         for row in reader:
-            if any(x.strip() for x in row):
-                yield reader.line_num, row
+            yield reader.line_num, row if mark == "," else _with_points(path, reader.line_num, row)
     except csv.Error as error:
         raise InputError(f"{path}, line {reader.line_num}: {error}") from None
+
+
+def _with_points(path: Path, line: int, row: list[str]) -> list[str]:
+    """Return a row with decimal points in place of decimal commas."""
+    commas = [_DECIMAL_COMMA.fullmatch(word) is not None for word in row]
+    if any(commas) and (doubtful := [word for word in row if _THOUSANDS.fullmatch(word)]):
+        raise InputError(
+            f"{path}, line {line}: {doubtful[0].strip()!r} beside decimal commas may have a point "
+            "or thousands; write it without a point, or save the table as .xlsx"
+        )
+    return [w.replace(",", ".") if comma else w for w, comma in zip(row, commas, strict=True)]
+
+
+def _filled(rows: Iterable[Line], *, empty: bool) -> Iterator[Line]:
+    """Yield the rows that are not empty and, if wanted, the empty ones between them as []."""
+    before = 0
+    for line, row in rows:
+        if any(word.strip() for word in row):
+            yield from repeat((line, []), before if empty else 0)
+            before = 0
+            yield line, row
+        else:
+            before += 1
 
 
 class Listed:

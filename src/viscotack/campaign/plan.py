@@ -254,10 +254,28 @@ def _of_problem(
     problem: Any, key: str, block: dict[str, Any], settings: CaseSettings | None
 ) -> Plan:
     settings = settings or CaseSettings()
+    _check_own(problem, settings)
     names = _inputs(key, block)
     check_exponent(problem, names)
     kind = kind_of_problem(problem, names, settings.nouns())
     return _planned("the plan", kind, [(key, block)], settings, to_dict(problem))
+
+
+def _check_own(problem: Any, settings: CaseSettings) -> None:
+    """Refuse a problem of the user's own classes without the files that define them."""
+    try:
+        from_dict(to_dict(problem), settings.nouns())
+    except InputError as error:
+        parts = (type(part) for part in vars(problem).values())
+        own = [
+            t.__name__ for t in parts if t.__module__.split(".")[0] not in ("builtins", "viscotack")
+        ]
+        if not own:
+            raise
+        raise InputError(
+            f"{', '.join(own)} is a class of your own, which the workers read from its file: give "
+            'settings=CaseSettings(own=["FILE.py"]) here and own=["FILE.py"] to run'
+        ) from error
 
 
 def _planned(

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from viscotack.arrays import Array
 from viscotack.bem.live import LiveContact
@@ -16,6 +15,7 @@ from viscotack.errors import InputError
 from viscotack.problem import Problem, Scales
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.series.simulated import part_of, posed_contact
+from viscotack.threads import one_blas_thread
 
 from .release import Release
 
@@ -101,7 +101,7 @@ def let_go(
     unit, settings = problem.scales(), Settings.for_accuracy(accuracy)
     longest = _LONGEST * float(release.table.travel[:, 2].max()) / release.speed
     fastest = release.fastest if release.fastest < inf else 100 * release.speed
-    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
+    with one_blas_thread(), limited(time_limit):
         try:
             posed = posed_contact(problem, settings)
             first = settings.first_travel * posed.contact.travel * unit.length / fastest

@@ -7,7 +7,7 @@ speeds and temperatures at which all targets count, and [scatter] tolerances wit
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,8 @@ from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Material
 from viscotack.materials.library import MATERIALS, passport_of
-from viscotack.problem.case_file import case_of_tables
+from viscotack.materials.passport import Passport
+from viscotack.problem.case_file import case_of_tables, passport_of_tables
 from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
 from viscotack.units import parse
 
@@ -83,6 +84,8 @@ class DesignFile:
         Wanted forces.
     conditions : Conditions
         Speeds, temperatures and tolerances at which they count.
+    passports : mapping of str to Passport
+        Passports of the materials that have one, at the temperature of the material.
     """
 
     materials: Mapping[str, Material]
@@ -90,6 +93,7 @@ class DesignFile:
     space: DesignSpace
     targets: Targets
     conditions: Conditions = Conditions()
+    passports: Mapping[str, Passport] = field(default_factory=dict)
 
 
 def read_design(
@@ -128,6 +132,10 @@ def read_design(
         )
         for name, table in _materials(path, tables).items()
     }
+    passports = {
+        name: passport_of_tables({"material": table}, where=path, also=also, beside=beside)[0]
+        for name, table in _materials(path, tables).items()
+    }
     first = next(iter(problems.values()))
     given = Table(path, "conditions", tables) if "conditions" in tables else None
     windows = {} if given is None else _windows(given)
@@ -148,6 +156,7 @@ def read_design(
         _space(Table(path, "bounds", tables), windows),
         _targets(Table(path, "targets", tables)),
         Conditions(**window, shifts=shifts, deviations=deviations, share=share),
+        {name: each for name, each in passports.items() if each is not None},
     )
 
 

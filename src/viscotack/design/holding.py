@@ -20,6 +20,7 @@ import numpy as np
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import HalfSpace, Sphere
+from viscotack.methods.by_crack import LEAST_TABOR
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
@@ -30,7 +31,6 @@ HELD_ERROR = 0.01
 # Loads and radii of the integral; smallest radius, and excess of the least load over the elastic
 # pull-off force; part of the largest energy at which the edge is as good as detached.
 _LOADS, _RADII, _LAST, _EXCESS, _MOST = 60, 200, 0.02, 1e-4, 0.98
-_LEAST_TABOR = 2.0
 
 
 def held_load(problem: Problem, time: float) -> float:
@@ -78,10 +78,11 @@ def held_load(problem: Problem, time: float) -> float:
     a = first * np.geomspace(1.0, _LAST, _RADII)
     energy = (4 / 3 * a**3 + load[:, None]) ** 2 / (8 * pi * a**3)
     least = energy.min(axis=1)
-    if not mu * least[0] ** (-1 / 3) >= _LEAST_TABOR:
+    if not mu * least[0] ** (-1 / 3) >= LEAST_TABOR:
         raise OutOfRange(
-            f"the cohesive zone is as large as the contact: Tabor number {mu:.3g}, valid from "
-            f"{_LEAST_TABOR:g}"
+            f"the cohesive zone is as large as the contact: effective Tabor number "
+            f"{mu * least[0] ** (-1 / 3):.3g}, valid from "
+            f"{LEAST_TABOR:g}"
         )
     # beyond the largest energy the edge is at its largest speed
     fast = np.minimum(energy, _MOST * crack.largest)

@@ -41,6 +41,11 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
         the line.
     """
     content = read_bytes(path, most)
+    if content.startswith((b"PK\x03\x04", b"\xd0\xcf\x11\xe0")):
+        raise InputError(
+            f"{os.fspath(path)} is a workbook or an archive, and text is read here; save the sheet "
+            "as CSV UTF-8 (comma delimited)"
+        )
     check_lines(path, content)
     encoding = next((e for mark, e in _MARKS.items() if content.startswith(mark)), "utf-8")
     try:
@@ -48,13 +53,13 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise InputError(
-            f"{os.fspath(path)} is not a text file in UTF-8 (line {line}); save it as UTF-8 in its "
-            "editor, or convert it: iconv -f WINDOWS-1252 -t UTF-8"
+            f"{os.fspath(path)} is not a text file in UTF-8 (line {line}); save it as UTF-8, in "
+            "Notepad by Save as, Encoding; in Excel as CSV UTF-8 (comma delimited)"
         ) from None
     if "\0" in text:
         raise InputError(
             f"{os.fspath(path)} is not a text file in UTF-8: it contains zero bytes; if it is "
-            "UTF-16, save it as UTF-8 in its editor, or convert it: iconv -f UTF-16 -t UTF-8"
+            "UTF-16, save it as UTF-8, in Notepad by Save as, Encoding"
         )
     return text.replace("\r\n", "\n").replace("\r", "\n")
 

@@ -70,6 +70,8 @@ def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
     shown = text.split("\n")[number - 1].strip()
     shown = f"{shown[:_SHOWN]} ..." if len(shown) > _SHOWN else shown
     words = words[:1].lower() + words[1:]
+    if "\\" in shown and '"' in shown:
+        words += "; write a path with / or in single quotes, 'C:\\lab\\pdms.toml'"
     raise InputError(f"{os.fspath(path)} is not a TOML file, line {number}, `{shown}`: {words}")
 
 

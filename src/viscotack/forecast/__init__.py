@@ -2,6 +2,7 @@
 
 from .advice import Advice, advise
 from .answer import predict
+from .cautions import cautions_on
 from .closed_forms import Estimate
 from .prediction import Prediction, prediction_summary
 from .prediction_table import predict_table
@@ -12,6 +13,7 @@ __all__ = [
     "Estimate",
     "Prediction",
     "advise",
+    "cautions_on",
     "predict",
     "predict_table",
     "prediction_summary",

@@ -7,6 +7,7 @@ from typing import Any
 
 from viscotack.errors import OutOfRange
 from viscotack.geometry import Sphere
+from viscotack.materials import Elastic
 from viscotack.methods.crack_problem import ROOT
 from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
@@ -14,7 +15,8 @@ from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULAT
 from viscotack.renamed import Renamed
 from viscotack.units import readable
 
-from .closed_forms import ClosedForms, Estimate, check_test, is_classic
+from .cautions import LINEAR_SPEED, beyond_linear
+from .closed_forms import Estimate, check_test, is_classic
 from .other_contacts import SATURATED, TOLERANCES, OtherContact, check_contact, other_contact
 from .prediction import Prediction
 from .question import Question
@@ -24,9 +26,7 @@ from .tiers import SOON, THEORIES, TIERS, Tier, best
 
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
 _DMT, _JKR = 0.1, 3.0
-# Crack speed above which silicone experiments exceed linear theory [m/s].
-LINEAR_SPEED = 100e-6
-# Effective Tabor number up to which a simulation takes about a second.
+# Range-corrected Tabor number up to which a simulation takes about a second.
 _FAST_TABOR = 15.0
 _SMALL_STRAIN = 0.2
 # Strain of a film up to which linear elasticity is a good approximation.
@@ -42,18 +42,19 @@ class Advice:
     tabor : float
         Tabor number of the relaxed solid.
     effective_tabor, glassy_tabor : float
-        Tabor number by the effective range of the law (the same for Lennard-Jones), and Tabor
-        number of the fast limit, the effective one times k^(1/3).
+        Range-corrected Tabor number, by the effective range of the law (the same for
+        Lennard-Jones), and that of the fast limit, times k^(1/3).
     adhesion : str
-        "jkr" (effective Tabor number above 3, and on a film forces that do not reach through it),
-        "transition" or "dmt" (below 0.1).
+        "jkr" (range-corrected Tabor number above 3, and on a film forces that do not reach through
+        it), "transition" or "dmt" (below 0.1).
     pull_off_force : float or None
         Prediction of :func:`viscotack.predict` with its default budget [1.5 pi R dg0]; None if
         no tier within it is verified for this problem.
     interval : tuple of float, or None
         90 % interval of this force.
     rate_regime : str
-        "quasi-static", "rate-dependent", "glassy", or "unknown" without a prediction.
+        "elastic" for a solid without rate dependence, "quasi-static", "rate-dependent", "glassy",
+        or "unknown" without a prediction.
     amplification : float or None
         Predicted force over the force of the slowest retraction.
     start_radius : float or None
@@ -61,8 +62,8 @@ class Advice:
     preload : str
         Effect on the force of pressing to twice that radius: "raises" or "lowers", if the whole
         ``preload_change`` does, or "same"; "any" in quasi-static retraction, where the start has no
-        effect; "unknown" below an effective Tabor number of 1, without a start, and for laws as
-        steep as Dugdale's.
+        effect; "unknown" below a range-corrected Tabor number of 1, without a start, and for laws
+        as steep as Dugdale's.
     preload_change : tuple of float or None
         90 % interval of the relative change of the force by this pressing.
     crack_speed_at_pull_off_m_per_s : float or None
@@ -117,7 +118,12 @@ class Advice:
     @property
     def sentences(self) -> tuple[str, ...]:
         """The advice in words."""
-        return (*self.statements, *_of_tiers(self), f"Use: {self.use}.")
+        return self.statements + self.tiers
+
+    @property
+    def tiers(self) -> tuple[str, ...]:
+        """The estimate of each tier in words, and the tier to use."""
+        return (*_of_tiers(self), f"Use: {self.use}.")
 
 
 def advise(problem: Problem | Groups) -> Advice:
@@ -176,12 +182,12 @@ def _of_sphere(asked: Question, found: Prediction | None) -> Advice:
     groups = asked.groups
     forms = asked.once(forms_of)
     verified = not (CLOSED_FORM.refuses(groups) or closed_form_limits(asked))
-    regime, change = _regime(forms, found), forms.preload_change if verified else None
+    regime, change = _regime(asked, found), forms.preload_change if verified else None
     return Advice(
         **_shared(asked, found, forms.edge_speed, forms.start_radius),
         rate_regime=regime,
         amplification=None if found is None else found.pull_off_force / forms.slowest,
-        preload="any" if regime == "quasi-static" else forms.preload if change else "unknown",
+        preload="any" if regime in _SLOW else forms.preload if change else "unknown",
         preload_change=change,
         estimates=tuple(estimate_by(tier, asked) for tier in TIERS if tier.name not in _OTHER),
     )
@@ -199,12 +205,14 @@ def _of_other(asked: Question, found: Prediction | None) -> Advice:
         contact = replace(contact, film_strain=strain)
     if contact.reaches_through and shared["adhesion"] == "jkr":
         shared["adhesion"] = "transition"
-    regime = contact.regime_of(None if found is None else found.pull_off_force)
+    regime = _ELASTIC
+    if not isinstance(asked.groups.material, Elastic):
+        regime = contact.regime_of(None if found is None else found.pull_off_force)
     return Advice(
         **shared,
         rate_regime=regime,
         amplification=None if found is None else found.pull_off_force / contact.slow_force,
-        preload="any" if regime == "quasi-static" else "unknown",
+        preload="any" if regime in _SLOW else "unknown",
         preload_change=None,
         estimates=(*contact.estimates, *(estimate_by(tier, asked) for tier in _FOR_OTHERS)),
         contact=contact,
@@ -242,6 +250,9 @@ def _shared(
     }
 
 
+_ELASTIC = "elastic"
+# Regimes in which the start has no effect on the force.
+_SLOW = (_ELASTIC, "quasi-static")
 # Tiers that never apply to a sphere.
 _OTHER = ("surrogate of punches",)
 _CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != CRACK_CONTACT)
@@ -249,11 +260,11 @@ _CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != CRACK_CONTA
 _FOR_OTHERS = tuple(tier for tier in TIERS if tier.name in (CRACK_CONTACT, SIMULATION))
 
 
-def _regime(forms: ClosedForms, found: Prediction | None) -> str:
+def _regime(asked: Question, found: Prediction | None) -> str:
     """Return the regime by theory; unknown if no tier predicts a force."""
-    if found is None:
-        return "unknown"
-    return forms.regime_of(found.pull_off_force)
+    if isinstance(asked.groups.material, Elastic):
+        return _ELASTIC
+    return "unknown" if found is None else asked.once(forms_of).regime_of(found.pull_off_force)
 
 
 def estimates_without_advice(asked: Question) -> tuple[Estimate, ...]:
@@ -281,7 +292,7 @@ def _simulated(groups: Groups) -> Estimate:
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high or too_short(groups):
         note = (
-            f"the simulation accepts effective Tabor numbers from {low:g} to {high:g}, for "
+            f"the simulation accepts range-corrected Tabor numbers from {low:g} to {high:g}, for "
             "elastic solids to "
         )
         return Estimate(SIMULATION, None, 2e-3, False, f"{note}{ELASTIC_TABOR:g}")
@@ -311,9 +322,10 @@ def _headline(advice: Advice) -> str:
         return ""
     scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
     force, low, high = (scale * x for x in (advice.pull_off_force, *advice.interval))
+    beside = f": {advice.amplification:.3g} times the slow force"
     return (
         f" Pull-off force {readable(force, unit)} ({readable(low, unit, to=high)}, 90 % interval, "
-        f"by the tier {advice.use!r}): {advice.amplification:.3g} times the slow force."
+        f"by the tier {advice.use!r}){'' if advice.rate_regime == _ELASTIC else beside}."
     )
 
 
@@ -372,6 +384,7 @@ def _statements(advice: Advice) -> list[str]:
         "jkr": "The forces have a short range: the contact peels like a crack (JKR).",
         "transition": "The range of the forces matters: neither JKR nor DMT alone holds.",
         "dmt": "The forces have a long range: the whole contact opens simultaneously (DMT).",
+        "elastic": "The solid is elastic: the computed force does not depend on speed.",
         "quasi-static": "The retraction is slow: the solid stays relaxed (rubbery).",
         "rate-dependent": "The retraction is fast enough for dissipation: the force depends on "
         "speed.",
@@ -382,7 +395,7 @@ def _statements(advice: Advice) -> list[str]:
     simulate = "" if advice.pull_off_force else " No fast tier was verified here: simulate."
     effective = ""
     if abs(advice.effective_tabor / advice.tabor - 1) > 1e-9:
-        effective = f", {advice.effective_tabor:.3g} (effective) for the range of this law"
+        effective = f", {advice.effective_tabor:.3g} (range-corrected) for the range of this law"
     found = [
         f"{words[advice.adhesion]} Tabor number {advice.tabor:.3g}{effective}.",
         f"{words[advice.rate_regime]}{_headline(advice)}{simulate}",
@@ -392,10 +405,7 @@ def _statements(advice: Advice) -> list[str]:
     if advice.preload_change is not None:
         found.append(_pressing(advice.preload, *advice.preload_change))
     if advice.beyond_linear and (speed := advice.crack_speed_at_pull_off_m_per_s) is not None:
-        found.append(
-            f"The edge moves at about {readable(speed, 'm/s', digits=2)}. Above 100 um/s, forces "
-            "in silicone experiments exceeded every linear theory: expect a larger force."
-        )
+        found.append(beyond_linear(speed))
     if advice.small_strain is False:
         found.append(
             f"The contact radius is {advice.strain:.2g} sphere radii: strains are not small "

@@ -5,9 +5,9 @@ ranges and errors were measured against :func:`viscotack.solve` with power laws 
 modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8 and rates 0.1 to 1e8;
 :mod:`.tiers` rejects other problems.
 A law other than Lennard-Jones is replaced by the one of the same work and strength, at its
-effective Tabor number. The resulting error was measured with exponential laws of decay 0.25 to 3,
-Dugdale's law with falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective
-Tabor numbers 0.1 to 10.
+range-corrected Tabor number. The resulting error was measured with exponential laws of decay 0.25
+to 3, Dugdale's law with falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1,
+range-corrected Tabor numbers 0.1 to 10.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere
+from viscotack.materials import Elastic
 from viscotack.problem import Groups
 from viscotack.problem.ranges import at_least, at_most
 from viscotack.protocol import AtDepth, Start
@@ -118,6 +119,8 @@ class ClosedForms:
         As in :class:`viscotack.Advice`.
     edge_speed : float or None
         Speed of the edge at pull-off [(R^2 dg0/E0*)^(1/3) per time unit].
+    edge_energy : float
+        Energy of that edge over the work of adhesion.
     estimates : tuple of Estimate
         Elastic, unloading, detachment, rate-fit and glassy.
     curve : Unloading or None
@@ -134,6 +137,7 @@ class ClosedForms:
     preload: str
     preload_change: tuple[float, float] | None
     edge_speed: float | None
+    edge_energy: float
     estimates: tuple[Estimate, ...]
     curve: unloading.Unloading | None
 
@@ -186,6 +190,7 @@ def _without_theory(why: str, slowest: float, fastest: float, start: float | Non
         preload="unknown",
         preload_change=None,
         edge_speed=None,
+        edge_energy=1.0,
         estimates=tuple(Estimate(name, limits.get(name), None, False, why) for name in _NAMES),
         curve=None,
     )
@@ -218,7 +223,7 @@ def _by_theory(
         change = _change(groups, here, pressed)
     preload = "any" if regime == "quasi-static" else _preload(change)
     estimates = (
-        _elastic(regime, slowest),
+        _elastic(asked, regime, slowest),
         _unloaded(groups, slowest, None if depth is None else curve),
         _detached(groups, slowest, state),
         _fitted(groups, preload),
@@ -232,6 +237,7 @@ def _by_theory(
         preload=preload,
         preload_change=change,
         edge_speed=edge,
+        edge_energy=gamma,
         estimates=tuple(_of_law(e, asked) for e in estimates),
         curve=None if depth is None or curve is None else _in_groups(curve, asked),
     )
@@ -258,11 +264,16 @@ def is_classic(groups: Groups) -> bool:
     return isinstance(groups.geometry, Sphere) and isinstance(groups.body, HalfSpace)
 
 
+def is_plain(groups: Groups) -> bool:
+    """Whether a rigid machine retracts a relaxed contact at constant speed."""
+    steady = groups.rate is not None and not groups.moves and groups.stiffness is None
+    return isinstance(groups.start, Start) and steady
+
+
 def check_test(groups: Groups) -> None:
     """Raise an InputError for tests other than a retraction from rest at constant speed."""
     check_of_gap_alone(groups.traction, "advice")
-    steady = groups.rate is not None and not groups.moves and groups.stiffness is None
-    if not isinstance(groups.start, Start) or not steady:
+    if not is_plain(groups):
         raise InputError(
             "advice covers a relaxed contact that a rigid drive retracts at constant speed; "
             "simulate other tests"
@@ -418,9 +429,11 @@ def _rate_regime(groups: Groups, amplification: float, gamma: float) -> str:
     return "glassy" if gamma * groups.modulus_ratio > _FAST else "rate-dependent"
 
 
-def _elastic(regime: str, slowest: float) -> Estimate:
+def _elastic(asked: Groups, regime: str, slowest: float) -> Estimate:
     if regime == "quasi-static":
         why = "the retraction is slow enough for the solid to stay relaxed"
+        if isinstance(asked.material, Elastic):
+            why = "the solid is elastic, and its force does not depend on speed"
         return Estimate("elastic", slowest, _SLOW, True, why)
     why = "the solid is not relaxed while the edge moves; the force is a lower limit"
     return Estimate("elastic", slowest, None, False, why)

@@ -242,9 +242,9 @@ def by_learned_crack(asked: Question) -> Prediction:
     )
     bands = error + curve_bands(energy, effective, zones)
     why = (
-        f"{'; '.join(asked.once(inputs_of_sphere).out)}; surrogate of the theory 'crack contact', "
-        f"within {error[0]:.2%} of it: effective Tabor number {effective:.3g}, travel of "
-        f"{zones:.3g} zones to the pull-off"
+        f"surrogate of the theory 'crack contact', within {error[0]:.2%} of it: effective Tabor "
+        f"number {effective:.3g}, travel of {zones:.3g} zones to the pull-off; not simulated "
+        f"detachments, because {'; '.join(asked.once(inputs_of_sphere).out)}"
     )
     factors = _at_seam(asked)
     if factors[0] != 1:

@@ -37,7 +37,7 @@ from .closed_forms import Estimate
 # Differences from the half-space for which a thickness is stated.
 TOLERANCES = (0.1, 0.05, 0.01)
 # Length of the zone of a relaxed edge [beta], times the squared Tabor number.
-_REST_ZONE = 0.75
+REST_ZONE = 0.75
 # Part of the fast force at which the gain is called saturated, and rates [beta^2/R per time unit]
 # among which it is searched for.
 SATURATED, _RATES = 0.9, np.geomspace(1e-4, 1e7, 34)
@@ -189,7 +189,7 @@ def other_contact(groups: Groups) -> OtherContact:
 
 def _zone(groups: Groups) -> float:
     """Return the length of the cohesive zone of a relaxed edge [beta]."""
-    return _REST_ZONE / groups.effective_tabor**2
+    return REST_ZONE / groups.effective_tabor**2
 
 
 def _strongest(groups: Groups, radius: float | None, work: float) -> float:

@@ -23,16 +23,17 @@ if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
 
 
-def _with_interval(name: str) -> tuple[str, str, str]:
+def with_interval(name: str) -> tuple[str, str, str]:
+    """Return the columns of a number and the ends of its interval."""
     return name, f"{name}_low", f"{name}_high"
 
 
 # Columns of the force (or stress) by kind of case, and of the work.
 FORCE = {
-    "sphere": _with_interval("pull_off_force"),
-    "punch": _with_interval("pull_off_stress"),
+    "sphere": with_interval("pull_off_force"),
+    "punch": with_interval("pull_off_stress"),
 }
-WORK = _with_interval("work_to_pull_off")
+WORK = with_interval("work_to_pull_off")
 # Column of each kind of start.
 _BY = {"preload_force": "force", "preload_radius": "contact_radius"}
 METHOD = {"sphere": SURROGATE, "punch": LEARNED_PUNCH}

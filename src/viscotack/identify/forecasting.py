@@ -52,6 +52,8 @@ class RateForecast:
     force, low, high : ndarray, shape (n,)
         Median and limits of the band [N], for the mean of many tests, without the noise of a single
         one.
+    low_of_one, high_of_one : ndarray, shape (n,), or None
+        Limits for a single test [N], with the scatter between tests; None if no repeats show it.
     level : float
         Confidence level of the band.
     preload, temperature : float, float or None
@@ -68,6 +70,8 @@ class RateForecast:
     force: Array
     low: Array
     high: Array
+    low_of_one: Array | None
+    high_of_one: Array | None
     level: float
     preload: float
     temperature: float | None
@@ -168,11 +172,14 @@ def forecast_rates(
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
     raised = slower > median
     median, high = np.maximum(median, slower), np.maximum(high, slower)
+    one = _of_one(fit, sample, rng, part)
     return RateForecast(
         v,
         median,
         low,
         high,
+        None if one is None else np.minimum(one[0], low),
+        None if one is None else np.maximum(one[1], high),
         level,
         load,
         passport.temperature,
@@ -186,6 +193,17 @@ def forecast_rates(
             ]
         ),
     )
+
+
+def _of_one(
+    fit: RateSeriesFit, sample: Array, rng: np.random.Generator, part: float
+) -> Array | None:
+    """Return the limits of single tests [N], shape (2, n), from means; None without a scatter."""
+    scatter = max(fit.between_tests, *(one.between_tests for one in fit.series))
+    if not scatter:
+        return None
+    each = sample * np.exp(scatter * rng.standard_normal(sample.shape))
+    return np.quantile(each, [part, 1 - part], axis=0)
 
 
 def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, ...]:

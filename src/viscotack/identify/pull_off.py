@@ -67,6 +67,9 @@ class PullOff:
         Temperature of the tests [K].
     shift : float
         a_T, by which the speed is multiplied (:func:`.temperatures.shifted`).
+    between_tests : float
+        Relative standard uncertainty of the force of a single test beyond its own, from repeats; 0
+        without repeats.
     """
 
     speed: float
@@ -77,6 +80,7 @@ class PullOff:
     history: History | None = None
     temperature: float | None = None
     shift: float = 1.0
+    between_tests: float = 0.0
 
     @property
     def true_speed(self) -> float:
@@ -161,6 +165,7 @@ def _of_one_speed(
         remarks,
         _history(same),
         temperature_of(same),
+        between_tests=repeats.uncertainty(1),
     )
 
 

@@ -303,6 +303,7 @@ def identify_rates(
     mostly for the lattice.
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
+    passport.refuse_liquid("a rate series cannot be identified, because contacts do not relax")
     series = [_loaded(one, preload) for one in series]
     series, shift_words = shifted(series, passport, growth)
     thin = isinstance(body, Layer)

@@ -14,6 +14,7 @@ from scipy.optimize import root_scalar
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.methods.by_crack import LEAST_TABOR
 
 from .covariances import ModelError
 from .forward import Forward
@@ -25,7 +26,6 @@ from .pull_off import PullOff
 from .smooth_ratio import Mixed
 
 _WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth
-LEAST_TABOR = 2.0  # effective: below it the theory does not hold, and ratios to it are simulated
 # Steps of work, range, strengthening and exponent of the coarse table, in search
 # coordinates; points of a curve, and number of pull-offs used.
 _COARSE, _COARSE_RADII, _COARSE_SPEEDS = (0.57, 0.57, 0.5, 0.2), 40, 6

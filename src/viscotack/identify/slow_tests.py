@@ -3,7 +3,12 @@ r"""Identify the interface from a slow test: elastic model, work of adhesion and
 In a slow test the solid is relaxed everywhere, including the edge of the contact.
 All models are fitted to the same points. The Bayesian information criterion
 :math:`\chi^2 + k \ln n`, with the scatter of the best model, measures the evidence (twice the
-logarithm of a Bayes factor for wide priors). Intervals are profile likelihoods.
+logarithm of a Bayes factor for wide priors). Intervals are profile likelihoods; that of the work
+of adhesion covers all models that the criterion does not distinguish.
+
+A test that is not slow contains losses at the edge, so that the work it gives is an upper bound.
+Three signs show it: residuals above the noise, a modulus that contradicts the known one, and, with
+a known material, a force by :func:`viscotack.advise` above that of the slowest retraction.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,18 +19,30 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.forecast import advise
+from viscotack.geometry import Sphere
 from viscotack.lab.tack import Cycle
+from viscotack.materials import Material
+from viscotack.materials.passport import Passport
+from viscotack.materials.passport_uncertainty import allowed
+from viscotack.problem import Problem
+from viscotack.protocol import AtForce, Retraction
 from viscotack.theory import maugis, transition
+from viscotack.traction import LennardJones
 from viscotack.units import readable, readable_interval
 
 from .contacts import MODELS, ElasticModel
 from .objective import Best, Interval, Objective, Parameter
+from .temperatures import assumed_temperature
 
 _FEWEST = 12  # smallest number of points
 _MOST = 300
 _DIFFERENT = 6.0  # difference of the criterion: strong evidence
 _HOPELESS = 20.0  # difference of the criterion above which no intervals are computed
 _LOUD = 2.0  # residuals over the noise above which no elastic law holds
+_APART = 3.0  # deviations of the fitted from the given modulus above which they contradict
+_SLOW = 1.05  # force over the slow force up to which a test is slow
+_SHORT = 5.0  # Tabor number of the comparison where the data determine none
 _LAMBDA = (0.02, 60.0)  # searched Maugis parameters
 _TRANSITION = (1e-3, 0.979)
 
@@ -48,6 +65,11 @@ class SlowTest:
         Standard deviation of single forces [N].
     at_noise : float
         Standard deviation of single radii or depths [m].
+    speed, preload : float, optional
+        Speed of the retraction [m/s] and force at its start [N], to compare with the force of a
+        known material.
+    temperature : float, optional
+        Temperature of the test [K].
     """
 
     force: Array
@@ -56,6 +78,9 @@ class SlowTest:
     radius: float
     force_noise: float
     at_noise: float = 0.0
+    speed: float | None = None
+    preload: float | None = None
+    temperature: float | None = None
 
     def __post_init__(self):
         for name in ("force", "at"):
@@ -106,7 +131,16 @@ def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTe
         )
     chosen = points[np.unique(np.linspace(0, points.size - 1, _MOST, dtype=int))]
     noise = max(cycle.noise, 1e-6 * cycle.pull_off_force.value)
-    return SlowTest(cycle.force[chosen], at[chosen], against, radius, noise)
+    return SlowTest(
+        cycle.force[chosen],
+        at[chosen],
+        against,
+        radius,
+        noise,
+        speed=cycle.speed.value,
+        preload=cycle.preload.value,
+        temperature=cycle.temperature,
+    )
 
 
 @dataclass(frozen=True)
@@ -157,6 +191,11 @@ class SlowTestFit:
         Confidence level of the intervals.
     evidence : str
         Criterion by which the model was chosen.
+    work_of_adhesion : Interval
+        Interval that covers all models that the data do not distinguish [J/m2]; without a lower
+        end if the test is not slow.
+    upper_bound : tuple of str
+        Reasons why the work is an upper bound; empty for a slow test.
     words : tuple of str
         Sentences on the result and on what the data do not determine.
     """
@@ -165,6 +204,8 @@ class SlowTestFit:
     fits: tuple[ModelFit, ...]
     level: float
     evidence: str
+    work_of_adhesion: Interval
+    upper_bound: tuple[str, ...]
     words: tuple[str, ...]
 
     @property
@@ -178,6 +219,7 @@ def identify_slow(
     *,
     models: Sequence[str] = tuple(MODELS),
     contact_modulus: tuple[float, float] | None = None,
+    material: Passport | Material | None = None,
     level: float = 0.9,
 ) -> SlowTestFit:
     """Fit elastic models to a slow test and rank them by evidence.
@@ -189,8 +231,11 @@ def identify_slow(
     models : sequence of str
         Any of "jkr", "dmt", "maugis" and "carpick".
     contact_modulus : (float, float), optional
-        E0* of the relaxed solid and its standard uncertainty [Pa], for example from a material
-        passport. By default it is fitted without a prior.
+        E0* of the relaxed solid and its standard uncertainty [Pa]. By default that of the
+        material, if its uncertainty is known; else it is fitted without a prior.
+    material : Passport or Material, optional
+        Solid of the test. The force that :func:`viscotack.advise` gives for it decides whether the
+        test was slow. A passport is used at the temperature of the test.
     level : float
         Confidence level of the intervals.
 
@@ -226,6 +271,8 @@ def identify_slow(
     chosen = [model for model in chosen if test.against == "radius" or model.by_depth is not None]
     if not chosen:
         raise InputError("Carpick's equation has no depth; fit another model, or contact radii")
+    solid, of_solid, remarks = _at_temperature(material, test.temperature)
+    contact_modulus = contact_modulus or of_solid
     sigma = _sigma(test)
     first = [_objective(model, test, sigma, contact_modulus) for model in chosen]
     bests = [_found(objective) for objective in first]
@@ -244,12 +291,120 @@ def identify_slow(
         else _model_fit(*rest, criterion, test, None, size)
         for criterion, *rest in fits
     ]
+    alike = [fit for fit in fits if fit.criterion - fits[0].criterion < _DIFFERENT]
+    reasons = [*_of_residuals(size), *_of_modulus(fits[0], contact_modulus)]
+    # a test that is not slow has a wrong range
+    too_fast, unchecked = _of_material([] if reasons else fits, alike, test, solid)
+    reasons += too_fast
+    work = _work(alike, test, bool(reasons))
     return SlowTestFit(
         test,
         tuple(fits),
         level,
         "Bayesian information criterion, chi2 + k ln n, with the scatter of the best model",
-        tuple(_words(test, fits, size, level)),
+        work,
+        tuple(reasons),
+        (*_words(test, fits, alike, work, reasons, level), *unchecked, *remarks),
+    )
+
+
+def _at_temperature(
+    given: Passport | Material | None, temperature: float | None
+) -> tuple[Material | None, tuple[float, float] | None, list[str]]:
+    """Return a material at a temperature, its E0* with uncertainty if known, and a remark."""
+    if not isinstance(given, Passport):
+        return given, None, []
+    given.refuse_liquid("no test is slow, because the solid does not relax")
+    remarks = assumed_temperature(given, () if temperature is None else (temperature,))
+    if temperature is not None and given.temperature is not None:
+        given = given.moved_to(temperature)
+    rubbery = [float(solid.rubbery_modulus) for solid in allowed(given)]
+    spread = float(np.std(rubbery)) if len(rubbery) > 1 else 0.0
+    plane = 1 - given.material.poisson_ratio**2
+    modulus = (given.material.rubbery_modulus / plane, spread / plane) if spread else None
+    return given.material, modulus, remarks
+
+
+def _of_residuals(size: float) -> list[str]:
+    if size <= _LOUD:
+        return []
+    return [
+        f"residuals are {size:.2g} times the noise: no elastic law fits. If the test was not "
+        "slow, energy dissipated at a viscoelastic edge appears as a longer range; use a slower "
+        "test, or `viscotack identify rates`"
+    ]
+
+
+def _of_modulus(best: ModelFit, given: tuple[float, float] | None) -> list[str]:
+    """Return a reason if the fitted modulus contradicts the given one."""
+    if given is None:
+        return []
+    deviations = abs(np.log(best.contact_modulus / given[0])) * given[0] / given[1]
+    if deviations <= _APART:
+        return []
+    return [
+        f"the fitted E0* {readable(best.contact_modulus, 'Pa')} is {deviations:.2g} standard "
+        f"deviations from the given {readable(given[0], 'Pa')} +- {readable(given[1], 'Pa')}: "
+        "the contact was not that of the relaxed solid, or the given modulus or the compliance of "
+        "the rig is wrong"
+    ]
+
+
+def _of_material(
+    fits: list[ModelFit], alike: list[ModelFit], test: SlowTest, solid: Material | None
+) -> tuple[list[str], list[str]]:
+    """Return a reason if the material gives more than the slow force, and a remark if unknown.
+
+    The interface is the fitted one with the largest range that the fits allow, which amplifies
+    least.
+    """
+    if solid is None:
+        return [], []
+    if test.speed is None or test.preload is None:
+        return [], ["without speed and preload the material cannot show whether the test was slow"]
+    work, tabor = max(fit.work_of_adhesion for fit in alike), _SHORT
+    ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
+    if ranged is not None and ranged in alike:
+        ends = ranged.intervals["tabor"]
+        tabor = ends.low if ends.told else max(ends.low if ends.closed_below else 0.0, _SHORT)
+    gap = (test.radius * work**2 / solid.contact_modulus**2) ** (1 / 3) / tabor
+    said = (
+        f"at {readable(test.speed, 'm/s')}, {readable(work, 'J/m2')} and a range of "
+        f"{readable(gap, 'm', digits=2)}"
+    )
+    try:
+        pull = Problem(
+            material=solid,
+            geometry=Sphere(test.radius),
+            traction=LennardJones(work_of_adhesion=work, equilibrium_gap=gap),
+            protocol=Retraction(start=AtForce(test.preload), speed=test.speed),
+        )
+        ratio = advise(pull).amplification
+    except InputError as error:
+        return [], [f"whether the test was slow is not checked {said}: {error}"]
+    if ratio is None:
+        return [], [f"whether the test was slow is not known {said}: simulate this pull"]
+    if ratio <= _SLOW:
+        return [], [
+            f"the material gives {ratio:.4g} times the slow force {said}: the test was slow"
+        ]
+    return [
+        f"the material gives {ratio:.3g} times the slow force {said}, a slow test at most "
+        f"{_SLOW:g}: the test was not slow. Use a slower test, or `viscotack identify rates`"
+    ], []
+
+
+def _work(alike: list[ModelFit], test: SlowTest, bounded: bool) -> Interval:
+    """Return the interval of the work of adhesion over models that the data do not distinguish."""
+    ends = [fit.intervals["work_of_adhesion"] for fit in alike]
+    high = max(end.high for end in ends)
+    if bounded:
+        # of all elastic laws JKR needs the largest work for a force
+        of_jkr = -float(test.force.min()) / (1.5 * np.pi * test.radius)
+        return Interval(0.0, max(high, of_jkr), False, True)
+    low = min(end.low for end in ends)
+    return Interval(
+        low, high, all(end.closed_below for end in ends), all(end.closed_above for end in ends)
     )
 
 
@@ -379,30 +534,35 @@ def _tabor(name: str, value: float) -> float:
     return lam / float(maugis.parameter_from_tabor(1.0))
 
 
-def _words(test: SlowTest, fits: list[ModelFit], size: float, level: float) -> list[str]:
-    best = fits[0]
-    said = []
-    w, ends = best.work_of_adhesion, best.intervals["work_of_adhesion"]
-    both = ends.low, ends.high
-    said.append(
-        f"work of adhesion {readable(w, 'J/m2')} ({readable_interval(*both, 'J/m2')}, "
-        f"{level:.0%}) by {best.model.upper()}"
-    )
-    alike = [fit.model.upper() for fit in fits[1:] if fit.criterion - best.criterion < _DIFFERENT]
-    if alike:
+def _words(
+    test: SlowTest,
+    fits: list[ModelFit],
+    alike: list[ModelFit],
+    work: Interval,
+    reasons: list[str],
+    level: float,
+) -> list[str]:
+    names = [fit.model.upper() for fit in alike]
+    if reasons:
+        said = [
+            f"the work of adhesion is at most {readable(work.high, 'J/m2')} ({level:.0%}), an "
+            "upper bound: an elastic fit does not determine it from this test",
+            *reasons,
+        ]
+    else:
+        ends = readable_interval(work.low, work.high, "J/m2")
+        said = [
+            f"work of adhesion {readable(alike[0].work_of_adhesion, 'J/m2')} ({ends}, "
+            f"{level:.0%}) by {' and '.join(names)}"
+        ]
+    if len(names) > 1:
         said.append(
-            f"the data do not distinguish {best.model.upper()} from {' and '.join(alike)} "
+            f"the data do not distinguish {names[0]} from {' and '.join(names[1:])} "
             f"(criteria within {_DIFFERENT:g})"
         )
     ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
-    if ranged is not None:
-        said.append(_of_range(ranged, level))
-    if size > _LOUD:
-        said.append(
-            f"residuals are {size:.2g} times the noise: no elastic law fits. If the test was not "
-            "slow, energy dissipated at a viscoelastic edge appears as a longer range, and the "
-            "Tabor number above is too small; use a slower test, or fit a rate series"
-        )
+    if ranged is not None and not reasons:
+        said.append(_of_range(ranged, names, level))
     if test.against == "depth":
         said.append(
             "the zero of depth was also fitted; without a camera the range is poorly determined"
@@ -410,7 +570,8 @@ def _words(test: SlowTest, fits: list[ModelFit], size: float, level: float) -> l
     return said
 
 
-def _of_range(fit: ModelFit, level: float) -> str:
+def _of_range(fit: ModelFit, alike: list[str], level: float) -> str:
+    """Describe the range; `alike` are the models that the data do not distinguish."""
     ends = fit.intervals["tabor"]
     name = fit.model.upper()
     if ends.told:
@@ -418,12 +579,12 @@ def _of_range(fit: ModelFit, level: float) -> str:
             f"Tabor number {fit.tabor:.3g} ({ends.low:.3g} to {ends.high:.3g}, {level:.0%}) by "
             f"{name}"
         )
-    if ends.closed_below:
+    if ends.closed_below and "DMT" not in alike:
         return (
             f"the Tabor number is above {ends.low:.3g} ({level:.0%}, {name}); these data give no "
             "upper bound, hence no range of attraction: JKR is sufficient"
         )
-    if ends.closed_above:
+    if ends.closed_above and "JKR" not in alike:
         return (
             f"the Tabor number is below {ends.high:.3g} ({level:.0%}, {name}); these data give no "
             "lower bound: DMT is sufficient"

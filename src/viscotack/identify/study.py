@@ -124,7 +124,7 @@ def answer(study: Study, kept: Path | None = None) -> Answer:
     check_dwells(found.cycles)
     series = pull_offs(found.cycles)
     if study.temperature is not None:
-        series = [replace(one, temperature=None) for one in series]
+        series = [replace(one, temperature=study.temperature) for one in series]
     machine = [one.record.compliance for one in found.evaluations]
     computed = Computed() if kept is None else Computed.read(kept)
     compliance = study.evaluation.get("compliance") or max(machine)

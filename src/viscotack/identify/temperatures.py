@@ -38,7 +38,7 @@ def shifted(
     """
     known = [one.temperature for one in series if one.temperature is not None]
     if not known:
-        return list(series), []
+        return list(series), assumed_temperature(passport, known)
     if len(known) < len(series):
         raise InputError(
             f"the temperature of {len(series) - len(known)} of {len(series)} tests is unknown; "
@@ -92,6 +92,18 @@ def _unshifted(low: float, high: float, reference: float | None, growth: bool) -
         f"tests were made at {_celsius(low, high)}, but {why}: it is used as at "
         f"{_celsius(reference)}"
     ]
+
+
+def assumed_temperature(passport: Passport, known: Sequence[float | None]) -> list[str]:
+    """Return a remark on the temperature that is assumed where files state none.
+
+    `known` are the temperatures of the tests [K]; without tests, or where one is None, that of the
+    passport is assumed.
+    """
+    if (known and None not in known) or passport.temperature is None:
+        return []
+    at = _celsius(passport.temperature)
+    return [f"no temperature of the tests is stated: {at} of the material is assumed"]
 
 
 def _celsius(low: float, high: float | None = None) -> str:

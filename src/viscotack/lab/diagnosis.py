@@ -1,13 +1,16 @@
 """Explain why a file lacks the requested test, from what its tables contain."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .arrays import KINDS
 from .columns import Columns
+from .grouping import GAP
 
 _SWEPT = 0.05  # relative range of a frequency or a temperature that is swept
 TESTS = ("dma", "relaxation", "creep", "shifts")
@@ -45,6 +48,36 @@ def best_sheet(tables: Sequence[Columns]) -> str:
         return test is not None, sweeps, sweeps and not columns.lacking(*columns.quantities)
 
     return max(tables, key=score).table.sheet
+
+
+def sheets_with(sheet: str, tables: Sequence[Columns]) -> tuple[set[str], set[str]]:
+    """Return the sheets that are read with a sheet, and others that have the same columns.
+
+    Sheets of sweeps with the same headings belong to one test if each has temperatures of its own.
+    """
+    chosen = next(one for one in tables if one.table.sheet == sheet)
+    headings = next(
+        (x.table.headings for x in tables if x.table.sheet == sheet and _is_sweep(x)), ()
+    )
+    alike = [one for one in tables if one.table.headings == headings and _is_sweep(one)]
+    names = {one.table.sheet for one in alike} or {chosen.table.sheet}
+    found = sorted((float(t), one.table.sheet) for one in alike for t in _levels(one))
+    known = {name for _, name in found} == names
+    apart = all(b - a > GAP for (a, one), (b, other) in pairwise(found) if one != other)
+    return (names, set()) if known and apart else ({sheet}, names - {sheet})
+
+
+def _is_sweep(columns: Columns) -> bool:
+    return bool(columns.table.rows) and test_of(columns) == "dma" and _sweeps(columns)
+
+
+def _levels(columns: Columns) -> Array:
+    """Return the temperatures of a table [K]; empty if they cannot be read."""
+    try:
+        kelvins = columns.temperature()
+    except InputError:
+        return np.empty(0)
+    return np.unique(kelvins[np.isfinite(kelvins)])
 
 
 def _sweeps(columns: Columns) -> bool:

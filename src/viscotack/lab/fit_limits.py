@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.materials.passport import LIQUID
+
 from .fit_plateaus import change, open_ends
 from .fit_prony import fit_series
 from .fit_report import Fitted, Interval, Scatter
@@ -28,7 +30,7 @@ def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...])
     """Return sentences on undetermined constants and on the ends of the measured range."""
     if getattr(material, "no_contact", ""):
         flowing = flow(data, material)
-        liquid = (f"this is a liquid: at the slowest point {flowing}",) if flowing else ()
+        liquid = (f"{LIQUID}: at the slowest point {flowing}",) if flowing else ()
         return (*liquid, material.no_contact, *_constants(data, material, intervals), _ends(data))
     if scatter_of(data, material) > _MISSED:
         return (_ends(data),)
@@ -172,7 +174,7 @@ def _rubbery(data: Observed, material: Any, interval: Interval) -> list[str]:
     flowing = flow(data, material)
     if flowing:
         return [
-            f"this is a liquid: at the slowest point {flowing}. It has no rubbery plateau; "
+            f"{LIQUID}: at the slowest point {flowing}. It has no rubbery plateau; "
             f"rubbery_modulus = {interval.value:.3g} Pa is the end of the fit, not a property of "
             "the material, so relaxed contact and slow detachment cannot be predicted"
         ]

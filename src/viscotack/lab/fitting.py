@@ -5,10 +5,9 @@
 
 from collections.abc import Mapping
 
-from threadpoolctl import threadpool_limits
-
 from viscotack.errors import InputError
 from viscotack.materials.words import FITS_ONLY
+from viscotack.threads import one_blas_thread
 
 from .fit_limits import few_arms_caution, misfit_cautions, series_cautions, undetermined
 from .fit_power_law import fit_constants, fitted_constants
@@ -117,9 +116,7 @@ def fit(
     if not loss:
         seen = only(seen, "storage")
     options = {"known": dict(known or {}), "arms": arms, "level": level, "seed": seed}
-    with threadpool_limits(
-        limits=1, user_api="blas"
-    ):  # small matrices: threads only slow them down
+    with one_blas_thread():
         seen = with_noise(thinned(seen))
         if model != "best":
             return _fitted(seen, model, draws=draws, **options)

@@ -5,7 +5,6 @@ Cells are separated by commas, semicolons, tabs or spaces. The two-row tables of
 """
 
 import csv
-import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -54,8 +53,7 @@ def tables(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
         raise _no_headings(file)
     line, separator, headings = at
     words = " ".join(text for text in file.lines[: max(line - 1, 0)] if _speaks_of_geometry(text))
-    preamble = [re.split(r"[\t;,]", text) for text in file.lines[: max(line - 1, 0)]]
-    stated = stated_temperature(preamble)
+    stated = stated_temperature([text] for text in file.lines[: max(line - 1, 0)])
     found = []
     for lines in repeats(file, line):
         units, rows = below(file, lines, separator)

@@ -25,7 +25,7 @@ from . import (
     workbook_layout,
 )
 from .columns import Columns
-from .diagnosis import best_sheet, test_of
+from .diagnosis import best_sheet, sheets_with, test_of
 from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, format_of, load, refuse_unknown
 from .options import Options
@@ -437,8 +437,22 @@ def _selected(
             raise file.error(f"no column {name!r} (--columns); the headings are {headings}")
     if not tables:
         return tables, ()
-    sheet = best_sheet([Columns(file, table, given) for table in tables])
-    others = dict.fromkeys(table.sheet for table in tables if table.sheet != sheet)
-    listed = ", ".join(map(repr, others))
-    notes = (f"sheet {sheet!r} is read, {listed} are not; --table chooses a sheet",) * bool(others)
-    return [table for table in tables if table.sheet == sheet], notes
+    columns = [Columns(file, table, given) for table in tables]
+    read, alike = sheets_with(best_sheet(columns), columns)
+    chosen = [table for table in tables if table.sheet in read]
+    names = list(dict.fromkeys(table.sheet for table in chosen))
+    others = dict.fromkeys(table.sheet for table in tables if table.sheet not in read)
+    which = f"sheet {names[0]!r} is" if len(names) == 1 else f"{len(names)} sheets of sweeps are"
+    notes = []
+    if others:
+        listed = ", ".join(map(repr, others))
+        notes.append(f"{which} read, {listed} are not; --table chooses a sheet")
+    elif len(names) > 1:
+        notes.append(f"{which} read: {', '.join(map(repr, names))}")
+    if alike:
+        notes.append(
+            f"{len(alike) + 1} sheets hold sweeps, and only {names[0]!r} is read, because their "
+            "temperatures are unknown or the same; save each sheet as a file, or write the "
+            "temperature into a column"
+        )
+    return chosen, tuple(notes)

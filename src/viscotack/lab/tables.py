@@ -5,15 +5,21 @@ Readers of all formats produce a :class:`Table`. A row is a line number with its
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
+from viscotack.errors import InputError
+
 from .lab_file import LabFile
 from .numbers import is_number
-from .quantities import POSSIBLE, bare, in_kelvin, is_unit, no_unit, recognise
+from .quantities import POSSIBLE, Heading, bare, in_kelvin, is_unit, no_unit, recognise
 
-_STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
+_STATED = re.compile(r'([+-]?[0-9]+(?:[.,][0-9]*)?)[\s;,"]*([^\t;,"]*).*')
+# "Temperature,25.0 degC", "Temp. [C] = 25,0", "Test temperature 25 °C"
+_LABELLED = re.compile(r'"?([^:=;,\t"]*[^:=;,\t"\s0-9+-])"?\s*[:=;,\t\s]\s*"?([+-]?[0-9].*)')
+_OF_TEST = {"test", "sample", "probe", "chamber", "plate", "prüf", "mess", "proben"}
 _ABOVE = 4  # rows of words above the numbers
 _ONE = ("1", "1.0")
 _SEGMENT = re.compile(r"[0-9]+\|[0-9]+")  # segment and point of HAAKE RheoWin
@@ -270,22 +276,32 @@ def _counts(cells: Sequence[str]) -> bool:
 def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
     """Return the temperature stated above a table [K]; None if there is none or more than one.
 
+    The unit stands behind the number, in brackets behind the word, or in the next cell.
+
     Examples
     --------
     >>> stated_temperature([["Temperature", "25 °C"]]), stated_temperature([["Temp: 300 K"]])
     (298.15, 300.0)
+    >>> stated_temperature([["Temperature (°C),25.0"]]), stated_temperature([["Temp [C];25,0"]])
+    (298.15, 298.15)
     """
     found = set()
     for row in rows:
-        words = [cell.strip() for cell in row if cell.strip()]
-        label, _, value = words[0].partition(":") if words else ("", "", "")
-        if len(words) > 1:
-            value = words[1]
-        heading = recognise(label) if label else None
-        match = _STATED.fullmatch(value.strip())
-        if heading is None or heading.quantity != "temperature" or match is None:
+        match = _LABELLED.fullmatch("\t".join(cell.strip() for cell in row).strip("\t# "))
+        heading = match and _temperature(match[1])
+        number = match and _STATED.fullmatch(match[2])
+        if not heading or not number:
             continue
-        value = in_kelvin(float(match[1].replace(",", ".")), match[2])
-        if POSSIBLE[0] < value < POSSIBLE[1]:
-            found.add(value)
+        unit = number[2].strip() or heading.unit
+        with suppress(InputError):
+            value = in_kelvin(float(number[1].replace(",", ".")), unit)
+            if POSSIBLE[0] < value < POSSIBLE[1]:
+                found.add(value)
     return found.pop() if len(found) == 1 else None
+
+
+def _temperature(label: str) -> Heading | None:
+    """Return the heading of a temperature of the test, such as ``Test temperature (°C)``."""
+    first, _, rest = label.strip().partition(" ")
+    heading = recognise(rest if first.casefold() in _OF_TEST else label)
+    return heading if heading is not None and heading.quantity == "temperature" else None

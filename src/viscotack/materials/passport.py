@@ -10,6 +10,9 @@ from viscotack.materials.checks import rests, temperatures
 from viscotack.materials.conversion import slowed
 from viscotack.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
+# Beginning of the sentence of a fit on a liquid.
+LIQUID = "this is a liquid"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Origin:
@@ -141,6 +144,21 @@ class Passport:
             pair = getattr(self, name)
             if pair is not None and not 0 < pair[0] <= pair[1]:
                 raise InputError(f"{name} must be positive and ascend, got {pair}")
+
+    @property
+    def liquid(self) -> str:
+        """The sentence of the fit on a liquid, whose rubbery modulus is no property; else empty."""
+        said = () if self.evidence is None else self.evidence.undetermined
+        return next((text for text in said if text.startswith(LIQUID)), "")
+
+    def refuse_liquid(self, what: str) -> None:
+        """Raise an error if the material is a liquid; `what` cannot be done with one."""
+        if self.liquid:
+            raise InputError(
+                f"{self.name or 'the material'} has no rubbery plateau ({self.liquid.split('.')[0]}"
+                f"): {what}. If it is a solid, measure at lower frequencies or state "
+                "--rubbery-modulus in `viscotack material fit`"
+            )
 
     def shift_factor(self, temperature: float) -> float:
         """Return a_T, the factor on the times of the material at another temperature [K].

@@ -45,7 +45,7 @@ from .crack_band import band_of
 from .crack_problem import LOAD, ROOT, drives_of, groups_of, start_of
 
 METHOD = "crack contact"
-# Smallest accepted effective Tabor number, including the amplification.
+# Smallest accepted effective Tabor number, range-corrected and with the amplification.
 LEAST_TABOR = 2.0
 # Largest accepted one: beyond it zone and contact lengths differ by more than double precision.
 LARGEST_TABOR = 1e9
@@ -295,7 +295,7 @@ def _check_tabor(groups: Groups) -> None:
     """Raise OutOfRange if the Tabor number is too large."""
     if groups.effective_tabor > LARGEST_TABOR:
         raise OutOfRange(
-            f"the effective Tabor number is {groups.effective_tabor:.4g}; the steady-crack "
+            f"the range-corrected Tabor number is {groups.effective_tabor:.4g}; the steady-crack "
             f"contact model is valid up to {LARGEST_TABOR:g}"
         )
 
@@ -363,12 +363,7 @@ def _answer(
         )
     effective = float(effective_tabor(groups, energy, interface))
     if effective < LEAST_TABOR:
-        raise OutOfRange(
-            "the cohesive zone is too large compared with the contact: at a Tabor number of "
-            f"{groups.tabor:.4g} and an energy of {energy:.3g} times the work of adhesion the "
-            f"effective Tabor number is {effective:.3g}, and the model is valid from "
-            f"{LEAST_TABOR:g}; simulate the problem"
-        )
+        raise OutOfRange(too_large_zone(groups, effective, energy))
     zones = interface * _zones(groups, crack, series, at, energy / interface)
     if pull_off is not None and zones < LEAST_ZONES and energy > _SLOW:
         raise OutOfRange(
@@ -389,6 +384,16 @@ def _answer(
         band=band,
         inside=inside,
         why=why,
+    )
+
+
+def too_large_zone(groups: Groups, effective: float, energy: float = 1.0) -> str:
+    """Describe an effective Tabor number below :data:`LEAST_TABOR`."""
+    return (
+        f"the cohesive zone is too large compared with the contact of a {groups.geometry.word}: at "
+        f"a range-corrected Tabor number of {groups.effective_tabor:.4g} and an energy of "
+        f"{energy:.3g} times the work of adhesion the effective Tabor number is {effective:.3g}, "
+        f"and steady cracks are valid from {LEAST_TABOR:g}; simulate the problem"
     )
 
 

@@ -98,7 +98,7 @@ def band_of(
     if elsewhere := not_measured(groups):
         why += f"; this band was measured for other problems and may not hold here: {elsewhere}"
     elif groups.effective_tabor > SIMULATED:
-        why += f"; measured up to a Tabor number of {SIMULATED:g}; the error shrinks beyond"
+        why += f"; measured up to a Tabor number of {SIMULATED:g}, extrapolated beyond"
     return band, not elsewhere, why
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Sphere
-from viscotack.methods.by_crack import LEAST_TABOR, effective_tabor, tension_left
+from viscotack.methods.by_crack import LEAST_TABOR, effective_tabor, tension_left, too_large_zone
 from viscotack.methods.crack_band import band_parts, not_measured
 from viscotack.methods.crack_problem import not_covered, start_of
 from viscotack.problem import Groups, Problem
@@ -145,7 +145,7 @@ def _side(problem: Problem) -> _Side:
     is_table = isinstance(groups.geometry, Sphere) and isinstance(groups.traction, LennardJones)
     if not (elastic and is_table):
         if groups.effective_tabor < LEAST_TABOR:
-            raise OutOfRange(_too_wide(groups, groups.effective_tabor))
+            raise OutOfRange(too_large_zone(groups, groups.effective_tabor))
         if reason := not_measured(groups):
             raise OutOfRange(f"the band of steady cracks was not measured here: {reason}")
     if contact_in_groups(groups.start, tabor=groups.tabor, shape=groups.geometry) is None:
@@ -178,7 +178,7 @@ def _band(side: _Side, found: Pulled, number: int) -> float:
     energy = max(found.energy[number], 1.0)
     effective = float(effective_tabor(groups, energy, 1.0))
     if effective < LEAST_TABOR:
-        raise OutOfRange(_too_wide(groups, effective))
+        raise OutOfRange(too_large_zone(groups, effective, energy))
     assert isinstance(side.contact, Receding)
     assert groups.tabor is not None
     start = side.contact.radius(side.contact.start())
@@ -191,10 +191,3 @@ def _band(side: _Side, found: Pulled, number: int) -> float:
             "slowly, or simulate"
         )
     return float(sum(band_parts(energy, effective, zones))) + _COUPLING_BAND
-
-
-def _too_wide(groups: Groups, effective: float) -> str:
-    return (
-        f"the cohesive zone of the contact of a {groups.geometry.word} is too large for steady "
-        f"cracks: effective Tabor number {effective:.3g}, valid from {LEAST_TABOR:g}; simulate"
-    )

@@ -6,8 +6,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from time import perf_counter
 
-from threadpoolctl import threadpool_limits
-
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import Progress, Watch, begun, contact_of, simulate
 from viscotack.cards import card_of
@@ -18,6 +16,7 @@ from viscotack.methods.crack_problem import largest_radius, not_covered
 from viscotack.problem import Case, Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.result import Result
+from viscotack.threads import one_blas_thread
 
 _UNTIL = ("pull-off", "detached")
 # Smallest node spacing over the contact radius: below it the influence coefficients lose digits (at
@@ -132,19 +131,18 @@ def solve(
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
     if time_limit is not None:
         time_limit = card_of(TimeLimit).checked("time_limit", time_limit)
-    # The matrices are small, so a second BLAS thread slows the run down.
-    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
+    with one_blas_thread(), limited(time_limit):
         groups = problem.groups()
         if _too_short(groups, chosen):
             if fields:
                 raise InputError(
-                    "profiles exist for simulations only, and the Tabor number of "
-                    f"{groups.effective_tabor:.4g} is too large to simulate; use fields=False"
+                    "profiles exist for simulations only, and the range-corrected Tabor number "
+                    f"of {groups.effective_tabor:.4g} is too large to simulate; use fields=False"
                 )
             if sensitivities:
                 raise InputError(
-                    "derivatives exist for simulations only, and the Tabor number of "
-                    f"{groups.effective_tabor:.4g} is too large to simulate"
+                    "derivatives exist for simulations only, and the range-corrected Tabor number "
+                    f"of {groups.effective_tabor:.4g} is too large to simulate"
                 )
             return _handed_over(problem, chosen.accuracy, began)
         return simulate(
@@ -167,7 +165,7 @@ def has_start(problem: Case) -> bool:
 
     The state is searched at the lowest accuracy.
     """
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         try:
             groups = problem.groups()
             if handover.too_short(groups):

@@ -126,6 +126,7 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
             "load_N": held.force,
             "holds": held.holds,
             "payload_kg": held.payload,
+            "lasting_payload_kg": held.lasting,
             "time_to_detachment_s": held.time if isfinite(held.time) else None,
             "release_time_s": held.release_time,
             "why_time": held.why,
@@ -164,8 +165,14 @@ def _words(array: Any, found: Any, held: Any, part: Any) -> str:
         word = {True: "holds", False: "does not hold", None: "may hold, within the interval"}
         lines.append(
             f"load of {readable(held.force, 'N')} with acceleration and safety factor: the array "
-            f"{word[held.holds]}; payload {held.payload * 1e3:.4g} g"
+            f"{word[held.holds]}"
         )
+        lines.append(f"payload at the pull speed: {held.payload * 1e3:.4g} g")
+        if held.lasting is not None:
+            lines.append(
+                f"payload that lasts at rest: {held.lasting * 1e3:.4g} g, by the pull-off "
+                "force of the relaxed pads"
+            )
         after = f"after {readable(held.time, 's')}" if isfinite(held.time) else "not within a day"
         lines.append(f"at rest under its weight the load detaches {after} ({held.why})")
         lines.append(f"release takes {readable(held.release_time, 's')} at this speed")

@@ -1,6 +1,6 @@
 """The operation ``design``: what to build for wanted forces."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import exp
 from typing import Annotated, Any, ClassVar
 
@@ -11,6 +11,7 @@ from viscotack.units import readable
 from .declare.answer import Answer, Caller, csv_file, picture
 from .declare.cards import FileOfNames, Placed, Whole, number_of
 from .declare.options import Operation
+from .predict import OF_METHOD
 from .simulate import Accuracy
 
 
@@ -75,10 +76,11 @@ class OfDesign(Operation):
             for one, run, part in zip(found.candidates, found.simulated, found.yields, strict=True)
         ]
         front = [_front_row(one) for one in found.front]
+        warned = [_cautions(one.choice, stated) for one in found.candidates]
         return Answer(
             found,
-            record=lambda: _record(found, rows, front),
-            words=lambda: _words(found),
+            record=lambda: _record(found, rows, front) | {"cautions": warned},
+            words=lambda: _words(found, warned),
             files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
             pictures={
                 "plot": lambda: draw_design(found, stated),
@@ -163,6 +165,24 @@ def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]])
     }
 
 
+def _cautions(choice: Any, stated: Any) -> list[str]:
+    """Return the cautions on the forces of a design, each with its speeds."""
+    from viscotack.design.fast import SURROGATES, FastTier
+    from viscotack.design.margins import pad_of
+    from viscotack.forecast import cautions_on
+
+    fast = FastTier(stated.materials, stated.traction, SURROGATES)
+    passport, found = stated.passports.get(choice.material), {}
+    for name, speed in (("hold", choice.hold_speed), ("release", choice.release_speed)):
+        if speed is None:
+            continue
+        # without its backing, whose compliance changes the speed of the edge little
+        pad = replace(pad_of(choice, speed, bonded=stated.space.bonded), backing=None)
+        for words in cautions_on(fast.problem(pad), passport=passport):
+            found.setdefault(words, []).append(name)
+    return [f"to {' and '.join(names)}: {words}" for words, names in found.items()]
+
+
 _VERDICTS = {
     True: "the targets are met, by simulation",
     False: "the targets are not met",
@@ -170,7 +190,7 @@ _VERDICTS = {
 }
 
 
-def _words(found: Any) -> str:
+def _words(found: Any, warned: list[list[str]]) -> str:
     """Return the answer as lines."""
     lines = [_VERDICTS[found.meets]]
     both = zip(found.candidates, found.simulated, found.yields, strict=True)
@@ -179,14 +199,18 @@ def _words(found: Any) -> str:
         if part is not None:
             wanted = found.judge.conditions.share
             lines.append(f"  yield {part:.1%}, wanted {wanted:.1%}")
+        lines += [f"  {words}" for words in warned[number - 1]]
     lines.append(f"binding: {', '.join(found.binding)}")
     for name, slopes in found.elasticities.items():
         known = ", ".join(f"{x} {s:+.2f}" for x, s in slopes.items() if s is not None)
         words = {"work": "work", "dead_load": "dead load"}.get(name, f"force to {name}")
         lines.append(f"d ln P/d ln x of the {words}: {known}")
     if found.front:
-        lines.append(f"front of {len(found.front)} designs, none better in every target: --front")
-    return "\n".join([*lines, *(_limit_words(each) for each in found.excluded), *_apart(found)])
+        lines.append(
+            f"the output front has {len(found.front)} designs, none better in every target"
+        )
+    lines += [*(_limit_words(each) for each in found.excluded), *_apart(found)]
+    return "\n".join([*lines, OF_METHOD])
 
 
 def _choice_words(choice: Any) -> str:
@@ -223,7 +247,8 @@ def _force_words(one: Any, run: Any) -> list[str]:
         lines.append(line)
     margin = one.margin if run is None or run.margin is None else run.margin
     by = "the fast tier" if margin is one.margin else "simulation"
-    lines.append(f"  worst target: {exp(margin) - 1:+.1%} by {by}")
+    met = "met" if margin >= 0 else "not met"
+    lines.append(f"  worst target: {met}, {exp(margin) - 1:+.1%} by {by}")
     return lines + ([f"  not simulated: {run.why}"] if run is not None and run.why else [])
 
 

@@ -115,7 +115,8 @@ class Forecast(Operation):
     """Forecast pull-off forces with a band, from a measured rate series.
 
     The interface is fitted to the files of the study. The band combines its posterior with the
-    uncertainties of material and theory; it is narrow near measured speeds.
+    uncertainties of material and theory; it is narrow near measured speeds. It is that of the mean
+    of many tests; where repeated tests show their scatter, the band of a single test follows.
 
     Example: viscotack forecast study.toml --speed "1 um/s..10 mm/s" --plot forecast.png
     """
@@ -227,9 +228,11 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
 
 
 def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
-    lines = [
-        f"  {readable(v, 'm/s')}: {readable(force, 'N')} ({readable(low, 'N', to=high)})"
-        for v, force, low, high in (row.values() for row in rows)
-    ]
-    head = f"Pull-off forces, {forecast.level:.0%} band of their mean"
+    lines = []
+    for v, force, *ends in (row.values() for row in rows):
+        pairs = zip(ends[::2], ends[1::2], strict=True)
+        bands = "; ".join(f"{readable(low, 'N', to=high)}" for low, high in pairs)
+        lines.append(f"  {readable(v, 'm/s')}: {readable(force, 'N')} ({bands})")
+    single = "" if forecast.low_of_one is None else ", and of a single test"
+    head = f"Pull-off forces, {forecast.level:.0%} band of their mean{single}"
     return "\n".join([head, *lines, *fit.words, *forecast.words])

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
+from viscotack.materials.passport import Passport
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, picture
-from .declare.cards import Choice, Known, Number, Switch, Text, Whole
+from .declare.cards import Choice, Known, Named, Number, Switch, Text, Whole
 from .declare.options import Operation
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.rig import Files, Rig, refusals
-from .parts.solid import Solid, solid_of
+from .parts.solid import TABLE, Solid, published, solid_of
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -35,8 +36,9 @@ class IdentifySlow(Operation):
 
     JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
     against depth, and compared by an information criterion; intervals are profile likelihoods.
-    The answer states which parameters the data do not determine. If the test is not slow, the
-    range of attraction is biased; docs/tack_tests.md shows by how much.
+    The answer states which parameters the data do not determine. If the test is not slow, the work
+    is an upper bound, with the reason; with --material the test is compared with the force that
+    `viscotack advise` gives for it.
 
     Example: viscotack identify slow lens_1um_s.csv --radius "5.19 mm"
     --contact-modulus "1.94 MPa" --contact-modulus-uncertainty "0.06 MPa" --plot slow.png
@@ -63,9 +65,21 @@ class IdentifySlow(Operation):
     contact_modulus: Annotated[
         tuple[float, float] | None,
         Known(
-            'Known E0* of the relaxed solid, "1.94 MPa"; default: fitted.',
+            'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
+            "uncertainty is known, else fitted.",
             unit="Pa",
             metavar="PRESSURE",
+        ),
+    ] = None
+    material: Annotated[
+        str | Passport | None,
+        Named(
+            "Passport or published name of the solid, to check that the test was slow; default: "
+            "not checked.",
+            metavar="PASSPORT",
+            published=published,
+            text=TABLE,
+            objects=(Passport,),
         ),
     ] = None
     level: Level = 0.9
@@ -87,6 +101,7 @@ class IdentifySlow(Operation):
             test,
             models=self.model or _MODELS,
             contact_modulus=self.contact_modulus,
+            material=None if self.material is None else solid_of(self.material, caller.also),
             level=self.level,
         )
         return Answer(

@@ -1,5 +1,6 @@
 """The operations ``predict`` and ``advise``: fast predictions and their reliability."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
@@ -10,7 +11,7 @@ from viscotack.errors import InputError
 from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import File, Number, Switch
+from .declare.cards import FileOrRows, Number, Switch, rows_of_file
 from .declare.options import Operation
 from .declare.statement import Stated, Statement
 from .simulate import HowLong
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
 
+# Meaning of the intervals of a prediction.
+OF_METHOD = "Intervals are the error of the method; material and interface are taken as given."
 # What a simulation would only repeat.
 _SAID_ONCE = (
     "problem",
@@ -50,9 +53,10 @@ class Predict(Operation):
 
     In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
 
-    Thousands: viscotack predict cases.csv --csv answers.csv
+    A table in SI, each row a change of one problem: viscotack predict lens.toml cases.xlsx --xlsx
+    answers.xlsx
 
-    In Excel: viscotack predict cases.xlsx --xlsx answers.xlsx
+    Thousands without dimensions: viscotack predict cases.csv --csv answers.csv
     """
 
     word: ClassVar = "predict"
@@ -60,11 +64,11 @@ class Predict(Operation):
         csv_file("Write the predicted unloading curve as a table; - is standard output.", "curve"),
         picture("Draw that curve to a .png, .pdf or .svg file."),
         csv_file(
-            "Write the rows of CASES.csv with their predictions; - is standard output.",
+            "Write the rows of the table of cases with their predictions; - is standard output.",
         ),
         Output(
             "xlsx",
-            "Write the rows of CASES.csv with their predictions to a workbook FILE.xlsx.",
+            "Write the rows of the table of cases with their predictions to a workbook FILE.xlsx.",
             "binary",
             ending=".xlsx",
         ),
@@ -87,10 +91,12 @@ class Predict(Operation):
         ),
     ] = None
     cases: Annotated[
-        Path | None,
-        File(
-            "A table with a case in each row, CSV or the first sheet of an .xlsx workbook, in "
-            "place of a problem.",
+        Path | Sequence[Mapping[str, Any]] | None,
+        FileOrRows(
+            "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "
+            "changes it: columns are keys of the problem file, with units in the headings, "
+            '"radius [mm]", or in the cells, "5.19 mm". Alone it has a case without dimensions '
+            "in each row.",
             elsewhere=True,
         ),
     ] = None
@@ -118,16 +124,16 @@ class Predict(Operation):
     time_limit: HowLong = None
 
     def __post_init__(self) -> None:
-        if (self.problem is None) == (self.cases is None):
-            got = "none" if self.problem is None else "both"
+        if self.problem is None and not isinstance(self.cases, Path):
+            got = "none" if self.cases is None else "rows, which change a problem"
             raise InputError(f"give a problem or a table of cases, got {got}")
 
     def answer(self, caller: Caller) -> Answer:
         """Predict with the best tier within the time budget."""
         if self.cases is not None:
-            return self._of_table(self.cases, caller)
+            return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import predict
+        from viscotack.forecast import cautions_on, predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
@@ -135,7 +141,7 @@ class Predict(Operation):
         assert self.problem is not None
         if table := sorted(caller.wants & {"csv", "xlsx"}):
             raise InputError(
-                f"--{table[0]} is for a table CASES.csv; --curve writes the curve; leave out "
+                f"--{table[0]} is for a table of cases; --curve writes the curve; leave out "
                 f"--{table[0]}"
             )
         with limited(self.time_limit):
@@ -152,7 +158,8 @@ class Predict(Operation):
                     "--plot, or simulate"
                 )
             result = _simulated(self.problem.problem) if self.compare else None
-        record = prediction_summary(found)
+        warned = cautions_on(found.problem, passport=self.problem.passport)
+        record = prediction_summary(found) | {"cautions": list(warned)}
         if result is not None:
             record |= _comparison(found, result)
         return Answer(
@@ -161,29 +168,48 @@ class Predict(Operation):
             words=lambda: _words(found, record),
             files={"curve": lambda target: _write_curve(found, target)},
             pictures={"plot": lambda: _draw(found, result)},
+            notes=self.problem.improbable,
             status=int(result is not None and result.outcome is Outcome.STOPPED),
         )
 
-    def _of_table(self, cases: Path, caller: Caller) -> Answer:
+    def _of_table(self, caller: Caller) -> Answer:
         """Predict all rows of a table."""
-        from .parts.predict_table import predict_file
-
+        alone = self.problem is None
         others = {
             "--compare": self.compare,
-            "--exact": self.exact,
-            "--budget": self.budget is not None,
-            "--time-limit": self.time_limit is not None,
+            "--exact": alone and self.exact,
+            "--budget": alone and self.budget is not None,
+            "--time-limit": alone and self.time_limit is not None,
             "--curve": "curve" in caller.wants,
             "--plot": "plot" in caller.wants,
         }
         if given := [flag for flag, is_given in others.items() if is_given]:
-            raise InputError(f"{cases} is a table of cases; leave out {', '.join(given)}")
-        if len(caller.wants & {"csv", "xlsx"}) != 1:
-            raise InputError(
-                f"say where the answers to {cases} are to go: --csv answers.csv or "
-                "--xlsx answers.xlsx"
-            )
-        return predict_file(cases, self.confidence, caller.tell)
+            what = f"{self.cases} is a table of cases" if alone else "there is a table of cases"
+            raise InputError(f"{what}; leave out {', '.join(given)}")
+        if self.problem is None:
+            from .parts.predict_table import predict_file
+
+            assert isinstance(self.cases, Path), "checked before"
+            if len(caller.wants & {"csv", "xlsx"}) != 1:
+                raise InputError(
+                    f"choose one output for the answers to {self.cases}: --csv or --xlsx"
+                )
+            return predict_file(self.cases, self.confidence, caller.tell)
+        from viscotack.forecast.tiers import SOON
+
+        from .parts.predict_changes import predict_changes
+
+        assert self.cases is not None, "checked before"
+        return predict_changes(
+            self.problem,
+            rows_of_file(self.cases) if isinstance(self.cases, Path) else self.cases,
+            caller.tell,
+            also=caller.also,
+            time_limit=self.time_limit,
+            confidence=self.confidence,
+            budget=SOON if self.budget is None else self.budget,
+            exact=self.exact,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,6 +235,7 @@ class Advise(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
         from viscotack.forecast.advice import advise
+        from viscotack.forecast.cautions import cautions_on
 
         problem = self.problem.problem
         if problem.groups().in_plane_strain:
@@ -217,17 +244,23 @@ class Advise(Operation):
                 "viscotack predict answers"
             )
         advice = advise(problem)
+        warned = cautions_on(problem, passport=self.problem.passport)
+        # the sentences of the advice have one of the cautions already
+        sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(
             advice,
-            record=lambda: _advised(advice),
-            words=lambda: "\n".join(advice.sentences),
+            record=lambda: _advised(advice, sentences, warned),
+            words=lambda: "\n".join(sentences),
             notes=self.problem.notes,
         )
 
 
-def _advised(advice: "Advice") -> dict[str, Any]:
+def _advised(
+    advice: "Advice", sentences: tuple[str, ...], warned: tuple[str, ...]
+) -> dict[str, Any]:
     """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
-    record: dict[str, Any] = asdict(advice) | {"sentences": list(advice.sentences)}
+    record: dict[str, Any] = asdict(advice)
+    record |= {"sentences": list(sentences), "cautions": list(warned)}
     scales = record.pop("length_scale"), record.pop("speed_scale")
     if (contact := record.pop("contact")) is not None:
         del contact["receding"], contact["start_radius"], contact["edge_speed"]
@@ -308,7 +341,8 @@ def _curve(found: "Prediction") -> dict[str, Any]:
 
 def _words(found: "Prediction", answer: dict[str, Any]) -> str:
     """Return a prediction as lines a person reads."""
-    lines = [found.why if found.inside else f"outside of the surrogates: {found.why}"]
+    where = f"by {found.method}" if found.inside else "outside of the surrogates"
+    lines = [f"{where}: {found.why}"]
     held = (
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )
@@ -322,6 +356,7 @@ def _words(found: "Prediction", answer: dict[str, Any]) -> str:
     lines += _number_words(f"zero_{force}_depth", *told, answer, held)
     if "simulation" in answer:
         lines += _comparison_words(answer, kind)
+    lines += [OF_METHOD, *answer["cautions"]]
     return "\n".join(lines)
 
 

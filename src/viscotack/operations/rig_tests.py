@@ -12,6 +12,9 @@ from .declare.options import Operation
 from .parts.rig import Files, Rig, refusals
 from .parts.shifting import ShiftLaw
 
+# An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
+_LARGEST_WORK = 10.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class ReadTests(Operation):
@@ -169,6 +172,8 @@ def _words_by_speed(table: Any, radius: float | None, law: Any) -> list[str]:
         if radius is not None:
             work = jkr_work(one.force, radius)
             line += f", JKR work of adhesion {readable(work, 'J/m2', digits=3)}"
+            if work > _LARGEST_WORK:
+                line += " (beyond surface energies: losses of the solid, fibrils or cavities)"
         lines.append(line)
         lines += [f"    far from the others: {x.source.path} cycle {x.number}" for x in one.far]
     if table.scatter is not None:

@@ -19,6 +19,7 @@ from .simulate import Accuracy, Until
 
 if TYPE_CHECKING:
     from viscotack.campaign import CaseSettings
+    from viscotack.campaign.changes import Changes
     from viscotack.campaign.columns import Kind
 
 # Exit status where some cases have no result.
@@ -29,9 +30,10 @@ _SOME_FAILED = 4
 class Sweep(Operation):
     """Simulate variations of a problem, one row for each case.
 
-    The first row of the table has the paths of the replaced numbers, in the units listed by
-    viscotack campaign inputs. The row of a failed case contains the reason, and the exit status is
-    then 4. An interrupted sweep keeps no results; use a campaign for long runs.
+    The first row of the table, CSV or the first sheet of an .xlsx workbook, names the replaced
+    numbers by the keys of the problem file, with units there or in the cells: "speed [um/s]" or
+    "30 um/s". Other columns are carried along. The row of a failed case contains the reason, and
+    the exit status is then 4. An interrupted sweep keeps no results; use a campaign for long runs.
 
     Example: viscotack sweep lens.toml speeds.csv --csv forces.csv
     """
@@ -50,10 +52,10 @@ class Sweep(Operation):
         ),
     ]
     cases: Annotated[
-        Sequence[Mapping[str, float]],
+        Sequence[Mapping[str, Any]],
         Table(
-            'A row for each case: the path of a number of the problem, such as "protocol.speed", '
-            "and its value. All rows have the same paths.",
+            'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
+            "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
             metavar="CASES.csv",
             argument=True,
         ),
@@ -69,36 +71,44 @@ class Sweep(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share`` and the new ``rows``."""
         from viscotack.campaign import CaseSettings
+        from viscotack.campaign.changes import changes_of
 
         from .parts.tables import rows_as_csv
 
-        kind = self._kind(caller.also)
+        changes = changes_of(self.problem.problem, self.cases[0])
+        kind = changes.kind(caller.also)
+        inputs_of_rows = [_inputs(changes, number, row) for number, row in enumerate(self.cases, 1)]
         settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
         rows: list[dict[str, Any]] = []
-        for number, inputs in enumerate(self.cases, 1):
-            rows.append(_row(kind, inputs, settings))
+        warnings: list[str] = []
+        for number, inputs in enumerate(inputs_of_rows, 1):
+            carried = changes.carried_of(self.cases[number - 1])
+            rows.append(_row(kind, inputs, settings) | ({"carried": carried} if carried else {}))
+            warnings += [f"case {number}: {words}" for words in changes.unusual(inputs or {})]
             words = f"{number} of {len(self.cases)} cases done"
             caller.tell({"share": number / len(self.cases), "rows": rows[-1:], "words": words})
-        failed = sum(bool(row["reason"]) for row in rows)
+        failed = sum(bool(row["reason"]) for row in rows if row["inputs"] is not None)
         return Answer(
             rows,
             record=lambda: {"rows": rows, "failed": failed},
-            words=lambda: _words(self.problem.problem, rows, failed),
-            files={"csv": rows_as_csv(_flat(rows))},
-            notes=self.problem.notes,
+            words=lambda: _words(changes, rows, failed),
+            files={"csv": rows_as_csv(_flat(self.cases, rows))},
+            notes=(*self.problem.notes, *changes.notes, *warnings),
             status=_SOME_FAILED if failed else 0,
         )
 
-    def _kind(self, also: tuple[Any, ...]) -> "Kind":
-        """Return the kind of case, which builds problems from numbers."""
-        from viscotack.campaign.columns import kind_of_problem
-        from viscotack.problem.inputs import check_exponent
 
-        check_exponent(self.problem.problem, self.cases[0])
-        return kind_of_problem(self.problem.problem, set(self.cases[0]), also)
+def _inputs(changes: "Changes", number: int, row: Mapping[str, Any]) -> dict[str, float] | None:
+    """Return the replaced numbers of a row; None for an empty one."""
+    if changes.is_empty(row):
+        return None
+    try:
+        return changes.values(row)
+    except InputError as error:
+        raise InputError(f"case {number}: {error}") from None
 
 
-def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") -> dict[str, Any]:
+def _row(kind: "Kind", inputs: dict[str, float] | None, settings: "CaseSettings") -> dict[str, Any]:
     """Return the row of a case: inputs, results, and the reason if it failed."""
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
@@ -107,7 +117,9 @@ def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") ->
     from .parts.json_data import plain
 
     began = perf_counter()
-    row: dict[str, Any] = {"inputs": dict(inputs), "outputs": None, "reason": ""}
+    row: dict[str, Any] = {"inputs": inputs, "outputs": None, "reason": ""}
+    if inputs is None:
+        return row | {"reason": "empty row", "wall_time_s": 0.0}
     try:
         problem = kind.problem(inputs)
         found = measure(problem, settings)
@@ -120,22 +132,28 @@ def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") ->
     return row | {"wall_time_s": perf_counter() - began}
 
 
-def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Return rows of the same columns, for a table."""
+def _flat(
+    cases: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]]
+) -> list[dict[str, Any]]:
+    """Return rows of the same columns, for a table: those of the cases, and the results."""
     from viscotack.files.text import cell
 
     empty = dict.fromkeys(name for row in rows for name in row["outputs"] or ())
+    given = [
+        {cell(name): cell(x) if isinstance(x, str) else x for name, x in case.items()}
+        for case in cases
+    ]
     return [
         {
-            **row["inputs"],
+            **case,
             "run_id": row.get("run_id"),
             **empty,
             **(row["outputs"] or {}),
-            **row["inputs"],  # of a problem without dimensions they are among the numbers too
+            **case,  # of a problem without dimensions they are among the numbers too
             "reason": cell(row["reason"]),
             "wall_time_s": row["wall_time_s"],
         }
-        for row in rows
+        for case, row in zip(given, rows, strict=True)
     ]
 
 
@@ -151,11 +169,11 @@ def _shown(problem: Any) -> tuple[str, str, str]:
     return f"{name}_{shown.unit.tail}", shown.unit.si, shown.words
 
 
-def _words(problem: Any, rows: Sequence[Mapping[str, Any]], failed: int) -> str:
-    key, unit, about = _shown(problem)
+def _words(changes: "Changes", rows: Sequence[Mapping[str, Any]], failed: int) -> str:
+    key, unit, about = _shown(changes.problem)
     lines = []
     for row in rows:
-        inputs = ", ".join(f"{path} {value:.6g}" for path, value in row["inputs"].items())
         found = row["reason"] or f"{about} {readable(row['outputs'][key], unit, digits=5)}"
-        lines.append(f"  {inputs}: {found}")
-    return "\n".join([*lines, f"{len(rows) - failed} of {len(rows)} cases done, {failed} failed"])
+        lines.append(f"  {changes.words(row)}: {found}")
+    count = sum(row["inputs"] is not None for row in rows)
+    return "\n".join([*lines, f"{count - failed} of {count} cases done, {failed} failed"])

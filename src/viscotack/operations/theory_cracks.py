@@ -216,7 +216,8 @@ class OfSteadyCrack(Operation):
     """Effective over intrinsic surface energy of a steady crack with its whole traction law.
 
     Beside it by which part Persson-Brener, Greenwood and the slow and fast asymptotes are off.
-    A material without --material and without --exponent is the standard solid.
+    Without --material the solid is a power law with --exponent, and the standard solid (sls)
+    without it. zone_length is the length from the largest tension to a tenth of it.
 
     Example: viscotack theory steady-crack --modulus-ratio 0.1 --speed 10, or: viscotack theory
     steady-crack --modulus-ratio 0.1 --exponent 0.6 --law exponential:0.25 --speed -1 --json

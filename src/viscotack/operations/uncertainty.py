@@ -107,6 +107,10 @@ class OfUncertainty(Operation):
         if len(deviations) < len(self.scatter):
             raise InputError("each number may be named once")
         problem, sampled, times = self._known(caller)
+        if not (deviations or sampled or times):
+            raise InputError(
+                'give --scatter, such as "geometry.radius 2 %", or what a passport or a study knows'
+            )
         found = uncertainty(
             problem,
             deviations,

@@ -9,19 +9,23 @@ pull-off: the force over the number of pads and over the load sharing factor.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
+from typing import Any
 
 import numpy as np
 
 from viscotack.errors import InputError, OutOfRange
+from viscotack.materials import Elastic
 from viscotack.methods import crack_contact, solve
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import Apart, Approach, AtForce, Dwell, LoadTo, Retraction
 from viscotack.result import Outcome
 from viscotack.result.dead_load import time_to_detachment
+from viscotack.traction import at_rest
 
-from .pulling import ArrayPull, PadArray, shared_compliance
+from .pulling import ArrayPull, PadArray, pull_array, shared_compliance
 
 GRAVITY = 9.80665
 # Longest time of a dead load [s]: one day.
@@ -83,8 +87,11 @@ class Holding:
     force : float
         Force of the load with acceleration and safety factor [N].
     payload : float
-        Largest mass with the same acceleration and safety factor, by the lower end of the interval
-        of the pull-off force [kg].
+        Largest mass at the speed of the pull with the same acceleration and safety factor, by the
+        lower end of the interval of the pull-off force [kg].
+    lasting : float or None
+        Largest mass at rest with the same safety factor that never creeps off [kg]: by the lower
+        end of the pull-off force of the array of relaxed pads. None if these have no such start.
     time : float
         Time under the weight at rest until the array detaches [s]; inf if it never does or lasts
         longer than a day.
@@ -97,6 +104,7 @@ class Holding:
     holds: bool | None
     force: float
     payload: float
+    lasting: float | None
     time: float
     release_time: float
     why: str
@@ -129,15 +137,29 @@ def holding(
     holds = True if load.force <= low else False if load.force > high else None
     payload = low / (load.safety_factor * (GRAVITY + load.acceleration))
     release = float(np.nanmax(found.released)) / speed
+    how = {"speed": speed, "preload": preload, "accuracy": accuracy, "time_limit": time_limit}
+    slow = _lasting(array, how)
+    lasting = None if slow is None else slow / (load.safety_factor * GRAVITY)
+    held = partial(Holding, holds, load.force, payload, lasting)
     if load.weight > found.pull_off_force:
-        why = "the weight exceeds the pull-off force"
-        return Holding(holds, load.force, payload, 0.0, release, why)
+        return held(0.0, release, "the weight exceeds the pull-off force")
     if array.pad.groups().modulus_ratio == 1:
-        return Holding(holds, load.force, payload, inf, release, "elastic pads do not creep")
+        return held(inf, release, "elastic pads do not creep")
     each = load.weight / (len(array.positions) * found.load_sharing)
     start = preload / len(array.positions)
     time, why = _time(array.pad, each, start, speed, accuracy, time_limit)
-    return Holding(holds, load.force, payload, time, release, why)
+    return held(time, release, why)
+
+
+def _lasting(array: PadArray, how: dict[str, Any]) -> float | None:
+    """Return the largest dead load that never creeps off [N]: the slow pull-off force, if any."""
+    solid = array.pad.material
+    relaxed = Elastic(rubbery_modulus=solid.rubbery_modulus, poisson_ratio=solid.poisson_ratio)
+    pad = replace(array.pad, material=relaxed, traction=at_rest(array.pad.traction))
+    try:
+        return pull_array(replace(array, pad=pad), **how).interval[0]
+    except InputError:
+        return None
 
 
 def preload_after(

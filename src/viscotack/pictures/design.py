@@ -72,7 +72,7 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
             [N * getattr(f, end) / unit for _, f in curve] for end in ("low", "value", "high")
         )
         axes.fill_between(v, low, high, color="0.75", lw=0, label="90 % interval")
-        axes.plot(v, value, color="0.25", label=f"{N} pads, {found.tier}")
+        axes.plot(v, value, color="0.25", label=f"{N} pad{'s' * (N > 1)}, {found.tier}")
     for target, speed in speeds.items():
         if speed is None:
             continue
@@ -91,7 +91,8 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
     moved = " of the stated material" if stated.conditions.shifts else ""
     axes.set_xlabel(f"speed{moved} [m/s]")
     axes.set_ylabel(f"pull-off force [{name}]")
-    axes.set_title(f"worst target {np.expm1(best.margin):+.0%}")
+    met = "met" if best.margin >= 0 else "not met"
+    axes.set_title(f"worst target {np.expm1(best.margin):+.0%}: {met}")
     axes.legend(frameon=False, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
 
 

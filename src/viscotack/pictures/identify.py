@@ -109,7 +109,7 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
             zorder=3,
         )
         work = readable(fit.work_of_adhesion, "J/m^2", digits=3).replace("^2", "$^2$")
-        interface = f"{work}, range {readable(fit.equilibrium_gap, 'm', digits=3)}"
+        interface = f"{work}, {_range(fit)}"
         fitted = [force / load for force in fit.forces]
         axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
         if forecast is not None:
@@ -205,6 +205,17 @@ def _from_zero_force(depth: Any, force: Any) -> tuple[Any, Any]:
     return zero - depth, force
 
 
+def _range(fit: RateSeriesFit) -> str:
+    """Return the range of attraction, its bound, or that it is not identifiable."""
+    ends = fit.intervals["equilibrium_gap"]
+    if ends.told:
+        return f"range {readable(fit.equilibrium_gap, 'm', digits=3)}"
+    if ends.closed_below or ends.closed_above:
+        side, end = ("above", ends.low) if ends.closed_below else ("below", ends.high)
+        return f"range {side} {readable(end, 'm', digits=3)}"
+    return "range not identifiable"
+
+
 def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> None:
     order = np.argsort(forecast.speed)
     x, low, high, middle = (
@@ -221,6 +232,12 @@ def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> Non
         where += f", {forecast.temperature - 273.15:.3g} C"
     if forecast.dwell is not None:
         where += f", {readable(forecast.dwell, 's', digits=3)} of dwell"
+    if len(x) == 1:
+        # a line and a band through one speed have no width
+        sides = [middle - low, high - middle]
+        label = f"{where}, {forecast.level:.0%}"
+        axes.errorbar(x, middle, yerr=sides, fmt="s", capsize=4, label=label)
+        return
     (line,) = axes.plot(x, middle, ls="--", label=where)
     axes.fill_between(
         x, low, high, color=line.get_color(), alpha=0.2, lw=0, label=f"{forecast.level:.0%} band"

@@ -5,6 +5,7 @@ docs/input.md describes the format; the keys of a table follow from the cards of
 
 import os
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +22,12 @@ from viscotack.geometry import (
     MeasuredProfile,
     PowerLawProfile,
 )
-from viscotack.materials import Material, Prony
+from viscotack.materials import Elastic, Material, Prony
 from viscotack.materials.checks import rests
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
+from viscotack.materials.scaling import scaled
 from viscotack.materials.words import FITS_ONLY
 from viscotack.problem import plane, revolution
 from viscotack.problem.case_table import OWN, Table, refuse_maps, refuse_unknown
@@ -34,7 +36,7 @@ from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.problem import Problem
 from viscotack.problem.prony_file import read_prony
 from viscotack.problem.protocol_table import protocol_from_table
-from viscotack.units import parse
+from viscotack.units import parse, readable
 
 _COMMON = ("material", "interface", "protocol")
 
@@ -274,27 +276,36 @@ def _body(table: Table, kind: Any, material: Material) -> Any:
     return table.make(Layer, **table.numbers(Layer), base=base)
 
 
-def shift_deviation(
-    path: str | os.PathLike[str],
+def passport_of_tables(
+    tables: Mapping[str, Any],
     *,
+    where: Path | str = "the case",
     temperature: float | None = None,
     also: Iterable[Any] = (),
-) -> float:
-    """Return the uncertainty of the times of a case's material, from its temperature shift.
+    beside: Callable[[str], Path] | None = None,
+) -> tuple[Passport | None, float]:
+    """Return the passport of a case's material at its temperature, and the doubt of its shift.
 
-    The parameters are those of :func:`read_case`, which has checked the file.
+    The parameters are those of :func:`case_of_tables`, which has checked the tables.
 
     Returns
     -------
-    float
+    passport : Passport or None
+        Moved to the temperature of the case; None if numbers define the material.
+    deviation : float
         Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
     """
-    path = Path(path)
-    table = Table(path, "material", read_toml(path), path.parent.joinpath)
+    table = Table(where, "material", tables, beside)
     if "passport" not in table.values:
-        return 0.0
-    passport, stated = _passport(table, known(also), temperature)
-    return 0.0 if stated is None else passport.shift_deviation(stated)
+        return None, 0.0
+    return moved(*_passport(table, known(also), temperature))
+
+
+def moved(passport: Passport, temperature: float | None) -> tuple[Passport, float]:
+    """Return a passport at a temperature [K], and the standard deviation of its log10 a_T."""
+    if temperature is None:
+        return passport, 0.0
+    return passport.moved_to(temperature), passport.shift_deviation(temperature)
 
 
 def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material:
@@ -324,10 +335,20 @@ def _passport(
         if isinstance(name, str) and name in MATERIALS
         else read_passport(table.beside("passport", '"pdms.toml"'), also=own)
     )
+    if "rubbery_modulus" in table.values:
+        passport = _scaled(passport, table.number(cards(Elastic)["rubbery_modulus"]))
     stated = None
     if "temperature" in table.values:
         stated = table.quantity("temperature", "K", '"20 degC"')
     return passport, stated if temperature is None else temperature
+
+
+def _scaled(passport: Passport, modulus: float) -> Passport:
+    """Return a passport whose moduli are scaled to a rubbery modulus [Pa], for a like material."""
+    factor = modulus / passport.material.rubbery_modulus
+    solid = scaled(passport.material, modulus=factor, time=1.0)
+    words = f"{passport.name}, scaled to {readable(modulus, 'Pa')}"
+    return replace(passport, name=words, material=solid, evidence=None, allowed=())
 
 
 def _prony(table: Table) -> Prony:

@@ -123,6 +123,12 @@ class Table:
         """Return the number of a key in an SI unit."""
         example = example or _any(unit)
         value = self.get(key, example)
+        if unit != "1" and isinstance(value, int | float) and not isinstance(value, bool):
+            of = example.strip('"').partition(" ")[2]
+            raise InputError(
+                f"{self.name} {key} has no unit, got {value!r}; write the number and its unit in "
+                f'quotes, {key} = "{value:.12g} {of}"'
+            )
         if unit != "1" and not isinstance(value, str):
             raise InputError(
                 f"{self.name} {key} must be text with a unit, got {value!r}; "

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-from viscotack.cards import Pairs, Quantity, cards
+from viscotack.cards import Pairs, Quantity, cards, unusual
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, PowerLawProfile
 from viscotack.problem.older import upgraded_paths
@@ -85,6 +85,27 @@ def inputs_of(problem: Any) -> dict[str, Input]:
     elif isinstance(problem.geometry, PowerLawProfile):
         found |= {path: Input(path, None, card.unit, card) for path, card in _TIP.items()}
     return found
+
+
+def improbable(problem: Any) -> tuple[str, ...]:
+    """Return a warning for each number in SI of an improbable magnitude, such as a radius of 2 m.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, LennardJones, Problem, Retraction, Sphere
+    >>> lens = Problem(
+    ...     material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+    ...     traction=LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6),
+    ...     geometry=Sphere(1e-3),
+    ...     protocol=Retraction(start=AtDepth(1e-6), speed=100.0),
+    ... )
+    >>> improbable(lens)
+    ('protocol.speed of 100 m/s is improbable; check its unit',)
+    """
+    if not isinstance(problem, Problem | RoughCase):
+        return ()
+    numbers = inputs_of(problem).values()
+    return tuple(words for one in numbers if (words := unusual(one.path, one.value, one.unit)))
 
 
 def _numbers(thing: Any, units: Mapping[str, str], prefix: str) -> Iterator[Input]:

@@ -264,7 +264,7 @@ class Groups:
     of 1, 3 and 10. The energy balance closes within 1e-3, except for viscoelastic cones under a
     compressive start force at large Tabor numbers: there the residual is 3e-3 at the default
     accuracy, while the work is still small, and 7e-4 at an accuracy of 5e-4. Elastic cones on
-    layers at effective Tabor numbers above 10 have residuals up to 3e-3 at the default accuracy.
+    layers at Tabor numbers above 10 have residuals up to 3e-3 at the default accuracy.
 
     Examples
     --------
@@ -316,7 +316,11 @@ class Groups:
 
     @property
     def effective_tabor(self) -> float:
-        """Tabor number for the effective range of the law: a measure of closeness to JKR."""
+        """Range-corrected Tabor number mu_s = mu/s, with the effective range s [h0] of the law.
+
+        Equal to the Tabor number for Lennard-Jones. The effective Tabor number of a moving edge,
+        ``mu_s Gamma^(-1/3)``, also counts the amplification of its energy.
+        """
         if self.tabor is None:
             raise InputError("a flat punch has no Tabor number; see its cohesion")
         return self.tabor / effective_range(self.traction)

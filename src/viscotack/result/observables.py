@@ -1,6 +1,5 @@
 """Observables of a result, as reported by a tack test. All are dimensionless."""
 
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -14,6 +13,7 @@ from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
 from viscotack.renamed import earlier_names
 from viscotack.theory.punch.curve import thin_layer_surface_energy
+from viscotack.threads import caught_warnings
 
 from . import Outcome, Result
 from .cycles import cycle_rows
@@ -740,13 +740,13 @@ def _number(
     observable: Callable[[Result], float], result: Result
 ) -> tuple[float | None, str | None]:
     """Return an observable and its note; None if it is undefined."""
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", UserWarning)
+    with caught_warnings("always") as said:
         try:
             value = observable(result)
         except ValueError as error:
             return None, str(error)
-    note = "; ".join(str(warning.message) for warning in said) or None
+    notes = [str(each.message) for each in said if issubclass(each.category, UserWarning)]
+    note = "; ".join(notes) or None
     return (float(value) if np.isfinite(value) else None), note
 
 

@@ -188,7 +188,7 @@ class Result:
     statistics : dict
         Cost: steps, newton_iterations, nodes, modes, wall_time_s.
     accuracy : float or None
-        Requested relative error of the pull-off force; None in results of version 0.1.
+        Requested relative error of the pull-off force; None in older files.
     error_estimate : dict or None
         Relative errors of ``force`` and ``work`` at pull-off, and error of its ``depth`` [h_0]; or
         relative error of the ``time`` to detachment under a load; relative error of ``hysteresis``,
@@ -204,7 +204,7 @@ class Result:
         On request: time (m,), and radius, pressure, gap (m, n); pressure positive in compression.
     move : ndarray of int, or None
         Index of the move that led to each step, from 0; the final retraction is one more than the
-        last move. None in results of version 0.1.
+        last move. None in older files.
     inner_radius : ndarray, or None
         Of a shape that may have several edges: the inner edge of the outermost part of the contact,
         0 where that is a disc around the axis, nan without a contact. Else None.

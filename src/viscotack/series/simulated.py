@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from viscotack.arrays import Array
 from viscotack.bem.books import History
@@ -31,6 +30,7 @@ from viscotack.methods import handover
 from viscotack.problem import Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import AtForce, Retraction
+from viscotack.threads import one_blas_thread
 
 _STATUS = {
     "detached": "one contact has separated",
@@ -110,7 +110,7 @@ def simulate_in_series(
     test = first.protocol
     assert isinstance(test.start, AtForce)
     assert test.speed is not None
-    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
+    with one_blas_thread(), limited(time_limit):
         try:
             posed = posed_contact(first, settings), posed_contact(second, settings)
         except TimeUp as limit:
@@ -164,7 +164,7 @@ def posed_contact(problem: Problem, settings: Settings) -> PosedContact:
     groups, si = problem.groups(), problem.scales()
     if handover.too_short(groups):
         raise OutOfRange(
-            f"the effective Tabor number of the contact of {problem.geometry} is "
+            f"the range-corrected Tabor number of the contact of {problem.geometry} is "
             f"{groups.effective_tabor:.4g}, too large to simulate"
         )
     contact = contact_of(groups)

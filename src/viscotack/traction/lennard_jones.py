@@ -27,7 +27,7 @@ class LennardJones:
     Notes
     -----
     Valid for every gap > 0. The peak tension is 16/(9 sqrt(3)) Delta-gamma_0/h_0, at
-    3^(1/6) h_0; that gap defines the contact edge everywhere in this package.
+    3^(1/6) h_0. The contact edge is where the gap is that of the peak tension of the law in use.
 
     References
     ----------

@@ -160,11 +160,12 @@ def _jobs(router: APIRouter, engine: Engine) -> None:
 
     @router.delete("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
     async def cancel(id: Id) -> JobAnswer:
-        """End a job, and forget it."""
-        return _told(await engine.cancel(id))
+        """End a job, and forget it; its curve, rows and answer are not sent again."""
+        job = await engine.cancel(id)
+        return _told(job, len(job.points), len(job.rows), whole=False)
 
 
-def _told(job: Job, points_from: int = 0, rows_from: int = 0) -> JobAnswer:
+def _told(job: Job, points_from: int = 0, rows_from: int = 0, *, whole: bool = True) -> JobAnswer:
     return JobAnswer.model_validate(
         {
             "id": job.id,
@@ -177,7 +178,7 @@ def _told(job: Job, points_from: int = 0, rows_from: int = 0) -> JobAnswer:
             "rows": job.rows[rows_from:],
             "rows_from": rows_from,
             "error": job.error,
-            "answer": job.answer,
+            "answer": job.answer if whole else None,
         }
     )
 

@@ -143,7 +143,10 @@ def _of_problem(name: str, card: Stated, indenter: str | None) -> Iterator[inspe
         yield _parameter(f"{name}__what", str, words, needed=True)
     only = card.spelling == "case"
     told = card.words if only else _CASE
-    words = typer.Argument(metavar="CASE.toml", help=told, show_default=False)
+    if card.table:
+        told += " Or, after a problem, a table of cases that change it."
+    metavar = "CASES.csv" if card.table else "CASE.toml"
+    words = typer.Argument(metavar=metavar, help=told, show_default=False)
     yield _parameter(f"{name}__case", Path if only else Path | None, words, needed=only)
     for question in _questions(card, indenter):
         yield _of_question(name, question)
@@ -268,6 +271,11 @@ def _problem(option: Option, indenter: str | None, said: Mapping[str, Any]) -> d
         if key.startswith(prefix) and value not in (None, [], ())
     }
     case, what = answers.pop("case", None), answers.pop("what", None)
+    if case is not None and what is not None and _is_table(card, case):
+        if _is_table(card, what):
+            raise InputError(f"give one table of cases, got {what} and {case}")
+        alone = {f"{prefix}{key}": value for key, value in answers.items()}
+        return _problem(option, indenter, alone | {f"{prefix}what": what}) | {card.table: str(case)}
     if what is not None and what not in card.indenters:
         return _of_file(option, what, case, answers)
     word = (
@@ -296,15 +304,22 @@ def _of_file(
     """Return the input for a problem if a file is given in place of an indenter."""
     card = option.card
     assert isinstance(card, Stated)
+    if case is not None and _is_table(card, what):
+        raise InputError(f"give the problem {case} before its table of cases {what}")
     if case is not None:
         raise InputError(f"give one file, got {what} and {case}")
-    if card.table and Path(what).suffix.lower() in (".csv", ".xlsx"):
+    if _is_table(card, what):
         if flags := [flag(name) for name in answers]:
             raise InputError(f"{what} is a table of cases; remove {', '.join(flags)}")
         return {card.table: what, option.name: None}
     if not Path(what).suffix:
         raise InputError(f"{card.expected}, got {what!r}")
     return {option.name: {"case": what, **answers}}
+
+
+def _is_table(card: Stated, file: str | Path) -> bool:
+    """Return whether a file is a table of cases, by its ending."""
+    return bool(card.table) and Path(file).suffix.lower() in (".csv", ".xlsx")
 
 
 @contextmanager

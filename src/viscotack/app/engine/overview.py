@@ -14,6 +14,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import estimate_by
+from viscotack.forecast.learned import SURROGATE
 from viscotack.forecast.prediction import Prediction
 from viscotack.forecast.prediction_table import predict_table
 from viscotack.forecast.punches import inputs_of
@@ -32,8 +33,9 @@ from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.theory.elastic.relaxed import contact, curve, ends
 from viscotack.theory.punch import Pad, unloading
 
-# Speeds of the picture of force against speed, and how many decades around the present one.
-_SPEEDS, _DECADES = 41, 4.0
+# Speeds of the picture of force against speed, in one table or one by one at a millisecond each,
+# and how many decades around the present one.
+_SPEEDS, _FEW, _DECADES = 41, 17, 4.0
 _POINTS = 80
 # A contact of an indenter of revolution is looked for up to this multiple of the radius (pi R^2
 # dg0/E0*)^(1/3), and a curve without a start is drawn to this one.
@@ -193,7 +195,7 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
         found["notes"].append(f"surrogate: {answer.why}")
     # a surrogate may withhold work and curve at this speed, and state the force at all of them
     if curve is not None or answer.method.startswith("surrogate"):
-        found["speeds"] = (_punch_speeds if punch else _speeds)(problem, confidence)
+        found["speeds"] = _punch_speeds(problem, confidence) if punch else _speeds(answer)
 
 
 def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
@@ -218,17 +220,19 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
     ]
 
 
-def _speeds(problem: Problem, confidence: float) -> dict[str, Any]:
+def _speeds(answer: Prediction) -> dict[str, Any]:
     """Return the pull-off force at other speeds, within the range of the surrogate."""
+    problem, confidence = answer.problem, answer.confidence
     groups, scales = problem.groups(), problem.scales()
     assert isinstance(groups, Groups) and groups.rate is not None
     least, most = groups.rate * 10**-_DECADES, groups.rate * 10**_DECADES
-    if isinstance(groups.material, RetardationPowerLaw):
+    if answer.inside and answer.method == SURROGATE:
+        assert isinstance(groups.material, RetardationPowerLaw)
         low, high = store.shipped().limits["rate"]
         rates = np.geomspace(max(low * 1.0001, least), min(high / 1.0001, most), _SPEEDS)
         forces = _of_power_law(groups, groups.material.exponent, rates, confidence)
     else:
-        rates, forces = _of_solid(groups, np.geomspace(least, most, _SPEEDS), confidence)
+        rates, forces = _one_by_one(groups, np.geomspace(least, most, _FEW), confidence)
     value, below, above = (drawn(each * scales.force) for each in forces)
     return {
         "speed": drawn(rates * scales.length / scales.time),
@@ -254,8 +258,8 @@ def _of_power_law(groups: Groups, exponent: float, rates: Array, confidence: flo
     return [answers[f"pull_off_force{end}"] for end in ("", "_low", "_high")]
 
 
-def _of_solid(groups: Groups, rates: Array, confidence: float) -> tuple[Array, Array]:
-    """Return the rates at which another solid is like those learned from, and the same forces."""
+def _one_by_one(groups: Groups, rates: Array, confidence: float) -> tuple[Array, Array]:
+    """Return the rates at which other surrogates answer, and the same forces."""
     found = []
     for rate in rates.tolist():
         try:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.forecast import predict
+from viscotack.forecast import cautions_on, predict
 from viscotack.forecast.advice import advice_on, estimates_without_advice
 from viscotack.forecast.closed_forms import Estimate
 from viscotack.forecast.question import Question
@@ -90,7 +90,8 @@ def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, An
     ``words`` describe the regime, for the retraction of a relaxed contact of revolution;
     ``tiers`` are rows in SI.
     """
-    problem = State(asked["tables"], also).problem
+    state = State(asked["tables"], also)
+    problem = state.problem
     # one question, so that the theories are evaluated once
     question, numbers, refused, words = Question(problem), [], "", ()
     try:
@@ -102,11 +103,12 @@ def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, An
         words, estimates = advice.statements, advice.estimates
     except InputError:
         estimates = estimates_without_advice(question)
+    warned = cautions_on(problem, passport=state.passport)
     revolution = not isinstance(problem.geometry, FlatPunch)
     return {
         "numbers": numbers,
         "refused": refused,
-        "words": list(words),
+        "words": list(dict.fromkeys((*words, *warned))),
         "tiers": [_in_si(each, problem) for each in estimates],
         "crack": any(each.tier == METHOD and each.applies for each in estimates)
         or (revolution and not words),

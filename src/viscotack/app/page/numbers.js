@@ -60,7 +60,7 @@ export function shown(text) {
   return String(text ?? "–").replace(/(\d\s*)u(?=[mNsJP])/g, "$1µ");
 }
 
-const QUANTITY = /^\s*([a-z]+ )?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+const QUANTITY = /^\s*([a-z]+ )?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*((?![,.\d]).*?)\s*$/i;
 
 // "apart 20 um" -> its word and number, in SI where its unit is the given one with a prefix, else in
 // the unit it has; null where it is no number.

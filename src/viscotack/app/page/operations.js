@@ -95,6 +95,7 @@ export class Operations {
       row.hidden = true;
       text.focus();
       text.setSelectionRange(0, 0);
+      text.scrollTop = 0;
       this.text = text;
     });
     take.id = `${this.id}-example`;

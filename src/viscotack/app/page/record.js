@@ -20,7 +20,8 @@ export class Record {
     this.refused.setAttribute("role", "alert");
     left.append(this.refused);
     const right = card(view, "");
-    this.command = this.text(right, "Command line", () => store.quick?.command, "case.sh");
+    this.command = this.text(right, "Command line", () => store.quick?.command);
+    right.append(element("p", "hint", "Save the file as case.toml first, and run the lines in its folder."));
     this.python = this.text(right, "Python", () => store.quick?.python, "case.py");
     this.json = this.text(right, "Numbers of the simulation", () => (store.run.answer ? JSON.stringify(store.run.answer.summary, null, 2) : ""), "summary.json");
     right.append(element("p", "hint", "All of them give the same digits. Each picture has buttons for SVG, PNG and CSV. The API is described at "), anchor("/api/docs"));

@@ -133,10 +133,10 @@ class RevolutionContact(ABC):
     def zone(self) -> float:
         """Length over which the gap opens at a relaxed edge [beta].
 
-        The zone of a crack is 0.75 beta over the square of the effective Tabor number. At small
-        Tabor numbers this would exceed the contact; the gap then opens over the distance in which
-        the indenter rises by about the range of the law. On a thin body the gap opens over the
-        decay length of the body; independent springs have no decay length.
+        The zone of a crack is 0.75 beta over the square of the range-corrected Tabor number. At
+        small Tabor numbers this would exceed the contact; the gap then opens over the distance in
+        which the indenter rises by about the range of the law. On a thin body the gap opens over
+        the decay length of the body; independent springs have no decay length.
         """
         crack = 0.75 / (self.tabor / self.span) ** 2
         thin = 2 * self.body.decay_length or np.inf

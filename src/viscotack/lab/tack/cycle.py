@@ -65,6 +65,8 @@ class Cycle:
         Origin of the numbers; its notes list all decisions.
     temperature : float or None
         Mean temperature of the cycle [K]; None where the file states none.
+    cautions : tuple of str
+        Signs that the theories of a closing edge do not hold.
     """
 
     number: int
@@ -88,6 +90,7 @@ class Cycle:
     noise: float
     source: Source
     temperature: float | None = None
+    cautions: tuple[str, ...] = ()
 
     pull_off_depth = Renamed("depth_at_pull_off")
 

@@ -30,6 +30,8 @@ _CLIPPED = 8  # equal extreme values in a row while the drive moves ...
 _ROUNDED = 8.0  # digits by which a rounded extreme changes as far again from it
 _MOVED = 0.002  # ... by more than this fraction of its travel
 _OUT = 5.0  # standard deviations of the noise that it may reverse in addition
+_HELD = 0.2  # share of the pull-off force that a tension behind it has at least
+_LASTING = 10.0  # travel of this tension over that to the pull-off above which fibrils hold
 _STEADY = 3.0  # K: a larger change within a cycle is noted
 _SLIDING = 0.1  # fraction of the travel by which the corrected depth may reverse
 
@@ -204,6 +206,13 @@ def _cycle(
         float(depth[own.retract]),
         float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract]))),
     )
+    speed = _speed(time, way, crossing, at)
+    if speed.uncertainty >= speed.value:
+        raise InputError(
+            f"the true speed is not determined, {readable(speed.value, 'm/s', digits=2)} +- "
+            f"{readable(speed.uncertainty, 'm/s', digits=2)}: the drive is uneven, or too few "
+            "points were recorded before the pull-off; record faster"
+        )
     size = record.contact_radius
     temperature, changes = _temperature(record, span)
     return Cycle(
@@ -233,12 +242,31 @@ def _cycle(
         preload=Measured(float(deepest[top]), noise),
         preload_depth=Measured(level, unsure),
         dwell_time=float(time[own.retract] - time[own.dwell]),
-        speed=_speed(time, way, crossing, at),
+        speed=speed,
         mean_speed=_speed(time, way, own.retract, own.end - 1),
         approach_speed=_approach_speed(time, way, own),
         noise=law.noise,
         source=record.source.noted(*notes, *changes),
         temperature=temperature,
+        cautions=_fibrils(force, way, crossing, at, own.end),
+    )
+
+
+def _fibrils(force: Array, way: Array, crossing: int, at: int, end: int) -> tuple[str, ...]:
+    """Return a caution if a tension lasts far behind the pull-off.
+
+    An elastic sphere (JKR) separates within 0.31 of the travel from zero force to the pull-off, and
+    a rigid one with Lennard-Jones forces is at a fifth of the peak within 7.5 of it.
+    """
+    behind = -force[at:end]
+    held = np.flatnonzero(behind >= _HELD * behind[0])[-1]
+    travel, tail = abs(way[at] - way[crossing]), abs(way[at + held] - way[at])
+    if tail <= _LASTING * travel or np.median(behind[: held + 1]) < _HELD * behind[0]:
+        return ()
+    return (
+        f"a tension lasts for {readable(tail, 'm', digits=2)} behind the pull-off, "
+        f"{tail / max(travel, 1e-300):.2g} times the travel to it: fibrils or cavities, for which "
+        "no theory here holds; do not identify an interface from it",
     )
 
 

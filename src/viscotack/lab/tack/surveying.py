@@ -44,6 +44,15 @@ class Survey:
         )
 
     @property
+    def cautions(self) -> tuple[tuple[str, str], ...]:
+        """File and caution of every cycle whose signal contradicts the theories."""
+        return tuple(
+            (one.source.path, f"cycle {one.number}: {said}")
+            for one in self.cycles
+            for said in one.cautions
+        )
+
+    @property
     def reasons(self) -> tuple[tuple[str, str], ...]:
         """File and reason of every rejected file and cycle."""
         files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in self.unread]

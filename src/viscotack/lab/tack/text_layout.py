@@ -5,7 +5,6 @@ above quoted columns), Zwick testXpert, Stable Micro Systems texture analysers (
 and nanoindenters (tabs, micronewtons in Latin-1).
 """
 
-import re
 import shlex
 from collections.abc import Sequence
 
@@ -40,7 +39,7 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
         raise _no_headings(file)
     line, separator, headings = found
     above = (text.lstrip("#% ") for text in file.lines[: max(line - 1, 0)])
-    stated = stated_temperature(re.split(r"[\t;,]", text) for text in above)
+    stated = stated_temperature([text] for text in above)
     return [
         grid(file, headings, *below(file, lines, separator), f"table {count}", stated)
         for count, lines in enumerate(repeats(file, line), start=1)

@@ -450,26 +450,21 @@ class Folder(Card):
 
 @dataclass(frozen=True)
 class Table(Card):
-    """Rows of numbers by name: a list of objects, or the name of a CSV file with a heading."""
+    """Rows by name: a list of objects, or the name of a CSV file or workbook with a heading.
+
+    Cells of a file are text; the operation reads them, because it knows their units. An empty row
+    is one of empty texts.
+    """
 
     form: ClassVar = "rows"
 
-    def read(self, value: Any, place: Place) -> tuple[Mapping[str, float], ...]:
+    def read(self, value: Any, place: Place) -> tuple[Mapping[str, Any], ...]:
         """Return the rows."""
         if isinstance(value, str | Path):
-            from viscotack.campaign.listed import Listed
-            from viscotack.files.text import read_text
-
-            path = place.file(_name(value))
-            rows = tuple(r for _, r in islice(Listed(path, read_text(path)), _MOST_ROWS + 1))
-            if len(rows) > _MOST_ROWS:
-                raise InputError(
-                    f"{path} has more than {_MOST_ROWS:,} rows; run a campaign with this table"
-                )
-            return rows
+            return rows_of_file(place.file(_name(value)))
         if not isinstance(value, list | tuple) or not all(isinstance(r, Mapping) for r in value):
             raise InputError(f"expected rows, [{{'name': number}}, ...], got {value!r:.60}")
-        return tuple({str(k): parse(v, "1") for k, v in row.items()} for row in value)
+        return tuple({str(name): cell for name, cell in row.items()} for row in value)
 
     def written(self, value: Any) -> Any:
         """Return the rows as tables."""
@@ -481,9 +476,41 @@ class Table(Card):
 
     @property
     def schema(self) -> dict[str, Any]:
-        """A list of objects of numbers."""
-        row = {"type": "object", "additionalProperties": {"type": "number"}}
+        """A list of objects of numbers and text."""
+        cell = {"type": ["number", "string"], "maxLength": 200}
+        row = {"type": "object", "additionalProperties": cell}
         return {"type": "array", "items": row, "minItems": 1}
+
+
+@dataclass(frozen=True)
+class FileOrRows(File):
+    """A table in a file, which the operation reads, or its rows as for `Table`."""
+
+    def read(self, value: Any, place: Place) -> Any:
+        """Return the path of the file, or the rows."""
+        if isinstance(value, list | tuple):
+            return Table(self.words).read(value, place)
+        return super().read(value, place)
+
+    def written(self, value: Any) -> Any:
+        """Return the path, or the rows as tables."""
+        return Path(value) if isinstance(value, str | Path) else [dict(row) for row in value]
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """The name of a file, or a list of objects."""
+        return {"anyOf": [super().schema, Table(self.words).schema]}
+
+
+def rows_of_file(path: Path) -> tuple[Mapping[str, str], ...]:
+    """Return the rows of a table by its headings."""
+    from viscotack.campaign.listed import read_words
+
+    names, lines = read_words(path, empty=True)
+    rows = tuple(dict(zip(names, row, strict=True)) for _, row in islice(lines, _MOST_ROWS + 1))
+    if len(rows) > _MOST_ROWS:
+        raise InputError(f"{path} has more than {_MOST_ROWS:,} rows; run a campaign")
+    return rows
 
 
 def is_number(text: str) -> bool:

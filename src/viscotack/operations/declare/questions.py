@@ -36,6 +36,7 @@ from viscotack.materials.library import MATERIALS, passport_of
 from viscotack.materials.passport import Passport
 from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, plane, revolution
+from viscotack.problem.case_file import moved
 from viscotack.problem.case_table import OWN
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
@@ -460,6 +461,8 @@ def _refuse_missing(
     if missing:
         of_solid = any(name not in given for name in needs)
         why = f" for --material {solid['material']}" if of_solid else ""
+        if of_solid and "material" not in given:
+            why += ", the one that is taken without --material (sls, elastic and others exist)"
         more = f"; also give {start}" if start else ""
         raise InputError(f"{listed(missing)} missing{why}{more}; see --help")
     if start:
@@ -484,13 +487,17 @@ def temperature_of(answers: Mapping[str, Any]) -> float | None:
         raise InputError(f'--temperature: {error}; for example --temperature "0 degC"') from None
 
 
-def shift_deviation_of(answers: Mapping[str, Any], also: Iterable[Any] = ()) -> float:
-    """Return the standard deviation of log10 a_T of a passport at the requested temperature."""
+def passport_at(
+    answers: Mapping[str, Any], also: Iterable[Any] = ()
+) -> tuple[Passport | None, float]:
+    """Return the passport of the material at the requested temperature, and the doubt of its shift.
+
+    None and 0 for a material stated by numbers; the doubt is the standard deviation of log10 a_T.
+    """
     given = given_of(answers)
-    temperature = temperature_of(given)
-    if temperature is None or not is_passport(given.get("material", "")):
-        return 0.0
-    return passport_in(given["material"], also).shift_deviation(temperature)
+    if not is_passport(given.get("material", "")):
+        return None, 0.0
+    return moved(passport_in(given["material"], also), temperature_of(given))
 
 
 def _scales_of_passport(given: Mapping[str, Any], nouns: Nouns) -> dict[str, Any]:

@@ -14,8 +14,9 @@ from urllib.parse import parse_qsl, urlencode
 
 from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml, toml_value
+from viscotack.materials.passport import Passport
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.problem.case_file import case_of_tables
+from viscotack.problem.case_file import case_of_tables, passport_of_tables
 from viscotack.problem.problem import Problem
 
 # Of a case that is sent: it states a few dozen numbers, a Prony series some hundred.
@@ -80,6 +81,11 @@ class State:
         """The problem in SI; ValueError if the tables do not define one."""
         return case_of_tables(self.tables, where=_WHERE, also=self.also)
 
+    @cached_property
+    def passport(self) -> Passport | None:
+        """The passport of the material at its temperature; None if numbers define it."""
+        return passport_of_tables(self.tables, where=_WHERE, also=self.also)[0]
+
     @property
     def query(self) -> str:
         """The state as the query of a link."""
@@ -102,14 +108,10 @@ class State:
         return "\n".join(lines)
 
     def command(self, *, accuracy: float = DEFAULT_ACCURACY, until: str = "detached") -> str:
-        """Return the command lines that simulate it, with the file they need."""
+        """Return the command lines that simulate and predict it, once it is saved as case.toml."""
         flags = "" if accuracy == DEFAULT_ACCURACY else f" --accuracy {accuracy!r}"
         flags += "" if until == "detached" else f" --until {until}"
-        return (
-            f"cat > case.toml <<'END'\n{self.toml}END\n"
-            f"viscotack simulate case case.toml{flags}\n"
-            "viscotack predict case.toml\n"
-        )
+        return f"viscotack simulate case case.toml{flags}\nviscotack predict case.toml\n"
 
     def python(self, *, accuracy: float = DEFAULT_ACCURACY, until: str = "detached") -> str:
         """Return the Python that simulates it, with every digit."""

@@ -41,18 +41,29 @@ class Statement:
         Standard deviation of log10 of the times of its material, from its shift with temperature.
     given : object
         The input of the user.
+    passport : Passport or None
+        Passport of the material at its temperature; None if numbers or an object define it.
     """
 
     problem: "Case"
     deviation: float = 0.0
     given: Any = None
+    passport: Passport | None = None
+
+    @property
+    def improbable(self) -> tuple[str, ...]:
+        """Warnings of numbers of an improbable magnitude."""
+        from viscotack.problem.inputs import improbable
+
+        return improbable(self.problem)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Warning for answers that do not include the uncertainty of the material times."""
+        """Warnings for answers that do not include the uncertainty of the material times."""
         if self.deviation == 0:
-            return ()
+            return self.improbable
         return (
+            *self.improbable,
             f"the material times are uncertain by {self.deviation:.2g} decades because of the "
             "temperature shift; this answer does not include that, viscotack predict does",
         )
@@ -113,7 +124,8 @@ class Stated(Card):
             )
         from .state import State
 
-        return Statement(State(value, place.also).problem, given=value)
+        state = State(value, place.also)
+        return Statement(state.problem, given=value, passport=state.passport)
 
     def written(self, value: Statement) -> Any:
         """Return the input of the user, or the record of the problem."""
@@ -161,7 +173,7 @@ class Stated(Card):
 
     def _of_case(self, value: Mapping[str, Any], place: Place) -> Statement:
         from viscotack.files.toml import read_toml
-        from viscotack.problem.case_file import read_case, shift_deviation
+        from viscotack.problem.case_file import case_of_tables, passport_of_tables
         from viscotack.rough import read_rough_case
 
         from .questions import given_of, temperature_of
@@ -173,21 +185,28 @@ class Stated(Card):
             raise InputError(f"{case} defines the whole problem; remove {', '.join(flags)}")
         kelvin = temperature_of(given)
         beside = place.within(case).file
-        if self.rough and "surface" in read_toml(case):
+        tables = read_toml(case)
+        if self.rough and "surface" in tables:
             if given.keys() - {_CASE}:
                 raise InputError(f"{case} states the whole test of a map; remove the options")
             stated: Any = read_rough_case(case, also=place.also, beside=beside)
             return Statement(stated, given=case)
-        problem = read_case(case, also=place.also, temperature=kelvin, beside=beside)
+        said: Any = {
+            "where": str(case),
+            "also": place.also,
+            "temperature": kelvin,
+            "beside": beside,
+        }
+        problem = case_of_tables(tables, **said)
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
             command = found if found in INDENTERS else "case"
             raise InputError(f"{case} contains a {found}; use viscotack simulate {command} {case}")
-        deviation = shift_deviation(case, temperature=kelvin, also=place.also)
-        return Statement(problem, deviation, {**given, _CASE: case} if kelvin else case)
+        passport, deviation = passport_of_tables(tables, **said)
+        return Statement(problem, deviation, {**given, _CASE: case} if kelvin else case, passport)
 
     def _of_numbers(self, value: Mapping[str, Any], place: Place) -> Statement:
-        from .questions import given_of, shift_deviation_of, stated
+        from .questions import given_of, passport_at, stated
 
         word = value[_INDENTER]
         if word not in self.indenters:
@@ -206,7 +225,8 @@ class Stated(Card):
                 given[name] = card.value(given[name], place)
         problem = stated(indenter, given, place.also)
         said = {n.replace("-", "_"): v for n, v in given.items()}
-        return Statement(problem, shift_deviation_of(given, place.also), {_INDENTER: word, **said})
+        passport, deviation = passport_at(given, place.also)
+        return Statement(problem, deviation, {_INDENTER: word, **said}, passport)
 
 
 def indenter_named(word: str) -> "Indenter":

@@ -1,9 +1,9 @@
-"""Tables of cases from files, and back into files with their predictions."""
+"""Tables of cases without dimensions from files, and back into files with their predictions."""
 
 import csv
 import io
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -26,6 +26,7 @@ from .workbook import write_workbook
 # Rows in memory at a time.
 _BLOCK = 50_000
 _SHEET = 2**20 - 1  # rows of a sheet below its headings
+EMPTY = "empty row"
 
 
 def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) -> Answer:
@@ -40,18 +41,18 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     ValueError
         If columns or rows are not those of a table of spheres or punches.
     """
-    header, rows = _words_of_workbook(path) if is_workbook(path) else read_words(path)
+    headings, rows = read_words(path, empty=True)
+    header = [_plain(name) for name in headings]
     kind = kind_of(header)
     names = [name for name in header if name in {*kind.columns, *kind.choices}]
     try:
         kind.check(set(names))
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    if there := [name for name in answers_of(kind) if name in header]:
         raise InputError(
-            f"{path} has the columns {', '.join(there)} already, which the answers are to have; "
-            "rename or leave them out"
-        )
+            f"{path}: {error}, and the headings {', '.join(headings)}; a table in SI changes a "
+            "problem, which stands before it: viscotack predict lens.toml cases.xlsx"
+        ) from None
+    refuse_answered(path, header, answers_of(kind))
     counts: Counter[str] = Counter()
     methods: Counter[str] = Counter()
 
@@ -60,15 +61,17 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
             begin = counts["rows"]
             given = {n: [row[i].strip() for _, row in block] for i, n in enumerate(header)}
             found = _answers(path, given, names, confidence, partial(_rows_told, tell, begin))
+            empty = np.array([not any(row) for row in zip(*given.values(), strict=True)])
+            found["why"][empty] = EMPTY
             counts.update(
                 {
                     "rows": len(block),
                     "inside": int(found["inside"].sum()),
-                    "unanswered": int(np.sum(found["method"] == "")),
+                    "unanswered": int(np.sum((found["method"] == "") & ~empty)),
                 }
             )
             methods.update(found["method"][found["method"] != ""].astype(str).tolist())
-            yield {**given, **found}
+            yield {**dict(zip(headings, given.values(), strict=True)), **found}
 
     def answered(file: Target) -> None:
         with writing_whole(file) as stream:
@@ -81,7 +84,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
             if counts["rows"] > _SHEET:
                 raise InputError(f"{path} has more rows than a sheet can have; write --csv")
             for name, values in table.items():
-                columns.setdefault(name, []).extend(map(_in_sheet, np.asarray(values).tolist()))
+                columns.setdefault(name, []).extend(map(in_sheet, np.asarray(values).tolist()))
         write_workbook({"predictions": columns}, file)
 
     def record() -> dict[str, Any]:
@@ -97,28 +100,22 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     return Answer(methods, record=record, words=lambda: _words(record()), files=files)
 
 
-def is_workbook(path: Path) -> bool:
-    """Return whether a table of cases is a workbook, by its ending."""
-    return path.suffix.lower() == ".xlsx"
+def refuse_answered(where: Any, headings: Iterable[str], answers: Iterable[str]) -> None:
+    """Refuse a table that has columns of answers already."""
+    known = set(headings)
+    if there := [name for name in answers if name in known]:
+        raise InputError(
+            f"{where} has the columns {', '.join(there)} already, which the answers are to have; "
+            "rename or leave them out"
+        )
 
 
-def _words_of_workbook(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    """Return the first sheet of a workbook like :func:`read_words`."""
-    from viscotack.lab.lab_file import load
-    from viscotack.lab.workbook_layout import sheets
-
-    try:
-        first = next(iter(sheets(load(path)).values()), [])
-    except ImportError as error:
-        raise InputError(str(error)) from None
-    # a sheet may have empty columns that were formatted
-    width = max((i + 1 for row in first for i, word in enumerate(row) if word.strip()), default=0)
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows(row[:width] for row in first)
-    return read_words(path, stream.getvalue())
+def _plain(name: str) -> str:
+    """Return a heading in lower case, with underscores, as columns of cases are named."""
+    return name.strip().lower().replace(" ", "_").replace("-", "_")
 
 
-def _in_sheet(value: Any) -> Any:
+def in_sheet(value: Any) -> Any:
     """Return an entry of a table as a cell of a workbook; nothing where there is no number."""
     if value == "" or value != value:
         return None

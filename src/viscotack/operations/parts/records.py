@@ -165,7 +165,8 @@ def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) 
             "sha256": one.record.source.sha256,
             "format": one.record.source.format,
             "cycles": [
-                cycle_row(cycle, radius, law) | {"notes": list(cycle.source.notes)}
+                cycle_row(cycle, radius, law)
+                | {"notes": list(cycle.source.notes), "cautions": list(cycle.cautions)}
                 for cycle in one.cycles
             ],
             "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
@@ -196,6 +197,9 @@ def slow_record(fit: Any) -> dict[str, Any]:
         for one in fit.fits
     ]
     return {
+        "work_of_adhesion_J_m2": None if fit.upper_bound else fit.best.work_of_adhesion,
+        "interval": asdict(fit.work_of_adhesion),
+        "upper_bound": list(fit.upper_bound),
         "against": fit.test.against,
         "points": int(fit.test.force.size),
         "level": fit.level,
@@ -234,8 +238,12 @@ def rates_record(fit: Any) -> dict[str, Any]:
 
 def forecast_rows(forecast: Any) -> list[dict[str, float]]:
     """Return a row for each speed of a forecast."""
-    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
-    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
+    found = [forecast.speed, forecast.force, forecast.low, forecast.high]
+    names = ["speed_m_s", "pull_off_force_N", "low_N", "high_N"]
+    if forecast.low_of_one is not None:
+        found += [forecast.low_of_one, forecast.high_of_one]
+        names += ["low_of_one_test_N", "high_of_one_test_N"]
+    columns = zip(*found, strict=True)
     return [dict(zip(names, map(float, row), strict=True)) for row in columns]
 
 

@@ -167,5 +167,6 @@ class Rig(Part):
 
 
 def refusals(found: "Survey") -> tuple[str, ...]:
-    """Return a line for each file and cycle that was refused."""
-    return tuple(f"refused: {path}: {why}" for path, why in found.reasons)
+    """Return a line for each file and cycle that was refused, and for each caution."""
+    refused = (f"refused: {path}: {why}" for path, why in found.reasons)
+    return (*refused, *(f"caution: {path}: {said}" for path, said in found.cautions))

@@ -23,8 +23,8 @@ _EVERY = 0.04
 _PROFILES, _NODES = 60, 160
 # Processor time after which a run forecasts its own, and the smallest forecast to report [s].
 _LOOK, _WORTH = 0.5, 5.0
-# Processor time after which a run states why it takes long [s], and the effective Tabor number, the
-# width of a punch [a0] and the number of moves that count as a reason.
+# Processor time after which a run states why it takes long [s], and the range-corrected Tabor
+# number, the width of a punch [a0] and the number of moves that count as a reason.
 _LONG, _SHARP, _WIDE, _MANY = 30.0, 5.0, 30.0, 2
 _NO_UNITS = (1.0, 1.0, 1.0, 1.0)
 # Of the largest contact, what is drawn of the surface.
@@ -74,7 +74,7 @@ def slow_words(problem: Any, share: float, options: Mapping[str, Any]) -> str:
             causes.append(f"the punch is {size:.3g} a0 wide, which needs a fine mesh at its edges")
     elif groups.effective_tabor > _SHARP:
         causes.append(
-            f"the cohesive zone is small beside the contact (effective Tabor number "
+            f"the cohesive zone is small beside the contact (range-corrected Tabor number "
             f"{groups.effective_tabor:.3g}), which needs a fine mesh and many steps"
         )
     if isinstance(groups.body, Layer) and not groups.in_plane_strain:

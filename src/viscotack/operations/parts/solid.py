@@ -84,8 +84,8 @@ class Reduced(Part):
     material: Annotated[
         str | Passport | None,
         material_words(
-            "power-law (also when left out), sls, prony:FILE or a passport FILE.toml, as for "
-            "simulate sphere."
+            "power-law (also when left out; theory steady-crack without --exponent takes sls), "
+            "sls, prony:FILE or a passport FILE.toml, as for simulate sphere."
         ),
     ] = None
     modulus_ratio: Annotated[

@@ -32,6 +32,9 @@ from . import _crack
 def amplification(speed: Values, *, material: _crack.Material) -> Number:
     r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
 
+    The speed is :math:`v \tau_0 / l_0`, with the time unit tau_0 of the material. Eq. 4.17 and
+    4.18, after Persson and Brener (2005), for a steady opening crack; see the module.
+
     Relative error 1e-12 or better if the modes represent the creep to 1e-14 k, as for power laws;
     for a fractional solid 1e-11 for k down to 1e-6 and orders up to 0.95. 1e5 speeds take a
     fraction of a second.

@@ -34,7 +34,6 @@ from copy import copy
 from dataclasses import dataclass
 from math import exp, log, nan, pi
 from typing import NamedTuple
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 import scipy
@@ -42,6 +41,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.theory.crack.steady import SteadyCrack
+from viscotack.threads import caught_warnings
 
 from ._memory import Chain, chain_of
 from ._profile import HalfSpaceProfile
@@ -106,8 +106,6 @@ class Receding:
         Its units in SI.
     left : callable
         Fraction of the short-range tension as a function of energies and speeds of the crack.
-    strength : float
-        Factor on the tension that the contact carries, for bands.
     """
 
     def __init__(
@@ -119,10 +117,9 @@ class Receding:
         radius: float,
         scales: Scales,
         left: Callable[[Array, Array], Array],
-        strength: float = 1.0,
     ) -> None:
         self._profile, self._mu2, self._radius = profile, tabor**2, radius
-        self.scales, self._strength = scales, strength
+        self.scales, self._strength = scales, 1.0
         self._chain = chain_of(crack.modes)
         self._limit = _LAST * crack.largest
         gained = np.geomspace(_SLOWEST, self._limit - 1, _ROWS)
@@ -227,8 +224,6 @@ class Elastic:
         Its units in SI.
     left : float
         Pull-off force over that of adhesion of short range.
-    strength : float
-        Factor on the tension that the contact carries, for bands.
     """
 
     def __init__(
@@ -238,7 +233,6 @@ class Elastic:
         radius: float,
         scales: Scales,
         left: float = 1.0,
-        strength: float = 1.0,
     ) -> None:
         least = profile.elastic_radius
         a = np.linspace(least, max(radius, least) * 1.01, _ROWS)
@@ -247,7 +241,7 @@ class Elastic:
         self._middle = (force[1:] + force[:-1]) / 2 * scales.force
         self._compliance = np.diff(depth) / np.diff(force) * scales.depth / scales.force
         self._pull_off = -float(force[0]) * scales.force
-        self.scales, self._strength = scales, strength
+        self.scales, self._strength = scales, 1.0
 
     def stronger(self, strength: float) -> Elastic:
         """Return the same contact with a factor on its tension."""
@@ -374,8 +368,7 @@ def pull_apart(
         )
         top, top_time, at_top = 0.0, 0.0, begin
         for _ in range(_MOST_STEPS):
-            with catch_warnings():
-                simplefilter("ignore")  # after a failure the next method is tried
+            with caught_warnings("ignore"):  # after a failure the next method is tried
                 solver.step()
             force, states = parts(solver.y)
             if not np.all(np.isfinite(solver.y)) or solver.status != "running":

@@ -1,25 +1,24 @@
 """Cracks of one solid and law in one direction, computed on demand from the slowest on.
 
-At speeds a third of a decade apart Newton's method starts from the previous crack. Between
-them ln of (Gamma - 1)/(1/k - Gamma), for closing of (1 - Gamma)/(Gamma - k), is a cubic spline in
-ln of the speed; the spline through every second crack gives the error estimate.
+At speeds a quarter of a decade apart Newton's method starts from the previous crack. Between
+them ln of (Gamma - 1)/(1/k - Gamma), for closing of (1 - Gamma)/(Gamma - k), is piecewise cubic in
+ln of the speed (:mod:`._knots`); fourth differences give the error estimate.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
-import scipy
-from threadpoolctl import ThreadpoolController
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
+from viscotack.threads import one_blas_thread
 
 from ._balance import Law, Solution, System, solved
+from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, curve, stated
 from ._memory import closing_inflow, closing_matrix, lengths_of, opening_matrix
 from ._mesh import Mesh
 
@@ -32,8 +31,6 @@ _SLOW, _SLOWER = 0.03, 12
 _GLASSY, _MOST = np.log(2e3), 400
 # Points of the inverse between two computed speeds.
 _FINE = 16
-# Stated fraction of the difference to the coarser spline, which has 16 times the error.
-_STATED = 0.25
 
 
 def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
@@ -51,18 +48,6 @@ def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
     return (1 + limit) / (1 + odds)
 
 
-def stated(differs: Array, places: Array, at: Array) -> Array:
-    """Return the stated error at places, from the largest difference nearby."""
-    near = [float(np.max(differs[np.abs(places - u) < 3 * STEP], initial=0.0)) for u in at.flat]
-    return _STATED * np.reshape(near, at.shape)
-
-
-@cache
-def pools() -> ThreadpoolController:
-    """Return the thread pools of the loaded libraries (cached, because the search is slow)."""
-    return ThreadpoolController()
-
-
 def walked(
     system: Callable[[float, Solution], System], before: float, crack: Solution, aim: float
 ) -> Solution | None:
@@ -73,8 +58,7 @@ def walked(
     at, step = before, aim - before
     while True:
         towards = aim if abs(aim - at) <= abs(step) else at + step
-        # the matrices are small, so more threads do not help
-        with pools().limit(limits=1, user_api="blas"):
+        with one_blas_thread():
             found = solved(system(towards, crack), crack.u)
         if found is not None:
             at, crack, step = towards, found, 1.5 * step
@@ -112,41 +96,45 @@ class Branch:
         self._log_speed: list[float] = []
         self._odds: list[float] = []
         self._cracks: list[Solution] = []
-        self._splines: tuple[int, Any, Any] | None = None
+        self._curve: tuple[int, Any] | None = None
+        # message of the crack that was not found, which ends the list
+        self._failed = ""
 
+    @alone
     def gamma(self, log_speed: Array) -> Array:
         """Return amplifications at ln of speeds; linear below the first speed."""
         self._reach(float(np.max(log_speed, initial=-np.inf)))
-        fine, _ = self._curves()
         first, last = self._log_speed[0], self._log_speed[-1]
-        inside = fine(np.clip(log_speed, first, last))
+        inside = self._between()(np.clip(log_speed, first, last))
         beyond = np.minimum(log_speed - first, 0) + np.maximum(log_speed - last, 0)
         return energy_of_odds(np.exp(inside + beyond), self._modes.instantaneous, self._sign)
 
+    @alone
     def log_speed(self, gamma: Array) -> Array:
         """Return ln of the speeds of amplifications."""
         odds = np.log((gamma - 1) / (self._limit - gamma))
         highest = float(np.max(odds, initial=-np.inf))
         while not self._complete and (not self._odds or self._odds[-1] < highest):
             self._append()
-        self._reach(self._first)
-        fine, _ = self._curves()
+        above = int(np.argmax(np.array(self._odds) >= highest))
+        if self._failed and self._odds[above] < highest:
+            raise InputError(self._failed)
+        self._reach(max(self._log_speed[above], self._first))
         x = np.array(self._log_speed)
         grid = np.interp(np.arange(_FINE * (x.size - 1) + 1) / _FINE, np.arange(x.size), x)
-        # the odds increase; a decreasing spline is caused by round-off at the ends
-        y = np.maximum.accumulate(fine(grid))
+        # the odds increase; a decreasing curve is caused by round-off at the ends
+        y = np.maximum.accumulate(self._between()(grid))
         inside = np.interp(odds, y, grid)
         return inside + np.minimum(odds - y[0], 0) + np.maximum(odds - y[-1], 0)
 
+    @alone
     def interpolation_error(self, log_speed: Array) -> Array:
         """Return the interpolation error of ln of the odds."""
-        fine, coarse = self._curves()
-        at = np.clip(log_speed, self._log_speed[0], self._log_speed[-1])
-        between = self._log_speed[0] + STEP / 2 * np.arange(2 * len(self._log_speed))
-        between = between[between < self._log_speed[-1]]
-        differs = np.abs(fine(between) - coarse(between))
-        return stated(differs, between, at)
+        self._reach(float(np.max(log_speed, initial=-np.inf)), AHEAD_FOR_ERROR)
+        place = np.interp(log_speed, self._log_speed, np.arange(len(self._log_speed)))
+        return stated(np.array(self._odds), place)
 
+    @alone
     def at(self, log_speed: float) -> Solution:
         """Return the crack at ln of a speed, computed without interpolation."""
         self._reach(log_speed)
@@ -155,13 +143,17 @@ class Branch:
 
     @property
     def _complete(self) -> bool:
-        return bool(self._odds) and (self._odds[-1] > _GLASSY or len(self._odds) >= _MOST)
+        return bool(self._failed) or (
+            bool(self._odds) and (self._odds[-1] > _GLASSY or len(self._odds) >= _MOST)
+        )
 
-    def _reach(self, log_speed: float) -> None:
-        """Compute the cracks up to ln of a speed, and one beyond."""
-        least = max(log_speed, self._first) + STEP
+    def _reach(self, log_speed: float, ahead: int = AHEAD) -> None:
+        """Compute the cracks up to ln of a speed, and those beyond that fix the curve there."""
+        least = max(log_speed, self._first) + ahead * STEP
         while not self._complete and (not self._odds or self._log_speed[-1] < least):
             self._append()
+        if self._failed and log_speed > self._log_speed[-1]:
+            raise InputError(self._failed)
 
     def _append(self) -> None:
         if self._cracks:
@@ -169,7 +161,13 @@ class Branch:
             log_speed = before + STEP
         else:
             before, crack, log_speed = self._first - STEP, self._elastic, self._first
-        found = self._walk(before, crack, log_speed)
+        try:
+            found = self._walk(before, crack, log_speed)
+        except InputError as failed:
+            if not self._cracks:
+                raise
+            self._failed = str(failed)
+            return
         if not self._cracks:
             self._begin(found)
         odds = self._odds_of(self._gained(found))
@@ -180,12 +178,12 @@ class Branch:
     def _begin(self, first: Solution) -> None:
         """Add the slow cracks below the first computed one."""
         over = self._gained(first) / (self._slow * np.exp(self._first))
-        for i in range(-_SLOWER, 0):
-            part = np.exp(i * STEP)
-            gained = self._slow * np.exp(self._first) * part * (1 + (over - 1) * part)
-            self._log_speed.append(self._first + i * STEP)
-            self._odds.append(self._odds_of(gained))
-            self._cracks.append(self._elastic)
+        parts = [np.exp(i * STEP) for i in range(-_SLOWER, 0)]
+        slowest = self._slow * np.exp(self._first)
+        odds = [self._odds_of(slowest * part * (1 + (over - 1) * part)) for part in parts]
+        self._log_speed += [self._first + i * STEP for i in range(-_SLOWER, 0)]
+        self._odds += odds
+        self._cracks += [self._elastic] * _SLOWER
 
     def _walk(self, before: float, crack: Solution, aim: float) -> Solution:
         """Continue the crack from ln of one speed to another, in steps that converge."""
@@ -220,13 +218,9 @@ class Branch:
             )
         return float(np.log(gained / max(abs(self._limit - 1) - gained, 1e-12)))
 
-    def _curves(self) -> tuple[Any, Any]:
-        if self._splines is None or self._splines[0] != len(self._odds):
+    def _between(self) -> Any:
+        """Return the curve of ln of the odds through the computed cracks."""
+        if self._curve is None or self._curve[0] != len(self._odds):
             x, y = np.array(self._log_speed), np.array(self._odds)
-            every = np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))
-            self._splines = (
-                x.size,
-                scipy.interpolate.CubicSpline(x, y),
-                scipy.interpolate.CubicSpline(x[every], y[every]),
-            )
-        return self._splines[1:]
+            self._curve = x.size, curve(x, y)
+        return self._curve[1]

@@ -11,8 +11,8 @@ lengths times Q, and with :math:`y = Q v` for the speed,
 
 The modes of the solid have lengths :math:`y \tau_j` there. Q is predicted from previous cracks.
 
-Between values of y, :math:`\ln(\Gamma - 1)` and :math:`\ln Q` are cubic
-splines in ln y. For dominant growth, :math:`Q \sim (Q v)^n`: the energy tends to
+Between values of y, :math:`\ln(\Gamma - 1)` and :math:`\ln Q` are piecewise
+cubic in ln y (:mod:`._knots`). For dominant growth, :math:`Q \sim (Q v)^n`: the energy tends to
 :math:`v^{n/(1-n)}` while the solid is elastic, more steeply than the local tension, because the
 crack becomes shorter; an interface whose growth is proportional to the speed has a
 largest crack speed.
@@ -23,14 +23,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
-from ._branch import STEP, stated, walked
+from ._branch import STEP, walked
+from ._knots import AHEAD, AHEAD_FOR_ERROR, alone, curve, stated
 from ._memory import lengths_of, opening_matrix
 from ._mesh import Mesh
 
@@ -58,6 +58,8 @@ class Grown:
     def __init__(self, mesh: Mesh, law: Law, modes: Modes, growing: Any, start: Solution) -> None:
         self._mesh, self._law, self._modes, self._growing = mesh, law, modes, growing
         self._elastic, self._ended = start, False
+        # message of the crack that was not found, which ends the list
+        self._failed = ""
         self._log_y: list[float] = []
         self._log_work: list[float] = []
         self._log_gained: list[float] = []
@@ -65,6 +67,7 @@ class Grown:
         self._cracks: list[Solution] = []
         self._table: tuple[int, Array, Array] | None = None
 
+    @alone
     def gamma(self, log_speed: Array) -> Array:
         """Return amplifications at ln of speeds; constant beyond the last crack."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
@@ -72,12 +75,14 @@ class Grown:
         below = _first_slope(speed, gained) * np.minimum(log_speed - speed[0], 0.0)
         return 1 + np.exp(np.interp(log_speed, speed, gained) + below)
 
+    @alone
     def work(self, log_speed: Array) -> Array:
         """Return the energies dissipated by the interface at ln of speeds [works of adhesion]."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
         at = np.array(self._log_y) - np.array(self._log_work)
         return np.interp(log_speed, np.maximum.accumulate(at), self._works)
 
+    @alone
     def log_speed(self, gamma: Array) -> Array:
         """Return ln of the speeds of amplifications above 1."""
         wanted = np.log(gamma - 1)
@@ -87,28 +92,23 @@ class Grown:
         return np.interp(wanted, gained, speed) + below
 
     @property
+    @alone
     def largest(self) -> float:
         """Amplification of the last crack that exists or is computed."""
         self._reach(gained=np.inf)
         return float(1 + np.exp(self._curve()[1][-1]))
 
+    @alone
     def interpolation_error(self, log_speed: Array) -> Array:
         """Return the relative interpolation error of amplifications."""
-        y = np.array(self._log_y)
-        every = np.unique(np.append(np.arange(0, y.size, 2), y.size - 1))
-        between = (y[1:] + y[:-1]) / 2
-        worst = np.zeros(between.size)
-        gained = np.array(self._log_gained)
-        share = np.exp(np.interp(between, y, gained - np.logaddexp(0, gained)))
-        for values, weight in ((gained, share), (np.array(self._log_work), share)):
-            fine, coarse = (
-                scipy.interpolate.CubicSpline(y, values),
-                scipy.interpolate.CubicSpline(y[every], values[every]),
-            )
-            worst += weight * np.abs(fine(between) - coarse(between))
-        at = np.interp(between, y, y - np.array(self._log_work))
-        return stated(worst, at, log_speed)
+        self._reach(speed=float(np.max(log_speed, initial=-np.inf)), ahead=AHEAD_FOR_ERROR)
+        log_work, gained = np.array(self._log_work), np.array(self._log_gained)
+        speed = np.maximum.accumulate(np.array(self._log_y) - log_work)
+        place = np.interp(log_speed, speed, np.arange(speed.size))
+        share = np.exp(np.interp(place, np.arange(speed.size), gained - np.logaddexp(0, gained)))
+        return share * (stated(gained, place) + stated(log_work, place))
 
+    @alone
     def at(self, log_speed: float) -> tuple[Solution, float]:
         """Return the crack at ln of a speed, computed, and the interface energy that scales it.
 
@@ -130,18 +130,29 @@ class Grown:
 
     @property
     def _complete(self) -> bool:
-        return bool(self._log_gained) and (
-            self._ended or self._log_gained[-1] > np.log(_LAST) or len(self._log_gained) >= _MOST
+        return bool(self._failed) or (
+            bool(self._log_gained)
+            and (
+                self._ended
+                or self._log_gained[-1] > np.log(_LAST)
+                or len(self._log_gained) >= _MOST
+            )
         )
 
-    def _reach(self, *, speed: float = -np.inf, gained: float = -np.inf) -> None:
-        """Compute the cracks up to ln of a speed, or of Gamma - 1, and one beyond."""
-        while not self._complete and (
-            len(self._log_y) < 6
-            or self._log_y[-1] - self._log_work[-1] < speed + STEP
-            or self._log_gained[-1] < gained
-        ):
+    def _reach(
+        self, *, speed: float = -np.inf, gained: float = -np.inf, ahead: int = AHEAD
+    ) -> None:
+        """Compute the cracks up to ln of a speed and of Gamma - 1, and those that fix the curve."""
+        while not self._complete and max(self._above(speed, gained), 2) + ahead >= len(self._log_y):
             self._append()
+        if self._failed and self._above(speed, gained) == len(self._log_y):
+            raise InputError(self._failed)
+
+    def _above(self, speed: float, gained: float) -> int:
+        """Return the number of the first crack above both; the number of cracks if none is."""
+        fast = np.array(self._log_y) - np.array(self._log_work) >= speed
+        above = fast & (np.array(self._log_gained) >= gained)
+        return int(np.argmax(above)) if np.any(above) else above.size
 
     def _append(self) -> None:
         if self._cracks:
@@ -155,10 +166,11 @@ class Grown:
             self._ended = True
             return
         if walked is None:
-            raise InputError(
+            self._failed = (
                 "no steady crack was found with such strong growth of the interface "
                 f"({self._growing}); simulate the contact"
             )
+            return
         found, work = walked
         gained = work * found.amplification / self._elastic.amplification - 1
         if not gained > 0:
@@ -217,8 +229,8 @@ class Grown:
         if self._table is None or self._table[0] != len(self._log_y):
             y = np.array(self._log_y)
             fine = np.interp(np.arange(_FINE * (y.size - 1) + 1) / _FINE, np.arange(y.size), y)
-            speed = fine - scipy.interpolate.CubicSpline(y, self._log_work)(fine)
-            gained = scipy.interpolate.CubicSpline(y, self._log_gained)(fine)
+            speed = fine - curve(y, np.array(self._log_work))(fine)
+            gained = curve(y, np.array(self._log_gained))(fine)
             rising = np.maximum.accumulate(speed), np.maximum.accumulate(gained)
             self._table = (y.size, *rising)
         return self._table[1:]

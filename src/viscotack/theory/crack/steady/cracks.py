@@ -303,7 +303,8 @@ class SteadyCrack:
             heat=heat,
             zone_length=_zone_length(mesh, found.gap, self._reduced, law) / work,
             position=mesh.x / work,
-            gap=found.gap,
+            # a copy: other callers have the same cached crack
+            gap=found.gap.copy(),
             middle=(mesh.x[1:] + mesh.x[:-1]) / 2 / work,
             traction=found.traction * work,
             interface_heat=interface,

@@ -1,0 +1,129 @@
+r"""Cautions on the material of a prediction, and on linear theory.
+
+The interval of a prediction is the error of its method. How well material and interface describe
+the real contact is not part of it, and matters more where one of these cautions applies.
+
+The edge of a contact at pull-off moves at v through its cohesive zone, whose length is that of a
+slow crack, :math:`0.75\,\beta/\mu_s^2`, times the amplification :math:`\Gamma`. The highest
+frequency that it excites is the cut-off of Persson and Brener,
+:math:`\omega = 2 \pi v \mu_s^2/(0.75\,\beta\,\Gamma)`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.materials import Elastic
+from viscotack.problem import Case, Problem
+from viscotack.units import readable
+
+from .closed_forms import is_classic, is_plain
+from .other_contacts import REST_ZONE
+from .question import Question
+from .theories import crack_of, forms_of
+
+if TYPE_CHECKING:
+    from viscotack.materials.passport import Passport
+
+# Crack speed above which silicone experiments exceed linear theory [m/s].
+LINEAR_SPEED = 100e-6
+
+
+class _Edge(NamedTuple):
+    """Edge of a contact at pull-off: speed [beta/time unit] and energy [work of adhesion]."""
+
+    speed: float
+    energy: float
+
+
+def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
+    """Find the cautions on a prediction of this problem, as sentences.
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        The problem of the prediction.
+    passport : Passport or None
+        Passport of its material, at the temperature of the problem.
+
+    Returns
+    -------
+    tuple of str
+        A sentence if the material was tested at one rate only, if the edge excites it outside of
+        its measured frequencies, and if the edge is faster than linear theory describes. Where no
+        theory knows the edge (layers, discs, punches), no caution depends on its speed.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups
+    >>> from viscotack.materials.library import published
+    >>> passport = published("dragon-skin-30")
+    >>> case = Groups(
+    ...     tabor=10.0, material=passport.material.reduced(), start=AtDepth(30), rate=1.0
+    ... )
+    >>> cautions_on(case, passport=passport)[0].split(":")[0]
+    "'Dragon Skin 30 (platinum silicone of Smooth-On)' was tested at one rate"
+    """
+    groups = problem.groups()
+    if isinstance(groups.material, Elastic):
+        return () if passport is None else (_one_rate(passport),)
+    in_si = isinstance(problem, Problem)
+    measured = None if passport is None else passport.frequencies
+    if not (in_si or measured) or (edge := _edge_of(Question(problem))) is None:
+        return ()
+    found = []
+    if passport is not None and measured is not None:
+        zone = REST_ZONE / groups.effective_tabor**2 * max(edge.energy, 1.0)
+        frequency = 2 * np.pi * edge.speed / zone / passport.material.time_unit
+        found.append(_outside(passport.name, frequency, measured))
+    if in_si:
+        found.append(beyond_linear(edge.speed * problem.scales().edge_speed))
+    return tuple(words for words in found if words)
+
+
+def beyond_linear(speed: float) -> str:
+    """Return the caution for an edge of this speed [m/s], "" if linear theory may hold."""
+    if speed <= LINEAR_SPEED:
+        return ""
+    return (
+        f"The edge moves at about {readable(speed, 'm/s', digits=2)}. Above 100 um/s, forces "
+        "in silicone experiments exceeded every linear theory: expect a larger force."
+    )
+
+
+def _edge_of(asked: Question) -> _Edge | None:
+    """Return the edge at pull-off by theory, None for contacts without any."""
+    try:
+        if is_classic(asked.groups) and is_plain(asked.groups):
+            forms = asked.once(forms_of)
+            return None if forms.edge_speed is None else _Edge(forms.edge_speed, forms.edge_energy)
+        found = crack_of(asked)
+    except (InputError, OverflowError):
+        return None
+    if isinstance(found, InputError) or found.crack_speed_at_pull_off is None:
+        return None
+    return _Edge(found.crack_speed_at_pull_off, found.amplification_at_pull_off or 1.0)
+
+
+def _one_rate(passport: Passport) -> str:
+    """Return the caution for an elastic material."""
+    return (
+        f"{passport.name!r} was tested at one rate: its dependence on speed is unknown. The force "
+        "is that of this modulus at every speed; a fast pull of a real rubber holds more."
+    )
+
+
+def _outside(name: str, frequency: float, measured: tuple[float, float]) -> str:
+    """Return the caution for an angular frequency [rad/s] outside of the measured ones."""
+    low, high = measured
+    if low <= frequency <= high:
+        return ""
+    low, high, here = (x / (2 * np.pi) for x in (low, high, frequency))
+    return (
+        f"The edge excites the material at about {readable(here, 'Hz', digits=2)}; {name!r} was "
+        f"measured from {readable(low, 'Hz', digits=3, to=high)}, so the force rests on an "
+        "extrapolation of its model."
+    )

@@ -1,0 +1,151 @@
+"""Tables whose rows change one problem: every row is answered as its own problem would be."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+import viscotack as vt
+from command_line import exit_status
+from viscotack.operations import ask
+
+EXAMPLES = Path(__file__).parents[1] / "examples" / "from_toml"
+LENS, PAD = (EXAMPLES / "lens.toml").read_text(), EXAMPLES / "pad.toml"
+HEADINGS = ["lens", "Radius [mm]", "speed", "note"]
+ROWS = [
+    ["a", "5", "10 um/s", "x, y"],
+    ["", "", "", ""],
+    ["b", "5", "100 m/s", ""],
+    ["c", "5", "10", ""],
+    ["d", "-5", "10 um/s", ""],
+    ["e", "5", "10 um/s", "again"],
+]
+NUMBERS = ["pull_off_force [N]", "pull_off_force_low [N]", "pull_off_force_high [N]"]
+
+
+@pytest.fixture
+def case(tmp_path):
+    (tmp_path / "lens.toml").write_text(LENS)
+    with (tmp_path / "cases.csv").open("w", newline="") as stream:
+        csv.writer(stream).writerows([HEADINGS, *ROWS])
+    return tmp_path / "lens.toml"
+
+
+def rows_of(path):
+    with path.open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):
+    answers = tmp_path / "answers.csv"
+    assert exit_status(["predict", case, tmp_path / "cases.csv", "--csv", answers]) == 0
+    said = capsys.readouterr()
+    rows = rows_of(answers)
+    assert [[row[name] for name in HEADINGS] for row in rows] == ROWS
+    one = LENS.replace("5.19 mm", "5 mm").replace("100 um/s", "10 um/s")
+    (tmp_path / "one.toml").write_text(one)
+    alone = vt.prediction_summary(vt.predict(vt.read_case(tmp_path / "one.toml")))
+    expected = [alone["pull_off_force_N"], *alone["interval_N"]]
+    assert [float(rows[0][name]) for name in NUMBERS] == pytest.approx(expected, rel=1e-12, abs=0)
+    told = ask("predict", problem=tmp_path / "one.toml").record()
+    assert rows[0]["cautions"] == " ".join(told["cautions"])
+    assert float(rows[0]["work_to_pull_off [J]"]) == pytest.approx(alone["work_to_pull_off_J"])
+    assert rows[5] == {**rows[0], "lens": "e", "note": "again"}
+    why = [row["why"] for row in rows]
+    assert why[0] == "" and why[1] == "empty row"
+    assert why[2].startswith("speed of 100 m/s is improbable; check its unit")
+    assert "'10' has no unit; write it in the heading, 'speed [um/s]'" in why[3]
+    assert "radius must be positive, got -5 mm" in why[4]
+    assert [bool(row[NUMBERS[0]]) for row in rows] == [True, False, True, False, False, True]
+    assert "carried along: lens, note" in said.err
+    assert said.out.splitlines()[-1].startswith("5 rows, ") and "2 without answer" in said.out
+    assert "  a, geometry.radius 5 mm, protocol.speed 10 um/s: pull-off force " in said.out
+
+
+def test_python_and_files_give_the_same_rows(case, tmp_path, capsys):
+    assert exit_status(["predict", case, tmp_path / "cases.csv", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    rows = [dict(zip(HEADINGS, row, strict=True)) for row in ROWS]
+    answer = ask("predict", problem=vt.read_case(case), cases=rows)
+    assert json.loads(json.dumps(answer.record())) == told
+    # numbers in Python are in SI, or in the unit of their heading
+    si = ask("predict", problem=case, cases=[{"sphere.radius": 5e-3, "speed [um/s]": 10}])
+    first = si.record()["rows"][0]
+    assert first["outputs"] == told["rows"][0]["outputs"] and "carried" not in first
+
+
+def test_workbooks_and_semicolons_have_the_rows_of_a_plain_table(case, tmp_path, capsys):
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for row in [HEADINGS, *ROWS]:
+        book.active.append([float(x) if x.lstrip("-").isdigit() else x or None for x in row])
+    book.save(tmp_path / "cases.xlsx")
+    text = "\n".join(";".join(row) for row in [HEADINGS, *ROWS]).replace(";5;", ";5,0;")
+    (tmp_path / "semicolons.csv").write_text(text + "\n", encoding="utf-8-sig")
+    expected = ask("predict", problem=case, cases=tmp_path / "cases.csv").record()["rows"]
+    outputs = [row["outputs"] for row in expected]
+    for name in ("cases.xlsx", "semicolons.csv"):
+        answer = ask("predict", problem=case, cases=tmp_path / name)
+        assert [row["outputs"] for row in answer.found] == outputs
+        stream = io.BytesIO()
+        answer.files["xlsx"](stream)
+        sheet = openpyxl.load_workbook(stream)["predictions"]
+        head, *body = sheet.iter_rows(values_only=True)
+        at = head.index("pull_off_force [N]")
+        assert list(head[:4]) == HEADINGS and len(body) == len(ROWS)
+        assert body[0][at] == outputs[0]["pull_off_force_N"] and body[1][at] is None
+        assert body[0][head.index("inside")] is True and body[1][head.index("why")] == "empty row"
+
+
+def test_a_budget_an_exact_answer_and_a_time_limit_are_those_of_a_row(case):
+    exact = ask("predict", problem=case, cases=[{"radius": 1e-3}], exact=True, time_limit=1e-9)
+    assert "time limit" in exact.record()["rows"][0]["why"]
+    theory = ask("predict", problem=case, cases=[{"radius": 1e-3}], budget=0.01).record()
+    assert sum(theory["methods"].values()) + theory["unanswered"] == 1
+
+
+def test_a_dimensionless_problem_is_changed_as_well():
+    stated = {"indenter": "sphere", "tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8}
+    stated |= {"preload": 73, "rate": 316.23}
+    found = ask("predict", problem=stated, cases=[{"Tabor": 1.0, "preload": "20"}])
+    alone = ask("predict", problem=stated | {"tabor": 1.0, "preload": 20.0}).record()
+    row = found.record()["rows"][0]
+    assert row["outputs"]["pull_off_force"] == alone["pull_off_force"]
+    stream = io.BytesIO()
+    found.files["csv"](stream)
+    assert stream.getvalue().startswith(b"Tabor,preload,pull_off_force,pull_off_force_low,")
+
+
+def test_a_pad_has_stresses():
+    found = ask("predict", problem=PAD, cases=[{"preload stress": "2 kPa", "thickness [um]": 50}])
+    alone = ask("predict", problem=PAD).record()
+    assert found.record()["rows"][0]["outputs"]["pull_off_stress_Pa"] == alone["pull_off_stress_Pa"]
+    stream = io.BytesIO()
+    found.files["csv"](stream)
+    assert b"pull_off_stress [Pa]" in stream.getvalue().splitlines()[0]
+
+
+def test_rows_alone_and_answered_tables_are_refused(case):
+    with pytest.raises(vt.InputError, match="got rows, which change a problem"):
+        ask("predict", cases=[{"tabor": 1.0}])
+    with pytest.raises(vt.InputError, match="has the columns why already"):
+        ask("predict", problem=case, cases=[{"radius": 1e-3, "why": "x"}])
+
+
+def test_improbable_sizes_are_warned_about_for_one_problem_too(case, capsys):
+    case.write_text(LENS.replace("100 um/s", "100 m/s"))
+    warning = "protocol.speed of 100 m/s is improbable; check its unit"
+    assert exit_status(["predict", case, "--json"]) == 0
+    assert warning in capsys.readouterr().err
+    assert warning in ask("advise", problem=case).notes
+
+
+def test_headings_without_dimensions_are_compared_without_case(tmp_path, capsys):
+    table = tmp_path / "cases.csv"
+    table.write_text("Tabor,Modulus ratio,EXPONENT,preload,Rate\n3.24,0.1,0.8,73,316.23\n")
+    assert exit_status(["predict", table, "--csv", "-"]) == 0
+    head, row = capsys.readouterr().out.splitlines()
+    assert head.startswith("Tabor,Modulus ratio,EXPONENT,preload,Rate,pull_off_force,")
+    assert row.startswith("3.24,0.1,0.8,73,316.23,7.33")
