@@ -145,14 +145,6 @@ def _labelled(
     return [pair for pair in pairs if "failed" not in pair[1]]
 
 
-def _labelled(
-    cases: list[fresh_cases.Case], labels: Path, missing: bool
-) -> list[tuple[fresh_cases.Case, dict[str, Any]]]:
-    """Return the cases that have an answer, with their labels."""
-    pairs = fresh_cases.labelled(cases, labels, missing=missing)
-    return [pair for pair in pairs if "failed" not in pair[1]]
-
-
 def _parted_punches() -> tuple[list[Rows], list[Rows]]:
     """Return the rows of punches that networks learn from, and those that measure intervals."""
     sets = [punches.read(name) for name in punches.LEARNED]
