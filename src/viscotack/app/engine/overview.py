@@ -224,6 +224,7 @@ def _speeds(answer: Prediction) -> dict[str, Any]:
     """Return the pull-off force at other speeds, within the range of the surrogate."""
     problem, confidence = answer.problem, answer.confidence
     groups, scales = problem.groups(), problem.scales()
+    assert isinstance(problem, Problem) and scales is not None and confidence is not None
     assert isinstance(groups, Groups) and groups.rate is not None
     least, most = groups.rate * 10**-_DECADES, groups.rate * 10**_DECADES
     if answer.inside and answer.method == SURROGATE:
