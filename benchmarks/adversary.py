@@ -200,7 +200,10 @@ def by_disagreement(
             f"interval; worst {off.max():.1f} half widths",
             flush=True,
         )
-        said[f"disagreement, {design}"] = {"cases": len(some), "worst": float(off.max())}
+        said[f"disagreement-{design.replace(' ', '-')}"] = {
+            "cases": len(some),
+            "worst": float(off.max()),
+        }
     for one in worst(found):
         print(words(one))
     return said

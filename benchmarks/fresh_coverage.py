@@ -106,7 +106,7 @@ def report(some: list[Judged]) -> str:
     worst = np.nanmax(known, axis=0) if with_work.any() else known.max(axis=0)
     silent = np.nansum((off[answered] > SILENT) & (known[:, :2] > 1), axis=0)
     most = np.nanmax(off[answered], axis=0) if with_work.any() else off[answered].max(axis=0)
-    shares = " | ".join(f"{100 * x:.1f} %" for x in (*held, joint))
+    shares = " | ".join(f"{100 * x:.1f} %" if x == x else "" for x in (*held, joint))
     return (
         f"{len(some)} | {100 * answered.mean():.1f} % | {100 * with_work.mean():.1f} % | {shares} "
         f"| {', '.join(f'{x:.1f}' for x in worst)} | {', '.join(f'{x:.1%}' for x in most)} | "

@@ -226,7 +226,7 @@ def _write_cases(path: Path, found: list[Judged]) -> None:
         writer.writerow([*_COLUMNS, *_OFF])
         for one in found:
             figures = (*one.ratio, *one.off, one.joint)
-            numbers = [f"{x:.4g}" if x == x else "" for x in figures]
+            numbers = [f"{x:.6g}" if x == x else "" for x in figures]
             case = one.case
             inputs = json.dumps(case.inputs)
             writer.writerow([case.design, case.kind, inputs, one.method, *numbers])
