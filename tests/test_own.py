@@ -143,6 +143,12 @@ geometry.rounding = 20e-6
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
 
 
+def test_classes_that_a_file_imports_are_not_its_own(tmp_path):
+    path = tmp_path / "importing.py"
+    path.write_text("from viscotack import Dugdale, Elastic\n" + (OWN / FILES["law"]).read_text())
+    assert [noun.__name__ for noun in own_nouns([path])] == [MORSE.__name__]
+
+
 def test_a_theory_predicts_with_own_parts():
     status, out, err = call(
         *"predict sphere --material cole-cole:0.6 --modulus-ratio 0.1 --tabor 30".split(),

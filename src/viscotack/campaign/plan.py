@@ -273,7 +273,7 @@ def _check_own(problem: Any, settings: CaseSettings) -> None:
         if not own:
             raise
         raise InputError(
-            f"{', '.join(own)} is a class of your own, which the workers read from its file: give "
+            f"{', '.join(own)} is a user-defined class, which the workers read from its file: give "
             'settings=CaseSettings(own=["FILE.py"]) here and own=["FILE.py"] to run'
         ) from error
 

@@ -106,12 +106,12 @@ class _Models:
             for field in fields(kind):
                 # records omit default values, so the schema needs only their existence
                 given = ... if field.default is MISSING else Field(default_factory=dict)
-                told[field.name] = (self._told(hints[field.name], at_rest=has_rest(kind)), given)
+                told[field.name] = (self._told(hints[field.name], has_rest(kind)), given)
             forbid = ConfigDict(extra="forbid")
             self._made[kind] = create_model(kind.__name__, __config__=forbid, **told)
         return self._made[kind]
 
-    def _told(self, hint: Any, *, at_rest: bool = False) -> Any:
+    def _told(self, hint: Any, at_rest: bool) -> Any:
         """Return the type of a field, with the known classes in place of their protocol.
 
         The base of a growing law must be a law at rest.
@@ -127,9 +127,9 @@ class _Models:
             return Union[tuple(self.of(kind) for kind in kinds[hint].values())]  # noqa: UP007
         origin, inner = get_origin(hint), get_args(hint)
         if origin is Annotated:
-            return Annotated[self._told(inner[0]), *hint.__metadata__]
+            return Annotated[self._told(inner[0], at_rest), *hint.__metadata__]
         if origin in (Union, types.UnionType):
-            return Union[tuple(self._told(part) for part in inner)]  # noqa: UP007
+            return Union[tuple(self._told(part, at_rest) for part in inner)]  # noqa: UP007
         if origin is tuple:
-            return list[self._told(inner[0])] if inner[-1] is ... else hint
+            return list[self._told(inner[0], at_rest)] if inner[-1] is ... else hint
         return self.of(hint) if hasattr(hint, "__dataclass_fields__") else hint
