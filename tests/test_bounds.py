@@ -174,7 +174,7 @@ def test_a_wide_punch_on_a_thin_bonded_layer_is_solved():
             replace(SPHERE, moves=(Approach(1e-30, AtDepth(3.0)), Dwell(1.0))),
             "move 2 begins with steps of 1e-06 time units when about .* have passed",
         ),
-        (replace(SPHERE, traction=Exponential(1.0, 1.0, 1e-300)), "range of the traction law"),
+        (replace(SPHERE, traction=Exponential(1.0, 1.0, 1e-300)), "over the range of the law"),
         (resized(PUNCH, size=1e300), "size must lie between 1e-09 and 1e.09 .* got 1e.300"),
         (resized(PUNCH, thickness=1e-300), "thickness must lie between .* got 1e-300"),
         (resized(PUNCH, size=1e-8, thickness=1e8), "thickness over size must .* got 1e.16"),

@@ -9,6 +9,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from viscotack.campaign.changes import changes_of
 from viscotack.operations import ask
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "from_toml"
@@ -149,3 +150,13 @@ def test_headings_without_dimensions_are_compared_without_case(tmp_path, capsys)
     head, row = capsys.readouterr().out.splitlines()
     assert head.startswith("Tabor,Modulus ratio,EXPONENT,preload,Rate,pull_off_force,")
     assert row.startswith("3.24,0.1,0.8,73,316.23,7.33")
+
+
+def test_two_headings_of_one_number_are_refused(case):
+    problem = vt.read_case(case)
+    found = changes_of(problem, ["lens", "RADIUS_mm", "Speed [um/s]"])
+    assert found.values({"RADIUS_mm": "2", "Speed [um/s]": 30}) == pytest.approx(
+        {"geometry.radius": 2e-3, "protocol.speed": 3e-5}, rel=1e-12
+    )
+    with pytest.raises(vt.InputError, match="radius and sphere.radius state one number"):
+        changes_of(problem, ["radius", "sphere.radius"])

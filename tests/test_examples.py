@@ -30,6 +30,7 @@ def test_every_example_is_run_here():
         "fields.py",
         "from_toml",
         "cases.csv",  # its commands are run with the pages
+        "lenses.csv",  # its commands are run with the pages
         "from_dma",  # its commands are run with the pages
         "from_rig",
         "own",  # test_own.py is all about them

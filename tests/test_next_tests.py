@@ -75,7 +75,7 @@ def test_tests_are_in_order_and_each_leaves_less(found):
 def test_a_hundred_repeats_of_ten_times_the_noise_are_one_test(fit, found):
     several = next_tests(fit, [Trial(1e-3)], wanted=[WANTED], noise=10 * found.noise, repeats=100)
     alone = next(one for one in found.ranked if one.trial.speed == 1e-3)
-    assert several.ranked[0].left == pytest.approx(alone.left, rel=1e-6)
+    assert several.ranked[0].left == pytest.approx(alone.left, rel=1e-5)
     assert noise_of(fit) == pytest.approx(NOISE, rel=0.3)
 
 
@@ -135,7 +135,7 @@ def test_a_trial_is_checked():
 def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
     from types import SimpleNamespace
 
-    study = SimpleNamespace(fit=fit, survey=SimpleNamespace(reasons=()))
+    study = SimpleNamespace(fit=fit, survey=SimpleNamespace(reasons=(), cautions=()), cautions=())
     monkeypatch.setattr("viscotack.operations.next_test.fitted", lambda *given: study)
     (tmp_path / "study.toml").write_text("")
     asked = {"study": str(tmp_path / "study.toml"), "speed": ["1 mm/s", "10 um/s"]}
