@@ -21,6 +21,7 @@ from viscotack.forecast import predict
 from viscotack.operations.parts.library import library_table
 from viscotack.problem.case_file import case_of_tables
 from viscotack.protocol import AtForce, Retraction
+from viscotack.surrogate import store
 from viscotack.theory import SteadyCrack, lennard_jones, maugis, punch
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -136,6 +137,39 @@ def elastic_pull_off() -> list[str]:
     return ["| μ | simulated | Maugis | use |", "|---:|---:|---:|---|", *rows]
 
 
+def ranges() -> dict[str, list[str]]:
+    """Return the ranges of the surrogates of spheres and punches, as tables."""
+    remarks = {
+        "sphere": {
+            "tabor": "",
+            "modulus_ratio": "rubbery over glassy",
+            "exponent": "of power laws",
+            "preload": "h0; starts by force or radius are turned into a depth",
+            "rate": "h0/tau0; of power laws, others may be pulled at any",
+        },
+        "punch": {
+            "size": "half width, a0",
+            "thickness": "a0",
+            "modulus_ratio": "rubbery over glassy",
+            "preload": "sigma0, about; the depths that this is follow from size and thickness, "
+            "and a refusal says them",
+            "rate": "h0/tau0, tau0 the retardation time",
+        },
+    }
+    names = {"tabor": "Tabor number", "modulus_ratio": "modulus ratio"}
+    found = {}
+    for contact, remark in remarks.items():
+        limits = store.load(store.FILES[contact]).limits
+        rows = ["| input | from | to | remark |", "|---|---:|---:|---|"]
+        for key, words in remark.items():
+            name = "stress of the start" if (contact, key) == ("punch", "preload") else key
+            low, high = (f"{x:g}".replace("e+0", "e").replace("e+", "e") for x in limits[key])
+            row = f"| {names.get(name, name)} | {low} | {high} | {words} |"
+            rows.append(row.replace("  ", " "))
+        found[contact] = rows
+    return found
+
+
 def replication() -> dict[str, float]:
     """Return figures and minutes of processor time of the kept numbers of the replication."""
     kept = [json.loads(x.read_text("utf-8")) for x in (ROOT / "replication/kept").glob("*.json")]
@@ -228,6 +262,7 @@ COMPUTED: dict[str, Any] = {
         published,
         verification,
         elastic_pull_off,
+        ranges,
         replication,
         datasets,
         coverage_of_spheres,

@@ -250,7 +250,7 @@ def recorded(tmp_path, monkeypatch):
 
 
 # Pages whose results are not all marked yet.
-UNMARKED = {"predict.md", "surrogate.md"}
+UNMARKED = {"surrogate.md"}
 
 
 @pytest.mark.parametrize(
