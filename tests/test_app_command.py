@@ -14,10 +14,15 @@ import pytest
 from app_server import running
 from command_line import exit_status
 from processes import children, lives, until
-from viscotack.app.cli.page import _query, _token
+from viscotack.app.cli.page import _listening, _query, _token
 from viscotack.errors import install_command
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
+
+
+def test_an_answer_does_not_wait_for_the_confirmation_of_its_head():
+    with _listening("127.0.0.1", 0) as listening:
+        assert listening.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
 
 @pytest.mark.slow
