@@ -117,7 +117,7 @@ def environment(folder: Path, release: Path, extra: str) -> Path:
     pip = [uv, "pip", "install", "--python", python] if uv else [python, "-m", "pip", "install"]
     name = f"viscotack[{extra}]" if extra else "viscotack"
     install = [*pip, "--quiet", "--find-links", release, name]
-    subprocess.run(install, check=True, stderr=subprocess.DEVNULL)
+    subprocess.run(install, check=True, env=surroundings(programs), stderr=subprocess.DEVNULL)
     (folder / "installed").touch()
     return programs
 
