@@ -140,7 +140,7 @@ docs-check: $(VENV)/.installed
 	$(BIN)/python benchmarks/docs_check.py $(if $(WRITE),--write)
 
 # Follows the commands of the pages as a stranger does, in an environment for each extra, from the release folder
-# that `make release` writes; an hour. EXTRA=lab follows those with one extra. out/follow keeps what is done.
+# that `make release` writes; five minutes. EXTRA=lab follows those with one extra. out/follow keeps what is done.
 follow: $(VENV)/.installed
 	$(BIN)/python benchmarks/follow.py --work out/follow $(if $(EXTRA),--extra $(EXTRA))
 

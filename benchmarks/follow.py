@@ -195,6 +195,8 @@ def follow(pages: list[Path], given: argparse.Namespace, place: Path) -> list[di
         if not folder.exists():
             folder.mkdir(parents=True)
             stage(folder)
+            # other pages use the classes that this one writes
+            save((ROOT / "docs/own.md").read_text("utf-8"), folder)
         save(text, folder)
         for step in steps(text):
             if given.extra and step.extra not in given.extra:
