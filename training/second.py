@@ -39,7 +39,7 @@ from . import train_sphere as spheres
 from .calibration import Apart, by_set, judged, levelled, trusted, untested
 from .fitting import Fit
 from .refining import scaled_task
-from .rows import FAR_OFF, LEARNED, Rows, certain, joined, read
+from .rows import FAR_OFF, LEARNED, certain, joined, read
 from .shop import Shop
 
 HOW = {
@@ -143,14 +143,6 @@ def _labelled(
     """Return the cases that have an answer, with their labels."""
     pairs = fresh_cases.labelled(cases, labels, missing=missing)
     return [pair for pair in pairs if "failed" not in pair[1]]
-
-
-def _parted_punches() -> tuple[list[Rows], list[Rows]]:
-    """Return the rows of punches that networks learn from, and those that measure intervals."""
-    sets = [punches.read(name) for name in punches.LEARNED]
-    masks = [punches.parts(len(rows)) for rows in sets]
-    learn = [rows.chosen(~(m | j)) for rows, (m, j) in zip(sets, masks, strict=True)]
-    return learn, [rows.chosen(m) for rows, (m, _) in zip(sets, masks, strict=True)]
 
 
 def fresh_apart(

@@ -89,8 +89,9 @@ def beyond_linear(speed: float) -> str:
     if speed <= LINEAR_SPEED:
         return ""
     return (
-        f"The edge moves at about {readable(speed, 'm/s', digits=2)}. Above 100 um/s, forces "
-        "in silicone experiments exceeded every linear theory: expect a larger force."
+        f"The edge moves at about {readable(speed, 'm/s', digits=2)}. Above "
+        f"{readable(LINEAR_SPEED, 'm/s')}, forces in silicone experiments exceeded every linear "
+        "theory: expect a larger force."
     )
 
 
