@@ -25,6 +25,7 @@ from viscotack.traction import LAWS
 from viscotack.units import parse, readable
 
 from .columns import INPUTS, Kind, kind_of_problem
+from .listed import plain_heading
 
 _IN_BRACKETS = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]+?)\s*[\])]")
 # Paths of the start and their keys in problem files, and in tables without dimensions.
@@ -191,18 +192,18 @@ def changes_of(problem: Any, headings: Iterable[str]) -> Changes:
     for heading in map(str, headings):
         name, unit = _split(heading, names, known)
         path = upgraded_paths([name], record)[0]
-        near = difflib.get_close_matches(_plain(name), names, 1, _ALIKE)
-        paths = names.get(_plain(name)) or ({path} if path in known else set())
+        near = difflib.get_close_matches(plain_heading(name), names, 1, _ALIKE)
+        paths = names.get(plain_heading(name)) or ({path} if path in known else set())
         if len(paths) > 1:
             raise InputError(f"{heading!r} may be {' or '.join(sorted(paths))}; write one of these")
         if paths:
             columns.append(_column(heading, known[paths.pop()], unit, in_si=in_si))
-        elif _plain(name) in keys:
+        elif plain_heading(name) in keys:
             raise InputError(
                 f"the column {heading!r} is no number that this problem states; a table can change "
                 f"{shown}"
             )
-        elif near or ("." in name and _plain(name).partition(".")[0] in tables):
+        elif near or ("." in name and plain_heading(name).partition(".")[0] in tables):
             hint = f"did you mean {near[0]}? A" if near else "a"
             raise InputError(f"unknown column {heading!r}; {hint} table can change {shown}")
         else:
@@ -240,7 +241,7 @@ def _names(problem: Any) -> dict[str, set[str]]:
         names = [path, key] if rest else [path]
         names += [f"{tables[first]}.{key}"] if first in tables and rest else []
         for name in names:
-            found.setdefault(_plain(name), set()).add(path)
+            found.setdefault(plain_heading(name), set()).add(path)
     return found
 
 
@@ -248,7 +249,7 @@ def _keys() -> set[str]:
     """Return the keys of problem files and of tables without dimensions, in plain spelling."""
     kinds = (Retraction, *MODELS.values(), *LAWS.values(), *SHAPES.values(), *BODIES.values())
     numbers = {name for kind in kinds for name in cards(kind)}
-    return {*map(_plain, numbers), *INPUTS, *_WORDS.split()}
+    return {*map(plain_heading, numbers), *INPUTS, *_WORDS.split()}
 
 
 def _split(
@@ -257,7 +258,7 @@ def _split(
     """Return the name and the unit in a heading: radius [mm], radius (mm) or radius_mm."""
     if found := _IN_BRACKETS.fullmatch(heading.strip()):
         return found[1], _unit(found[2])
-    plain = _plain(heading)
+    plain = plain_heading(heading)
     if plain in names:
         return heading, ""
     for name in sorted(names, key=len, reverse=True):
@@ -289,11 +290,6 @@ def _shown(names: Mapping[str, set[str]], known: Mapping[str, Input]) -> str:
         unit = "" if number.unit == "1" else f" [{number.unit}]"
         found.append(f"{min(own or [path], key=len)}{unit}")
     return ", ".join(found)
-
-
-def _plain(name: str) -> str:
-    """Return a name in lower case, with underscores."""
-    return re.sub(r"[\s-]", "_", name.strip()).lower()
 
 
 def _is_number(text: Any) -> bool:

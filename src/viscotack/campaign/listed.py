@@ -17,6 +17,8 @@ _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
 _THOUSANDS = re.compile(r"\s*[+-]?\d{1,3}(\.\d{3})+\s*")
 
 Line = tuple[int, list[str]]
+# Reason why an empty row has no answer.
+EMPTY = "empty row"
 
 
 def read_words(
@@ -63,6 +65,15 @@ def read_words(
             yield line, row
 
     return names, checked()
+
+
+def plain_heading(name: str) -> str:
+    """Return a heading in lower case, with underscores, as columns of cases are named.
+
+    >>> plain_heading(" Pull-off Force")
+    'pull_off_force'
+    """
+    return re.sub(r"[\s-]", "_", name.strip()).lower()
 
 
 def is_workbook(path: Path) -> bool:

@@ -112,6 +112,7 @@ def _row(kind: "Kind", inputs: dict[str, float] | None, settings: "CaseSettings"
     """Return the row of a case: inputs, results, and the reason if it failed."""
     from viscotack.campaign import measure
     from viscotack.campaign.case import Unsolved
+    from viscotack.campaign.listed import EMPTY
     from viscotack.problem.record import run_id
 
     from .parts.json_data import plain
@@ -119,7 +120,7 @@ def _row(kind: "Kind", inputs: dict[str, float] | None, settings: "CaseSettings"
     began = perf_counter()
     row: dict[str, Any] = {"inputs": inputs, "outputs": None, "reason": ""}
     if inputs is None:
-        return row | {"reason": "empty row", "wall_time_s": 0.0}
+        return row | {"reason": EMPTY, "wall_time_s": 0.0}
     try:
         problem = kind.problem(inputs)
         found = measure(problem, settings)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack.campaign.changes import Changes, changes_of
+from viscotack.campaign.listed import EMPTY
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.forecast import cautions_on, predict
@@ -16,7 +17,7 @@ from viscotack.units import readable
 
 from ..declare.answer import Answer, Told
 from ..declare.statement import Statement
-from .predict_table import EMPTY, in_sheet, refuse_answered, write_table
+from .predict_table import in_sheet, refuse_answered, write_table
 from .workbook import write_workbook
 
 if TYPE_CHECKING:

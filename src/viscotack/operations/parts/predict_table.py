@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.campaign.listed import read_words
+from viscotack.campaign.listed import EMPTY, plain_heading, read_words
 from viscotack.errors import InputError
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
@@ -26,7 +26,6 @@ from .workbook import write_workbook
 # Rows in memory at a time.
 _BLOCK = 50_000
 _SHEET = 2**20 - 1  # rows of a sheet below its headings
-EMPTY = "empty row"
 
 
 def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) -> Answer:
@@ -42,7 +41,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
         If columns or rows are not those of a table of spheres or punches.
     """
     headings, rows = read_words(path, empty=True)
-    header = [_plain(name) for name in headings]
+    header = [plain_heading(name) for name in headings]
     kind = kind_of(header)
     names = [name for name in header if name in {*kind.columns, *kind.choices}]
     try:
@@ -108,11 +107,6 @@ def refuse_answered(where: Any, headings: Iterable[str], answers: Iterable[str])
             f"{where} has the columns {', '.join(there)} already, which the answers are to have; "
             "rename or leave them out"
         )
-
-
-def _plain(name: str) -> str:
-    """Return a heading in lower case, with underscores, as columns of cases are named."""
-    return name.strip().lower().replace(" ", "_").replace("-", "_")
 
 
 def in_sheet(value: Any) -> Any:
