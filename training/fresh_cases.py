@@ -53,8 +53,8 @@ Random = np.random.Generator
 _DIGITS = 8
 # Numbers of cases of each design that measure intervals.
 COUNTS = {
-    "power laws": 600,
-    "other solids": 400,
+    "power laws": 3000,
+    "other solids": 1000,
     "punches": 550,
     "two peaks": 300,
     "light tension": 300,

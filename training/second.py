@@ -36,10 +36,10 @@ from . import fresh_cases
 from . import train_punch as punches
 from . import train_solids as solids
 from . import train_sphere as spheres
-from .calibration import Apart, by_set, judged, levelled, trusted, untested
+from .calibration import ENOUGH, Apart, by_set, judged, levelled, trusted, untested
 from .fitting import Fit
 from .refining import scaled_task
-from .rows import FAR_OFF, LEARNED, certain, joined, read
+from .rows import FAR_OFF, LEARNED, Rows, certain, joined, read
 from .shop import Shop
 
 HOW = {
@@ -50,11 +50,12 @@ HOW = {
 MEMBERS = {"sphere": 1, "solids": 1, "punch": 3}
 # Every so many rows of `broad` are learned from as solids too.
 _THINNED = 10
-# Seed of the fresh cases that measure intervals. Fewer of a design than this measure nothing; they
-# tell how far errors reach, as rows do that were sought where errors are large.
-SEED, _ENOUGH = 41, 60
-# Seed and numbers of the cases of other solids that measure levels.
-LEVELS = 43, {"other solids": 300, "two peaks": 700}
+# Seed of the fresh cases that measure intervals. Designs with fewer than `ENOUGH` tell how far errors
+# reach, as rows do that were sought where errors are large.
+SEED = 41
+# Seed and numbers of the cases of other solids that measure levels, and their accuracy: intervals
+# are judged at every step, and finer simulations have more steps.
+LEVELS, FINE = (43, {"other solids": 600, "two peaks": 700}), 2e-4
 # Seed and number of the soft punches that second networks learn from.
 SOFT = 45, {"soft punches": 300}
 # Errors of punches below these, about those of the labels, count alike, so that few lie beyond
@@ -105,26 +106,31 @@ def fitted(made: Surrogate, of: Taught, how: Fit, shop: Shop) -> Networks:
 
 def measured(made: Surrogate, designs: Sequence[Apart]) -> Surrogate:
     """Return a surrogate with intervals from its errors on the sets, and on fresh designs."""
-    fresh = [one for one in designs if len(one.told) >= _ENOUGH]
-    few = [one for one in designs if len(one.told) < _ENOUGH]
+    fresh = [one for one in designs if len(one.told) >= ENOUGH]
+    few = [one for one in designs if len(one.told) < ENOUGH]
     match made.contact.name:
         case "sphere":
             known, test = spheres.parted()
-            kept = [*(judged(made, rows) for rows in spheres.measuring_rows(test)), *fresh]
+            kept = [*(_stored(made, rows) for rows in spheres.measuring_rows(test)), *fresh]
             # networks have not learned from `deep`, and force has two maxima there
             far = [read(name).chosen(certain(name)) for name in FAR_OFF]
-            hard = [judged(made, joined(far)), judged(made, read("deep")), *few]
-            some = judged(made, known.chosen(slice(None, None, 2)))
+            hard = [_stored(made, joined(far)), _stored(made, read("deep")), *few]
+            some = _stored(made, known.chosen(slice(None, None, 2)))
             seeds = (0, 1), (0, 1)
             return trusted(made, some, kept, hard=hard, seeds=seeds)
         case "punch":
             known, measuring = (joined(rows) for rows in punches.parted())
             kept = joined([measuring, punches.faces().chosen(slice(0, None, 2))])
-            kept = [judged(made, kept), *fresh]
-            some = judged(made, known)
+            kept = [_stored(made, kept), *fresh]
+            some = _stored(made, known)
             return trusted(made, some, kept, hard=few, least=LEAST)
     part, sharp = solids.parted(solids.table()), datasets.load("sharp")
     return solids.measured(made, part, [solids.read(sharp)], fresh)
+
+
+def _stored(made: Surrogate, rows: Rows) -> Apart:
+    """Return errors on rows of data sets, without those of curves, which they keep at points."""
+    return judged(made, rows).without_curves()
 
 
 def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
@@ -138,10 +144,13 @@ def scores_of(made: Surrogate, before: dict[str, Any]) -> dict[str, Any]:
 
 
 def _labelled(
-    cases: list[fresh_cases.Case], labels: Path, missing: bool
+    cases: list[fresh_cases.Case],
+    labels: Path,
+    missing: bool,
+    accuracy: float = fresh_cases.ACCURACY,
 ) -> list[tuple[fresh_cases.Case, dict[str, Any]]]:
     """Return the cases that have an answer, with their labels."""
-    pairs = fresh_cases.labelled(cases, labels, missing=missing)
+    pairs = fresh_cases.labelled(cases, labels, accuracy, missing=missing)
     return [pair for pair in pairs if "failed" not in pair[1]]
 
 
@@ -152,6 +161,7 @@ def fresh_apart(
     missing: bool,
     draw: tuple[int, Mapping[str, int]] = (SEED, fresh_cases.COUNTS),
     answered: bool = False,
+    accuracy: float = fresh_cases.ACCURACY,
 ) -> list[Apart]:
     """Return how far a surrogate is off on the fresh cases of its kind, a set for each design.
 
@@ -166,6 +176,8 @@ def fresh_apart(
         Seed and numbers of the cases.
     answered : bool
         Whether only cases that the surrogate answers count.
+    accuracy : float
+        Of the simulations.
     """
     kind = {"sphere": "sphere", "solids": "solid", "punch": "punch"}[made.contact.name]
     cases = [c for c in fresh_cases.drawn(*draw) if c.kind == kind]
@@ -174,7 +186,7 @@ def fresh_apart(
         doubtful = made.doubtful(tests, made.evaluate(tests))[:, 0]
         asked = tests.inside().all(axis=1) & ~doubtful
         cases = [case for case, one in zip(cases, asked, strict=True) if one]
-    known = _labelled(cases, folder, missing)
+    known = _labelled(cases, folder, missing, accuracy)
     found = []
     for design in dict.fromkeys(case.design for case, _ in known):
         some, labels = zip(*(pair for pair in known if pair[0].design == design), strict=True)
@@ -209,7 +221,9 @@ def main() -> None:
     made = measured(made, fresh_apart(made, chosen.labels, missing=missing))
     fresh: dict[str, Any] = {"seed": SEED, "counts": fresh_cases.COUNTS}
     if chosen.contact == "solids":
-        some = fresh_apart(made, chosen.labels, missing=missing, draw=LEVELS, answered=True)
+        some = fresh_apart(
+            made, chosen.labels, missing=missing, draw=LEVELS, answered=True, accuracy=FINE
+        )
         made = with_levels(made, some)
         fresh["levels"] = {"seed": LEVELS[0], "answered": sum(len(one.told) for one in some)}
     sealed = ("form", "sha256", "contact", "power law")

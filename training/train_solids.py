@@ -256,8 +256,8 @@ def measured(
     known = [*across(made, part["learn"]), *(judged(made, x) for x in further)]
     known.append(judged(made, power_laws(_THINNED)))
     both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
-    kept = [judged(made, part["measure"]), *fresh]
-    return trusted(made, both, kept, how=HOW)
+    kept = [judged(made, part["measure"]).without_curves(), *fresh]
+    return trusted(made, both.without_curves(), kept, how=HOW)
 
 
 def table() -> Any:
