@@ -50,8 +50,8 @@ HOW = {
 MEMBERS = {"sphere": 1, "solids": 1, "punch": 3}
 # Every so many rows of `broad` are learned from as solids too.
 _THINNED = 10
-# Seed of the fresh cases that measure intervals. Designs with fewer than `ENOUGH` tell how far errors
-# reach, as rows do that were sought where errors are large.
+# Seed of the fresh cases that measure intervals. Designs with fewer than `ENOUGH` tell how far
+# errors reach, as rows do that were sought where errors are large.
 SEED = 41
 # Seed and numbers of the cases of other solids that measure levels, and their accuracy: intervals
 # are judged at every step, and finer simulations have more steps.
