@@ -361,3 +361,21 @@ def test_the_rate_of_an_edge_is_of_second_order_unless_it_turns(travel, rate):
     step = object.__new__(history._Step)
     step._dt, step._before = 0.1, SimpleNamespace(radius=1.0, travel=travel, step=0.1)
     assert step.rate(1.02) == pytest.approx(rate, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("depth", "ahead", "jump"),
+    [
+        # the shape lies at 1 - 4 = -3 and the surface ahead of the edge at the radius there
+        (1.0, 0.5, -5.5),
+        (1.0, 5.0, -6.0),
+        # no opening to close
+        (9.0, 0.5, 0.0),
+    ],
+)
+def test_an_edge_closes_over_the_jump_from_the_surface_one_zone_ahead(depth, ahead, jump):
+    step = object.__new__(history._Step)
+    profile = SimpleNamespace(depth=lambda a: a**2)
+    step._of = SimpleNamespace(_profile=profile, _ahead=ahead, _s=np.array([0.0, 1.0, 3.0]))
+    step._outside = lambda a: (a, np.nan)
+    assert step._jump(2.0, depth) == pytest.approx(jump**2 / (4 * np.pi), rel=1e-14)
