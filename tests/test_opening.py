@@ -83,3 +83,13 @@ def test_the_ligament_of_a_punch_that_opens_at_once_is_the_one_just_before(monke
         found = SimpleNamespace(time=time, contact_radius=np.nan)
         monkeypatch.setattr(observables, "pull_off", lambda result, found=found: found)
         assert observables.ligament_at_pull_off(result) == expected
+
+
+@pytest.mark.parametrize(("lower", "equal"), [(4.0, True), (3.0, True), (2.9, False)])
+def test_peaks_are_equal_if_their_difference_is_within_their_errors(lower, equal, monkeypatch):
+    # a quarter of each: 5 - 1.25 = 3 + 0.75
+    result = SimpleNamespace(error_estimate={"force": 0.25})
+    other = SimpleNamespace(force=lower)
+    monkeypatch.setattr(observables, "pull_off", lambda result: SimpleNamespace(force=5.0))
+    monkeypatch.setattr(observables, "other_peak", lambda result: other)
+    assert observables.equal_peak(result) is (other if equal else None)
