@@ -252,8 +252,8 @@ class _Known:
 
     modes = None
 
-    def __init__(self, *parts):
-        pass
+    def __init__(self, material, law):
+        self.law = law
 
     def amplification(self, speed):
         return 2.0 + 0.0 * np.asarray(speed)
@@ -267,6 +267,7 @@ def test_a_lattice_holds_its_growths_at_all_speeds_at_which_they_are_defined(mon
     monkeypatch.setattr(growing, "_table", lambda crack, log_speed: rows)
     # so much growth that it is a power of the speed
     lattice = GrowingCracks(SOLID, (10.0, 300.0), (2.0, 18.0), [0.3, 0.4, 0.5, 0.6])
+    assert lattice.at_rest.law == REST
     for n in (0.3, 0.45, 0.6):
         for speed in (2.0, 5.0, 18.0):
             edges = lattice.edges(reference_speed([10.0, 300.0], speed, n), n)
