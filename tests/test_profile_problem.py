@@ -255,6 +255,15 @@ def test_a_layer_is_pressed_to_half_its_thickness(detailed, monkeypatch):
     assert pressed(np.inf, Layer(2.0), lambda r: 1.0 + 0.0 * r) == 2e-3
 
 
+@pytest.mark.parametrize(("by", "fits"), [(0.999, True), (1.001, False)])
+def test_a_cone_is_pressed_to_half_the_layer_however_flat_it_is(by, fits, monkeypatch):
+    # that the depth is the slope times the radius saves the solution of the layer
+    monkeypatch.setattr(revolution.indenter, "bare_depth", lambda r, **_: 0.2 * r)
+    start = AtRadius(by * 0.5e-4 / 0.2)
+    with nullcontext() if fits else pytest.raises(ValueError, match="0.5 thicknesses of the layer"):
+        Problem(SOLID, LAW, CONE, Retraction(start=start, speed=1e-6), body=Layer(1e-4))
+
+
 def test_a_contact_beyond_small_strain_is_refused():
     A = 1 / (2 * 1e-4)  # a sphere of 0.1 mm: contacts up to 50 um
     for start, unit in ((AtRadius(51e-6), "5e-05 m"), (AtDepth(30e-6), "m"), (AtForce(1.0), "N")):
