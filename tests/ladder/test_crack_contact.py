@@ -43,6 +43,7 @@ from viscotack.theory.crack.contact import (
     radius_at_depth,
     radius_at_force,
     recede,
+    series,
 )
 from viscotack.traction import Tabulated
 
@@ -563,3 +564,41 @@ def test_the_tension_left_is_that_of_the_opening_speed_of_the_edge():
     assert contact._left(-0.5) == pytest.approx(0.5, rel=1e-14)
     contact._tension = None
     assert contact._left(-0.5) == 0.9
+
+
+@pytest.mark.parametrize(("forces", "opened"), [((2.0, 3.0), 0), ((3.0, 2.0), 1), ((2.0, 2.0), -1)])
+def test_of_two_elastic_contacts_the_weaker_opens(forces, opened):
+    found = series._both_elastic(*(SimpleNamespace(pull_off_force=P) for P in forces))
+    assert (found.opened, found.tension, found.energy) == (opened, 2.0, (1.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("gone", "last", "opened", "held"),
+    [
+        # which is gone, else which has receded further
+        ([True, False], (0.9, 0.1), 0, 0.1),
+        ([False, True], (0.1, 0.9), 1, 0.1),
+        ([False, False], (0.5, 0.8), 0, 0.8),
+        ([True, True], (0.8, 0.5), 1, 0.8),
+        ([False, False], (0.5, 0.5001), -1, np.nan),
+        # the force alone moves an elastic contact
+        ([False, False], (np.nan, 0.5), 1, np.nan),
+        ([False, False], (0.5, np.nan), 0, np.nan),
+    ],
+)
+def test_of_two_contacts_the_one_opens_that_recedes_further(gone, last, opened, held):
+    def contact(known):
+        return SimpleNamespace(
+            start=lambda: 4.0 if known else np.nan,
+            radius=lambda state: state,
+            energy=lambda force, state: -force * state,
+        )
+
+    contacts = tuple(contact(a == a) for a in last)
+    states = [4.0 * a for a in last]
+    found = series._pulled(contacts, gone, (7.0, 9.0), [3.0, 2.0], (-1.0, states))
+    assert (found.opened, found.tension, found.time) == (opened, 7.0, 9.0)
+    assert found.energy == (21.0, 14.0)
+    radii = tuple(a / 4.0 if b == b else np.nan for a, b in zip((3.0, 2.0), last, strict=True))
+    assert found.radius == pytest.approx(radii, nan_ok=True)
+    assert found.held == pytest.approx(held, nan_ok=True)

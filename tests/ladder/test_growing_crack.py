@@ -14,6 +14,7 @@ from viscotack.errors import OutOfRange
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
+from viscotack.result import edge_energy as energies_of_edges
 from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
@@ -230,6 +231,22 @@ def test_the_energy_at_an_edge_is_not_read_of_other_tests():
     result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=1e-2)
     with pytest.raises(ValueError, match="hardly ever a steady opening crack"):
         edge_energy(result)
+
+
+def test_energies_that_grow_by_a_power_of_the_speed_have_its_reference_speed_and_exponent():
+    speed = np.geomspace(1e-3, 50.0, 9)
+    found = energies_of_edges._gent_schultz(speed, 1 + (speed / 0.3) ** 0.45)
+    assert found == pytest.approx((0.3, 0.45), rel=1e-6)
+
+
+def test_the_words_on_an_edge_are_those_of_its_energies():
+    said = energies_of_edges._words(6.0, 2.0, energies_of_edges.LARGEST_STRAIN, True)
+    assert said == (
+        "the energy of the edge is up to 6 works of adhesion; the bulk accounts for 2",
+        "the interface contributes a factor of 3",
+    )
+    for strain, count in ((None, 1), (1.001 * energies_of_edges.LARGEST_STRAIN, 2)):
+        assert len(energies_of_edges._words(6.0, 2.0, strain, False)) == count
 
 
 def test_the_reference_speed_reproduces_the_given_growth():
