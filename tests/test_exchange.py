@@ -92,9 +92,11 @@ def test_what_an_analyst_typed_is_read():
     solid = imported(text, "abaqus", units=Units("MPa", "s"))
     assert solid.rubbery_modulus == pytest.approx(1e6)
     assert solid.branches == ((5e6, 0.1), (4e6, 2.0))
-    text = "MP,EX,1,10\nMP,PRXY,1,0.5\nTB,PRONY,1,,2,SHEAR  ! two\nTBDATA,1,0.5,0.1,0.4,2\n"
-    solid = imported(text, "ansys", units=Units("MPa", "s"))
-    assert solid.branches == ((5e6, 0.1), (4e6, 2.0))
+    # the number of pairs and the series may be left out
+    for start in ("TB,PRONY,1,,2,SHEAR  ! two", "TB,PRONY,1,,2", "TB,PRONY,1,", "TB,PRONY,1"):
+        text = f"MP,EX,1,10\nMP,PRXY,1,0.5\n{start}\nTBDATA,1,0.5,0.1,0.4,2\n"
+        solid = imported(text, "ansys", units=Units("MPa", "s"))
+        assert solid.branches == ((5e6, 0.1), (4e6, 2.0))
 
 
 # ---- what the programs make of it: other readers, and their own formulas -----------------------

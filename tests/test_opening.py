@@ -83,3 +83,173 @@ def test_the_ligament_of_a_punch_that_opens_at_once_is_the_one_just_before(monke
         found = SimpleNamespace(time=time, contact_radius=np.nan)
         monkeypatch.setattr(observables, "pull_off", lambda result, found=found: found)
         assert observables.ligament_at_pull_off(result) == expected
+
+
+@pytest.mark.parametrize(("lower", "equal"), [(4.0, True), (3.0, True), (2.9, False)])
+def test_peaks_are_equal_if_their_difference_is_within_their_errors(lower, equal, monkeypatch):
+    # a quarter of each: 5 - 1.25 = 3 + 0.75
+    result = SimpleNamespace(error_estimate={"force": 0.25})
+    other = SimpleNamespace(force=lower)
+    monkeypatch.setattr(observables, "pull_off", lambda result: SimpleNamespace(force=5.0))
+    monkeypatch.setattr(observables, "other_peak", lambda result: other)
+    assert observables.equal_peak(result) is (other if equal else None)
+
+
+@pytest.mark.parametrize(
+    ("force", "minima"),
+    [
+        ([-1.0, -2.0], [1]),
+        # a rise counts from 3 % of one more than the tension: 0.09 at 2
+        ([-1.0, -2.0, -1.92, -3.0, 0.0], [3]),
+        ([-1.0, -2.0, -1.90, -3.0, 0.0], [1, 3]),
+        # and so does the fall after it: 0.075 below 1.5
+        ([-2.0, -1.5, -1.57], [0]),
+        ([-2.0, -1.5, -1.58], [0, 2]),
+        ([-2.0, -1.6, -1.5, -1.58], [0, 3]),
+        # compression is no lower tension
+        ([-0.02, 5.0, -0.03, 5.0], [2]),
+        ([-2.0, 3.0, -0.1, 3.0], [0]),
+        # what is lower than all before is a valley of its own, however much was pressed
+        ([-0.05, 9.0, -0.06, 9.0], [0, 2]),
+    ],
+)
+def test_minima_lie_before_and_after_rises_that_count(force, minima):
+    assert opening._minima(np.array(force)) == minima
+
+
+@pytest.mark.parametrize(
+    ("x", "i", "points"),
+    [
+        ([0, 1, 2, 3, 4, 5], 2, (0, 4)),
+        ([0, 1, 2, 3, 4 - 1e-12, 5], 2, (0, 4)),
+        ([0, 1, 2, 3, 3.9, 5], 2, (1, 5)),
+        ([0, 1, 2, 3], 0, (0, 3)),
+        ([0, 1, 2, 3], 1, (0, 4)),
+        ([0, 1, 2, 3], 3, (1, 4)),
+        ([0, 1], 0, (0, 2)),
+    ],
+)
+def test_the_nearest_points_are_both_neighbours_and_the_nearer_of_the_next(x, i, points):
+    assert opening._nearest(np.array(x), i) == slice(*points)
+
+
+@pytest.mark.parametrize(
+    ("y", "i", "place", "least"),
+    [
+        # the line through the points at 0 and 1, and through those at 1 and 3, less 3e-3
+        ([-1.0, -1.5, -3.0, -2.0], 2, 2.0, -2.003),
+        ([-1.0, -1.5, -3.0, -2.0], 2, 3.0, -2.503),
+        ([-1.0, -1.5, -3.0, -2.0], 2, 3.5, -3.378),
+        # before it there is no line
+        ([-1.0, -2.0, -0.5, 7.0], 1, 0.5, -3.5),
+        ([-0.5, -2.0, -1.0, 7.0], 1, 0.5, -3.5),
+        # plateaus before, around and after
+        ([-1.0, -1.0, -1.0, 0.0], 2, 2.9, -1.000001),
+        ([-1.0, -1.0, -1.0, 0.0], 1, 1.1, -1.000001),
+        ([0.0, -1.0, -1.0, -1.0], 1, 0.9, -1.000001),
+    ],
+)
+def test_a_valley_lies_above_the_line_through_the_points_before_it(y, i, place, least):
+    x = np.array([0.0, 1.0, 3.0, 4.0])
+    assert opening.least_between(x, np.array(y), i, place) == pytest.approx(least, rel=1e-12)
+
+
+def test_the_minimum_of_a_parabola_or_a_cubic_through_uneven_points_is_exact():
+    x = np.array([0.0, 1.0, 3.0, 4.0, 6.0])
+    place, value = opening._minimum(x, 3 * (x - 1.3) ** 2 - 2, 1)
+    assert (place, value) == pytest.approx((1.3, -2.0), rel=1e-12)
+    cubic = np.polynomial.Polynomial([-2.0, 0.0, 1.0, 0.1])(x - 2.6)
+    assert opening._minimum(x, cubic, 2) == pytest.approx((2.6, -2.0), rel=1e-12)
+    # at an end it is the step itself
+    assert opening._minimum(x, (x + 1) ** 2, 0) == (0.0, 1.0)
+    assert opening._minimum(x, (x - 7) ** 2, 4) == (6.0, 1.0)
+
+
+def test_between_steps_is_a_line_and_unknown_beside_the_unknown():
+    x, y = np.array([0.0, 1.0, 3.0]), np.array([5.0, 7.0, np.nan])
+    assert [opening._between(x, y, at) for at in (0.0, 0.25, 1.0)] == [5.0, 5.5, 7.0]
+    assert np.isnan(opening._between(x, y, 2.0))
+
+
+def test_the_edge_that_runs_out_is_found_from_the_travel_as_a_cubic_of_its_place():
+    travel = np.polynomial.Polynomial([10.0, -2.0, 0.0, -0.1])
+    edge = np.array([3.0, 2.5, 1.8, 1.0, np.nan, np.nan])
+    x = np.append(travel(edge[:4]), [10.5, 11.0])
+    time = 2 + x / 4
+    for place in (1.4, 1.0, 0.5):
+        found = opening._running_out(x, edge, time, float(travel(place)))
+        assert found == pytest.approx((place, -4 / travel.deriv()(place)), rel=1e-9)
+    assert opening._running_out(x[1:], edge[1:], time[1:], float(travel(1.4))) is None
+    assert opening._running_out(x, edge[[0, 1, 1, 3, 4, 5]], time, float(travel(1.4))) is None
+
+
+@pytest.mark.parametrize(("gone", "found"), [(7, True), (8, False)])
+def test_an_edge_runs_out_if_it_is_gone_within_a_few_steps(gone, found):
+    edge = np.arange(12.0, 0.0, -1.0)
+    x, time = -edge, -edge
+    edge[gone:] = np.nan
+    assert (opening._running_out(x, edge, time, x[3]) is not None) is found
+
+
+@pytest.mark.parametrize(
+    ("moves", "lowest", "steps"),
+    [
+        ([0, 0, 0], 1, slice(0, 3)),
+        ([0, 0, 1, 1, 1], 3, slice(1, 5)),
+        ([0, 0, 1, 1, 2], 2, slice(1, 4)),
+        ([0, 0, 1, 1, 2], 1, None),
+        ([0, 0, 1, 1, 1], 4, slice(1, 5)),
+    ],
+)
+def test_the_curve_is_smooth_within_a_move_and_from_the_last_step_before_it(moves, lowest, steps):
+    assert opening._smooth(np.array(moves), lowest) == steps
+
+
+def test_the_steps_of_a_piece_are_split_by_moves_that_share_their_ends(monkeypatch):
+    monkeypatch.setattr(opening, "move_numbers", lambda result: np.array([9, 0, 0, 1, 1, 2]))
+    parts = opening._moves_of(None, np.arange(1, 6))
+    assert [part.tolist() for part in parts] == [[1, 2], [2, 3, 4], [4, 5]]
+
+
+@pytest.fixture
+def valley(monkeypatch):
+    """Make what looks at a valley see an uneven parabola of curvature 6 under one move."""
+    x = np.array([0.0, 1.0, 3.0, 4.0, 6.0])
+
+    def made(lowest, kind, steps=5):
+        force = 3 * (x[:steps] - 2.8) ** 2 - 8
+        monkeypatch.setattr(opening, "_valley_of", lambda *_: (np.arange(steps), lowest))
+        monkeypatch.setattr(opening, "move_numbers", lambda _: np.zeros(steps, dtype=int))
+        monkeypatch.setattr(opening, "moves_of", lambda _: [kind])
+        return SimpleNamespace(depth=-x[:steps], force=force)
+
+    return made
+
+
+def test_what_an_error_of_the_slope_costs_is_the_square_of_the_force_over_the_curvature(valley):
+    assert opening.lost_beside(valley(2, MOVED), None) == pytest.approx(7.88**2 / 6, rel=1e-12)
+    for end in (0, 4):
+        assert opening.lost_beside(valley(end, MOVED), None) == 0.0
+
+
+def test_a_fold_reaches_as_far_as_the_force_differs_by_itself(valley):
+    # at the last step, under a growing load: 6/2 d^2 = P
+    result = valley(2, LOADED, steps=3)
+    assert opening.reach_of_fold(result, None) == pytest.approx((7.88 / 3) ** 0.5, rel=1e-12)
+    for lowest, kind, steps in ((2, MOVED, 3), (1, LOADED, 2), (2, LOADED, 5)):
+        assert opening.reach_of_fold(valley(lowest, kind, steps), None) == 0.0
+
+
+def test_a_parabola_is_known_between_its_steps_and_a_bent_curve_is_not(valley):
+    result = valley(2, MOVED)
+    assert opening.between_steps(result, None) == pytest.approx(0.0, abs=1e-12)
+    # bent one step away: the parabola through three steps stays, a cubic does not
+    result.force[4] += 1.0
+    x, y = -result.depth, result.force
+    place, _ = opening._minimum(x, y, 2)
+    cubics = [next(opening._lowest(x, y, 2, s))[0] for s in (slice(0, 4), slice(1, 5))]
+    far = max(abs(at - place) for at in (2.8, *cubics))
+    assert opening.between_steps(result, None) == pytest.approx(far, rel=1e-12)
+    assert far > 0.01
+    for end in (0, 4):
+        assert opening.between_steps(valley(end, MOVED), None) == 0.0

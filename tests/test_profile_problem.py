@@ -1,7 +1,9 @@
 import json
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,10 +13,10 @@ from viscotack.app.cli import application
 from viscotack.errors import OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import advise
-from viscotack.geometry import Cone, FlatPunch, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, Disc, FlatPunch, HalfSpace, Layer, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups, Problem, revolution
 from viscotack.problem.case_file import read_case
 from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import (
@@ -31,7 +33,8 @@ from viscotack.protocol import (
 from viscotack.result import columns, load, save
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off_force, summary
-from viscotack.theory import profiles
+from viscotack.theory import jkr, profiles
+from viscotack.theory.elastic import on_layer
 from viscotack.theory.elastic.relaxed import ends
 from viscotack.traction import LennardJones
 
@@ -160,6 +163,105 @@ def test_a_tip_that_is_steep_where_the_forces_end_is_refused():
     # of a sphere, sqrt(2 h0/R)
     with pytest.raises(ValueError, match="too steep: its slope is 0.535 where the gap is"):
         problem(PowerLawProfile(1 / (2 * 0.7e-6), 2), Apart(1e-6))
+
+
+@pytest.mark.parametrize(("by", "fits"), [(0.999, True), (1.001, False)])
+def test_a_sphere_is_in_contact_and_attracted_up_to_half_its_radius(by, fits):
+    sphere = Sphere(1e-3)
+    # sqrt(2 R h0) = R/2, and a relaxed contact radius of R/2 by radius, by load and by depth
+    short, long = LAW, LennardJones(0.15, by * 1e-3 / 8)
+    state = dict(radius=1e-3, contact_modulus=SOLID.contact_modulus, work_of_adhesion=0.15)
+    a = by * 0.5e-3
+    for law, start, words in (
+        (short, AtRadius(a), "its relaxed contact radius is about"),
+        (short, AtForce(jkr.force(a, **state)), "its relaxed contact radius is about"),
+        (short, AtDepth(jkr.depth(a, **state)), "its relaxed contact radius is about"),
+        (long, Apart(1e-3), "equilibrium_gap = .* may be up to 0.125 radii"),
+    ):
+        with nullcontext() if fits else pytest.raises(ValueError, match=words):
+            Problem(SOLID, law, sphere, Retraction(start=start, speed=1e-6))
+
+
+@pytest.mark.parametrize(("by", "fits"), [(0.999, True), (1.001, False)])
+@pytest.mark.parametrize("thickness", [None, 1.5e-3, 0.4e-3])
+def test_a_disc_is_pressed_to_half_its_radius_or_half_the_layer(by, fits, thickness):
+    disc, body = Disc(1e-3), HalfSpace() if thickness is None else Layer(thickness)
+    most = by * min(0.5e-3, (thickness or 1.0) / 2)
+    stiffness = 2e-3 if thickness is None else float(on_layer.stiffness(np.array(1e-3), body))
+    words = "half its radius" if thickness is None or thickness > 1e-3 else "half the thickness"
+    for start in (AtDepth(most), AtForce(most * stiffness * SOLID.contact_modulus)):
+        with nullcontext() if fits else pytest.raises(ValueError, match=f"deeper than {words}"):
+            Problem(SOLID, LAW, disc, Retraction(start=start, speed=1e-6), body=body)
+
+
+def test_the_radius_of_a_value_is_found_between_the_ends_of_the_search():
+    far = math.exp(revolution._FAR)
+    assert far == pytest.approx(1e15, rel=1e-12)
+    assert revolution._where(lambda r: r**2, 4e-6) == pytest.approx(2e-3, rel=1e-9)
+    assert revolution._where(lambda r: 0.3, 0.5) == revolution._where(lambda r: 0.5, 0.5) == far
+    assert revolution._where(lambda r: 0.6, 0.5) == pytest.approx(1 / far, rel=1e-12)
+
+
+@pytest.fixture
+def detailed(monkeypatch):
+    """Make a shape with details of a length, known up to 3 m and of equivalent radius 5 m."""
+    monkeypatch.setattr(revolution, "end", lambda shape: shape.end)
+    monkeypatch.setattr(revolution, "detail", lambda shape: shape.detail)
+    monkeypatch.setattr(revolution, "equivalent_radius", lambda shape, adhesion: 5.0)
+
+    def made(detail, **parts):
+        return SimpleNamespace(**(dict(detail=detail, end=3.0) | parts))
+
+    return made
+
+
+@pytest.mark.parametrize(
+    ("detail", "known", "end", "intervals"),
+    [(1.0, 3.0, 3.0, 48), (1.0, 9.0, 5.0, 80), (100.0, 3.0, 3.0, 16), (1e-6, 3.0, 3.0, 100_000)],
+)
+def test_a_shape_is_looked_at_sixteen_times_in_each_detail(detailed, detail, known, end, intervals):
+    radii = revolution._radii(detailed(detail, end=known))
+    assert radii[0] == 0.0
+    assert len(radii) == intervals + 1
+    np.testing.assert_allclose(np.diff(radii), end / intervals, rtol=1e-6)
+
+
+def test_a_shape_with_details_is_steepest_and_too_steep_at_radii_that_were_looked_at(detailed):
+    shape = detailed(1.0, gap=lambda r: r**2 / 2, flank=lambda r: r * (r - 1.0))
+    # up to a gap of 0.5, which is at 1; the steepest slope there falls
+    assert revolution._where_risen(shape, 0.5) == 0.5
+    for sign in (1.0, -1.0):
+        steep = detailed(1.0, flank=lambda r, sign=sign: sign * r / 4)
+        assert revolution._where_steep(steep) == 2.0625
+    assert revolution._where_steep(detailed(1.0, flank=lambda r: r / 7)) == 3.0
+    # without details at the radius itself
+    smooth = detailed(np.inf, gap=lambda r: r**2 / 2, flank=lambda r: r / 4)
+    assert revolution._where_risen(smooth, 0.5) == pytest.approx(1.0, rel=1e-9)
+    assert revolution._where_steep(smooth) == pytest.approx(2.0, rel=1e-9)
+
+
+def test_a_layer_is_pressed_to_half_its_thickness(detailed, monkeypatch):
+    def pressed(detail, body, depth=lambda r: r**2):
+        monkeypatch.setattr(revolution.indenter, "bare_depth", lambda r, **_: depth(r))
+        given = SimpleNamespace(geometry=detailed(detail), body=body)
+        return revolution._pressed_through(given)
+
+    assert pressed(np.inf, Layer(2.0)) == pytest.approx(1.0, rel=1e-9)
+    # of 200 radii up to 3
+    assert pressed(1.0, Layer(2.0)) == pytest.approx(1.005, rel=1e-12)
+    assert pressed(1.0, Layer(19.0)) == np.inf
+    assert pressed(1.0, HalfSpace()) == pressed(np.inf, HalfSpace()) == np.inf
+    assert pressed(np.inf, Layer(2.0), lambda r: 0.0 * r) == np.inf
+    assert pressed(np.inf, Layer(2.0), lambda r: 1.0 + 0.0 * r) == 2e-3
+
+
+@pytest.mark.parametrize(("by", "fits"), [(0.999, True), (1.001, False)])
+def test_a_cone_is_pressed_to_half_the_layer_however_flat_it_is(by, fits, monkeypatch):
+    # that the depth is the slope times the radius saves the solution of the layer
+    monkeypatch.setattr(revolution.indenter, "bare_depth", lambda r, **_: 0.2 * r)
+    start = AtRadius(by * 0.5e-4 / 0.2)
+    with nullcontext() if fits else pytest.raises(ValueError, match="0.5 thicknesses of the layer"):
+        Problem(SOLID, LAW, CONE, Retraction(start=start, speed=1e-6), body=Layer(1e-4))
 
 
 def test_a_contact_beyond_small_strain_is_refused():

@@ -7,9 +7,13 @@ import pytest
 
 from synthetic import GROUPS, SI, energies, jkr_crack_speed, jkr_detachment, jkr_result
 from viscotack import __version__
+from viscotack.problem import Groups
+from viscotack.protocol import AtForce, Dwell, LoadTo
 from viscotack.result import (
+    Energies,
     Event,
     Outcome,
+    Result,
     ShallowStart,
     columns,
     load,
@@ -18,6 +22,7 @@ from viscotack.result import (
     write_csv,
 )
 from viscotack.result import result as module
+from viscotack.result.dead_load import time_held
 
 
 def full(**changes):
@@ -310,3 +315,32 @@ def test_an_event_needs_numbers():
 def test_groups_and_problem_are_kept_as_given():
     assert jkr_result().problem is GROUPS
     assert jkr_result(problem=SI).problem is SI
+
+
+def test_books_of_one_step_keep_what_is_known_and_add_what_older_results_lack():
+    kept = energies(drive=np.array([3.0]), interface_heat=np.array([5.0]))
+    assert kept.interface_heat.tolist() == [5.0]
+    books = {name: getattr(kept, name) for name in vars(kept)} | {"drive": np.arange(3.0)}
+    del books["interface_heat"], books["mode_weight"]
+    older = Energies(**books | {"mode_time": np.ones(2)})
+    assert older.interface_heat.tolist() == [0.0, 0.0, 0.0]
+    assert np.isnan(older.mode_weight).tolist() == [True, True]
+
+
+def test_without_the_record_of_moves_a_hold_begins_where_the_force_is_that_of_the_end():
+    moves = (LoadTo(force=-1.5, duration=2.0), Dwell(duration=9.0, hold="force"))
+    problem = Groups(2.0, GROUPS.material, AtForce(0.0), rate=None, moves=moves)
+    parts = dict(
+        problem=problem,
+        time=np.array([0.0, 1.0, 2.0, 5.0, 8.5]),
+        depth=np.array([4.0, 3.0, 2.0, 1.0, -1.0]),
+        contact_radius=np.full(5, np.nan),
+        edge_speed=np.full(5, np.nan),
+        status="detached",
+    )
+    for number in (None, np.array([0, 0, 0, 1, 1])):
+        result = Result(force=np.array([0.0, -0.75, -1.5, -1.5, -1.5]), move=number, **parts)
+        assert time_held(result) == 6.5
+    # held from the beginning
+    result = Result(force=np.full(5, -1.5), **parts)
+    assert time_held(result) == 8.5

@@ -5,8 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
 import viscotack as vt
+from synthetic import jkr_result
 from viscotack.bem.body import Body
 from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.equilibrium import descend
@@ -19,6 +21,8 @@ from viscotack.materials import Modes
 from viscotack.problem.changed import changed
 from viscotack.problem.nouns import own_nouns
 from viscotack.protocol import Approach, LoadTo
+from viscotack.result import sensitivities
+from viscotack.result.sensitivities import Slopes
 from viscotack.traction.growing import Eyring
 
 ARMS = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.03), (5.0, 1.0)], poisson_ratio=0.0)
@@ -161,6 +165,32 @@ def test_growing_interfaces_and_punches_are_refused():
     )
     with pytest.raises(ValueError, match="flat punch"):
         solved(punch, sensitivities=True)
+
+
+def test_the_work_moves_with_its_ends_and_with_the_curve_between_them():
+    """Two parabolas with a jump between them; ends and heights move with one input."""
+    x = np.concatenate([np.linspace(0, 1, 6), np.linspace(1, 3, 9)])
+    first = np.arange(len(x)) < 6
+    one, two = Polynomial([-1, 0, -1]), Polynomial([3, -8, 2])
+    more_of_one, more_of_two = one, Polynomial([-2, 1])
+    force, slope, raised = (
+        np.where(first, a(x), b(x))
+        for a, b in ((one, two), (one.deriv(), two.deriv()), (more_of_one, more_of_two))
+    )
+    result = jkr_result(steps=len(x) - 1, depth=-x, force=force, time=np.arange(len(x)) / 7)
+    # how the steps move; the last number is what no output depends on
+    moved = np.where(first, 0.2 + 0.1 * x, 0.7 - 0.1 * x)
+    rows = np.full((len(x) - 2, 4, 2), np.nan)
+    rows[:, 1, 0], rows[:, 2, 0] = -moved[:-2], (raised + slope * moved)[:-2]
+    # each step may be moved along the curve as well
+    along = np.cos(x)[:-2]
+    level = rows[:, :, :-1].copy()
+    level[:, 1, 0] -= along
+    level[:, 2, 0] += slope[:-2] * along
+    found = sensitivities._moved_work(result, Slopes((), rows, "", {}), level, vt.pull_off(result))
+    curve = more_of_one.integ()(1.0) + more_of_two.integ()(2.0) - more_of_two.integ()(1.0)
+    ends = one(1.0) * 0.3 - one(0.0) * 0.2 - two(1.0) * 0.6
+    assert found == pytest.approx([-curve - ends], rel=1e-12)
 
 
 class _Recorded(Tangents):

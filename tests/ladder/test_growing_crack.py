@@ -14,10 +14,17 @@ from viscotack.errors import OutOfRange
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
+from viscotack.result import edge_energy as energies_of_edges
 from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
-from viscotack.theory.crack.contact import GrowingCracks, NeighbourEdges, profile_of, recede
+from viscotack.theory.crack.contact import (
+    GrowingCracks,
+    NeighbourEdges,
+    growing,
+    profile_of,
+    recede,
+)
 from viscotack.theory.crack.steady import NeighbourCrack, _grown, _mesh, _start, comparison
 from viscotack.traction import Eyring, GentSchultz, LennardJones
 from viscotack.traction.growing import reference_speed
@@ -226,6 +233,22 @@ def test_the_energy_at_an_edge_is_not_read_of_other_tests():
         edge_energy(result)
 
 
+def test_energies_that_grow_by_a_power_of_the_speed_have_its_reference_speed_and_exponent():
+    speed = np.geomspace(1e-3, 50.0, 9)
+    found = energies_of_edges._gent_schultz(speed, 1 + (speed / 0.3) ** 0.45)
+    assert found == pytest.approx((0.3, 0.45), rel=1e-6)
+
+
+def test_the_words_on_an_edge_are_those_of_its_energies():
+    said = energies_of_edges._words(6.0, 2.0, energies_of_edges.LARGEST_STRAIN, True)
+    assert said == (
+        "the energy of the edge is up to 6 works of adhesion; the bulk accounts for 2",
+        "the interface contributes a factor of 3",
+    )
+    for strain, count in ((None, 1), (1.001 * energies_of_edges.LARGEST_STRAIN, 2)):
+        assert len(energies_of_edges._words(6.0, 2.0, strain, False)) == count
+
+
 def test_the_reference_speed_reproduces_the_given_growth():
     growth = np.array([1e-9, 1e-3, 0.3, 20.0])
     for n in (0.05, 0.4, 1.0):
@@ -239,6 +262,40 @@ def test_the_reference_speed_reproduces_the_given_growth():
 def lattice():
     # as small as splines allow
     return GrowingCracks(SOLID, (0.1, 3.0), (1.0, 1.0), [0.3, 0.4, 0.5, 0.6])
+
+
+class _Known:
+    """A crack whose bulk doubles the energy at every speed."""
+
+    modes = None
+
+    def __init__(self, material, law):
+        self.law = law
+
+    def amplification(self, speed):
+        return 2.0 + 0.0 * np.asarray(speed)
+
+
+def test_a_lattice_holds_its_growths_at_all_speeds_at_which_they_are_defined(monkeypatch):
+    monkeypatch.setattr(growing, "SteadyCrack", _Known)
+    monkeypatch.setattr(growing, "_tabulated", lambda crack: (-1.0, 1.0))
+    # with growth, everywhere an energy of 4, of which the interface dissipates 3
+    rows = np.log([np.full(growing._ROWS, 3.0), np.full(growing._ROWS, 3.0)])
+    monkeypatch.setattr(growing, "_table", lambda crack, log_speed: rows)
+    # so much growth that it is a power of the speed
+    lattice = GrowingCracks(SOLID, (10.0, 300.0), (2.0, 18.0), [0.3, 0.4, 0.5, 0.6])
+    assert lattice.at_rest.law == REST
+    for n in (0.3, 0.45, 0.6):
+        for speed in (2.0, 5.0, 18.0):
+            edges = lattice.edges(reference_speed([10.0, 300.0], speed, n), n)
+            assert edges.amplification(1.0) == pytest.approx([4.0, 4.0], rel=1e-4)
+            assert edges.interface_work(1.0) == pytest.approx([3.0, 3.0], rel=1e-4)
+        with pytest.raises(ValueError, match="exceeds the lattice by a factor of 1.01"):
+            lattice.edges(reference_speed(303.0, 2.0, n), n)
+        # a fifth of the smallest growth: a fifth of its effects
+        edges = lattice.edges(reference_speed(2.0, 18.0, n), n)
+        assert edges.amplification(1.0) == pytest.approx([0.2 * 4 + 0.8 * 2], rel=1e-4)
+        assert edges.interface_work(1.0) == pytest.approx([0.2 * 3 + 0.8 * 1], rel=1e-4)
 
 
 @pytest.mark.slow

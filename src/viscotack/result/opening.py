@@ -527,7 +527,7 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
 def curve_through(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
     """Return cubic interpolation through the points, shape (n, ...), with second-order slopes."""
     order = 2 if len(x) > 2 else 1
-    slope = np.gradient(y, x, axis=0, edge_order=order) if len(x) > 1 else np.zeros_like(y)
+    slope = np.gradient(y, x, axis=0, edge_order=order)
     return scipy.interpolate.CubicHermiteSpline(x, y, slope)
 
 

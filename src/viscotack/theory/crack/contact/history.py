@@ -34,7 +34,6 @@ depends on the opening speed (`tension` of :class:`Contact`).
 
 Units as in :mod:`._profile`, times in the material's unit. Between annuli the memory is
 linear in g, which is exact for contacts formed at rest.
-straight in g, which is exact for what was brought in at rest.
 """
 
 from __future__ import annotations
