@@ -133,7 +133,7 @@ class Predict(Operation):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import cautions_on, predict
+        from viscotack.forecast import predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
@@ -151,6 +151,7 @@ class Predict(Operation):
                 confidence=self.confidence,
                 budget=SOON if self.budget is None else self.budget,
                 exact=self.exact,
+                passport=self.problem.passport,
             )
             if found.curve is None and caller.wants & {"curve", "plot"}:
                 raise InputError(
@@ -158,8 +159,7 @@ class Predict(Operation):
                     "--plot, or simulate"
                 )
             result = _simulated(self.problem.problem) if self.compare else None
-        warned = cautions_on(found.problem, passport=self.problem.passport)
-        record = prediction_summary(found) | {"cautions": list(warned)}
+        record = prediction_summary(found)
         if result is not None:
             record |= _comparison(found, result)
         return Answer(
