@@ -119,7 +119,10 @@ class Predict(Operation):
             metavar="SECONDS",
         ),
     ] = None
-    exact: Annotated[bool, Switch("Simulate, however long it takes.")] = False
+    exact: Annotated[
+        bool,
+        Switch("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
+    ] = False
     compare: Annotated[bool, Switch("Also simulate, and show the error of the prediction.")] = False
     time_limit: HowLong = None
 
