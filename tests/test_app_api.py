@@ -16,7 +16,6 @@ from viscotack.app.api import application, heads
 from viscotack.app.api.guard import Guard, Rules
 from viscotack.app.engine.crew import Defect, Refused
 from viscotack.app.engine.jobs import Engine, Limits, harmless_name
-from viscotack.forecast import cautions_on
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 
 ROOT = Path(__file__).parents[1]
@@ -75,7 +74,6 @@ def test_a_prediction_is_that_of_the_package(ask, tables):
     assert answer.status_code == 200
     problem = vt.from_dict(answer.json()["problem"])
     expected = vt.prediction_summary(vt.predict(problem))
-    expected |= {"cautions": list(cautions_on(problem))}
     assert answer.json() == json.loads(json.dumps(expected))
 
 

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from command_line import exit_status
 from front_ends import Http, Question, through_all
+from viscotack import clock
 from viscotack.app.cli import application
+from viscotack.bem import body
 from viscotack.errors import InputError
 from viscotack.operations import ask
 from viscotack.pads import Hold, holding, pull_array, read_array
@@ -49,12 +52,31 @@ equilibrium_gap = "10 nm"
 radius = "5 mm"
 """
 
+# In place of an elastic solid.
+SOLID = '"sls"\nglassy_modulus = "15 MPa"\ntau0 = "10 ms"'
+
 
 @pytest.fixture
 def small(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("small.toml").write_text(SMALL)
     return Path("small.toml")
+
+
+def test_a_pad_that_meets_the_time_limit_is_refused_with_advice(small, monkeypatch, capsys):
+    small.write_text(SMALL.replace('"10 nm"', '"4 um"').replace('"elastic"', SOLID))
+    descend, now = body.descend, [0.0]
+
+    def late(*arguments, **options):
+        now[0] += 0.1
+        return descend(*arguments, **options)
+
+    monkeypatch.setattr(clock, "perf_counter", lambda: now[0])
+    monkeypatch.setattr(body, "descend", late)
+    assert exit_status(["array", "small.toml", "--time-limit", "2 s"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("viscotack: stopped because the time limit of 2 s was met at a depth")
+    assert "give more time, or ask for less accuracy" in said and "defect" not in said
 
 
 def test_a_file_states_pads_backing_pull_and_load(small):

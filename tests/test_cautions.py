@@ -1,5 +1,6 @@
 """Cautions on predictions: tests at one rate, frequencies that were not measured, fast edges."""
 
+import html
 import json
 import re
 from dataclasses import replace
@@ -9,9 +10,10 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from viscotack.app.notebook import html_of_prediction
 from viscotack.forecast import cautions_on
 from viscotack.materials.library import published
-from viscotack.materials.passport import Passport
+from viscotack.materials.passport import Evidence, Passport
 from viscotack.materials.passport_file import write_passport
 from viscotack.materials.shift import Arrhenius
 from viscotack.theory import SteadyCrack
@@ -112,6 +114,43 @@ def test_every_command_has_the_cautions(tmp_path, capsys):
     groups = ["--material", "vhb-4910", "--tabor", 20, "--preload", 100, "--rate", 100]
     assert exit_status(["predict", "sphere", *map(str, groups)]) == 0
     assert "194 mHz" in capsys.readouterr().out
+
+
+def test_a_prediction_in_python_has_the_cautions():
+    problem, passport = lens(1e-3), measured(1e-6, 1e-5)
+    found = vt.predict(problem, passport=passport)
+    assert found.cautions == cautions_on(problem, passport=passport)
+    assert len(found.cautions) == 2
+    assert vt.prediction_summary(found)["cautions"] == list(found.cautions)
+    assert all(html.escape(words) in html_of_prediction(found) for words in found.cautions)
+    assert vt.predict(problem).cautions == cautions_on(problem)
+    wider = vt.predict(problem, passport=passport, shift_deviation=0.1)
+    assert wider.cautions == found.cautions
+
+
+def test_the_uncertainty_of_a_measured_material_is_not_in_the_interval(tmp_path):
+    problem, word = lens(), "leaves out the uncertainty of the measured constants of 'rubber'"
+    evidence = Evidence(
+        numbers=20, constants=3, level=0.9, intervals=(("rubbery_modulus", 0.9e6, 1.1e6),)
+    )
+    known = Passport(name="rubber", material=RUBBER, evidence=evidence)
+    sampled = Passport(name="rubber", material=RUBBER, allowed=(RUBBER, RUBBER))
+    elastic = replace(known, material=vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
+    for passport in (known, sampled):
+        (words,) = vt.predict(problem, passport=passport).cautions
+        assert word in words
+    soft = replace(problem, material=elastic.material)
+    assert word in vt.predict(soft, passport=elastic).cautions[1]
+    assert vt.predict(problem, passport=measured(1e-6, 1e3)).cautions == ()
+    # the command named in the caution includes it
+    write_passport(known, tmp_path / "rubber.toml")
+    case = tmp_path / "case.toml"
+    case.write_text(CASE.format("rubber.toml", "2 um/s"))
+    assert [words] == vt.ask("predict", problem=case).record()["cautions"]
+    wide = vt.ask("uncertainty", problem=case, passport=tmp_path / "rubber.toml", samples=32)
+    low, high = vt.predict(problem).interval
+    least, most = wide.record()["interval"]
+    assert most / least > high / low
 
 
 def test_a_temperature_moves_the_measured_range(tmp_path):

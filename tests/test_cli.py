@@ -205,6 +205,12 @@ def test_wrong_flags_are_refused_in_words(flags, words, fake, capsys):
     assert "problem" not in fake
 
 
+def test_a_repeated_option_with_one_value_is_refused(fake, capsys):
+    assert exit_status([*SPHERE, *ISSUE, "--tabor", 4]) == 2
+    assert "for '--tabor': it is given twice and has one value" in capsys.readouterr().err
+    assert exit_status([*SPHERE, *ISSUE, "--json", "--json"]) == 0
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -176,7 +176,7 @@ def test_the_summary_has_the_names_of_a_simulation():
     answer = vt.prediction_summary(vt.predict(problem))
     simulated = vt.summary(vt.solve(problem, until="pull-off", accuracy=1e-2))
     own = {"interval", "interval_N", "work_interval", "work_interval_J"}
-    own |= {"inside", "confidence", "band", "curve_band", "why"}
+    own |= {"inside", "confidence", "band", "curve_band", "why", "cautions"}
     own |= {
         "zero_force_depth",
         "zero_force_depth_m",

@@ -124,6 +124,14 @@ def test_a_known_material_shows_whether_the_test_was_slow(speed, slow):
     said = " ".join(fit.words)
     assert ("the test was slow" in said) == slow and "times the slow force" in said
     assert "no temperature of the tests is stated: 20 C of the material is assumed" in said
+    assert ", assumed at a Tabor number of 5 because the data do not determine it" in said
+
+
+def test_a_range_that_the_data_determine_is_not_assumed():
+    test = replace(of_maugis(1.5, 1), speed=1e-4, preload=1.5e-3)
+    fit = identify_slow(test, models=["maugis"], material=passport_of("pdms-10-1").material)
+    said = " ".join(fit.words)
+    assert "times the slow force" in said and "assumed at" not in said
 
 
 def error_study():

@@ -9,6 +9,7 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack import solve
 from viscotack.campaign.columns import KINDS
+from viscotack.errors import InputError
 from viscotack.result import trajectory
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import contact, line, physics, store
@@ -244,6 +245,12 @@ def test_derivatives_are_those_of_differences(made):
         for name, slopes in zip(("pull_off_force", "work_to_pull_off"), found, strict=True):
             wanted = np.log(getattr(a, name) / getattr(b, name)) / (2 * step)
             assert slopes[:, i] == pytest.approx(wanted, abs=1e-7)
+
+
+@pytest.mark.parametrize("contact", ["solids", "short range"])
+def test_contacts_without_exact_derivatives_refuse_them(contact):
+    with pytest.raises(InputError, match=f"'{contact}' has no exact derivatives, because"):
+        store.shipped(contact).slopes([[30.0, 0.1, 0.8, 73.0, 316.23]])
 
 
 def test_a_formula_without_a_known_derivative_is_refused():

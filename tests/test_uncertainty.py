@@ -73,6 +73,16 @@ def test_an_error_of_all_times_is_that_of_the_only_time():
     assert one.first["material.tau0"] == pytest.approx(other.first["temperature"], rel=1e-9)
 
 
+def test_few_samples_alone_have_their_own_scatter():
+    """Drawn points then repeat the samples, which are all there is."""
+    works = 0.1 * np.exp(0.1 * np.random.default_rng(3).standard_normal(8))
+    sampled = {"traction": [elastic(work=float(w)).traction for w in works]}
+    found = vt.uncertainty(elastic(), sampled=sampled, samples=64)
+    assert found.interpolation_error < 1e-12
+    rest = found.first["traction"]
+    assert found.deviation * np.sqrt(rest) == pytest.approx(np.std(np.log(works)), rel=0.02)
+
+
 def test_indices_of_samples_are_the_same_for_another_seed():
     rng = np.random.default_rng(5)
     solids, laws = [], []

@@ -86,7 +86,8 @@ def html_of_prediction(found: Prediction) -> str:
         held = record.get(f"{intervals.get(name)}{tail}")
         rows.append((words, said(record[name + tail]), said(*held) if held else ""))
     share = "band" if found.confidence is None else f"{100 * found.confidence:.4g} % of cases"
-    words = f"<p>by the {escape(found.method)}: {escape(found.why)}</p>"
+    told = (f"by the {found.method}: {found.why}", *found.cautions)
+    words = "".join(f"<p>{escape(each)}</p>" for each in told)
     drawn = "" if found.curve is None else _picture(lambda: draw_prediction(found))
     return _table(("quantity", "value", share), rows) + words + drawn
 

@@ -17,6 +17,7 @@ from .question import Question
 from .tiers import EXACT, SOON, best, by_model
 
 if TYPE_CHECKING:
+    from viscotack.materials.passport import Passport
     from viscotack.surrogate.model import Surrogate
 
 
@@ -29,6 +30,7 @@ def predict(
     budget: float = SOON,
     exact: bool = False,
     model: Surrogate | None = None,
+    passport: Passport | None = None,
 ) -> Prediction:
     """Predict the pull-off force, the work to pull-off and the unloading curve.
 
@@ -57,6 +59,9 @@ def predict(
         A surrogate to use alone in place of the tiers, such as one moved to the measured forces of
         a lab by :func:`viscotack.surrogate.moving.moved`; the coverage of its intervals was not
         measured then.
+    passport : Passport, optional
+        Passport of the material at the temperature of the problem, for
+        :attr:`Prediction.cautions`; it does not change the numbers.
 
     Returns
     -------
@@ -104,6 +109,7 @@ def predict(
         found = by_model(asked)
     else:
         found = EXACT.ask(asked) if exact else best(asked, budget)
+    found = replace(found, passport=passport)
     if not shift_deviation > 0:
         return found
     decades = NormalDist().inv_cdf((1 + confidence) / 2) * shift_deviation

@@ -17,6 +17,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.materials import Elastic
+from viscotack.materials.passport_uncertainty import allowed
 from viscotack.problem import Case, Problem
 from viscotack.units import readable
 
@@ -52,9 +53,10 @@ def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str
     Returns
     -------
     tuple of str
-        A sentence if the material was tested at one rate only, if the edge excites it outside of
-        its measured frequencies, and if the edge is faster than linear theory describes. Where no
-        theory knows the edge (layers, discs, punches), no caution depends on its speed.
+        A sentence if the material was tested at one rate only, if its passport has an uncertainty,
+        if the edge excites it outside of its measured frequencies, and if the edge is faster than
+        linear theory describes. Where no theory knows the edge (layers, discs, punches), no caution
+        depends on its speed.
 
     Examples
     --------
@@ -68,13 +70,18 @@ def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str
     "'Dragon Skin 30 (platinum silicone of Smooth-On)' was tested at one rate"
     """
     groups = problem.groups()
+    found = []
+    if passport is not None:
+        if isinstance(groups.material, Elastic):
+            found.append(_one_rate(passport))
+        if allowed(passport):
+            found.append(_left_out(passport.name))
     if isinstance(groups.material, Elastic):
-        return () if passport is None else (_one_rate(passport),)
+        return tuple(found)
     in_si = isinstance(problem, Problem)
     measured = None if passport is None else passport.frequencies
     if not (in_si or measured) or (edge := _edge_of(Question(problem))) is None:
-        return ()
-    found = []
+        return tuple(found)
     if passport is not None and measured is not None:
         zone = REST_ZONE / groups.effective_tabor**2 * max(edge.energy, 1.0)
         frequency = 2 * np.pi * edge.speed / zone / passport.material.time_unit
@@ -114,6 +121,14 @@ def _one_rate(passport: Passport) -> str:
     return (
         f"{passport.name!r} was tested at one rate: its dependence on speed is unknown. The force "
         "is that of this modulus at every speed; a fast pull of a real rubber holds more."
+    )
+
+
+def _left_out(name: str) -> str:
+    """Return the caution for a material with a known uncertainty."""
+    return (
+        f"The interval leaves out the uncertainty of the measured constants of {name!r}; for a "
+        "problem in SI, `viscotack uncertainty` with --passport includes it."
     )
 
 

@@ -7,6 +7,7 @@ Force is positive in compression, depth positive into the solid. Numbers are dim
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from viscotack.result.trajectory import PRESSED
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
+    from viscotack.materials.passport import Passport
     from viscotack.surrogate.answers import Intervals
     from viscotack.surrogate.line import Curves
 
@@ -75,6 +77,8 @@ class Prediction:
         The problem of the prediction.
     joint : bool
         Whether force, work and curve are inside together with this confidence, not each alone.
+    passport : Passport or None
+        Passport of the material, at the temperature of the problem; for `cautions`.
     """
 
     pull_off_force: float
@@ -93,6 +97,7 @@ class Prediction:
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
     joint: bool = False
+    passport: Passport | None = None
 
     value = Renamed("pull_off_force")
 
@@ -106,6 +111,14 @@ class Prediction:
     def depth_at_pull_off(self) -> float | None:
         """Depth at pull-off [h0], positive into the solid; None for theories."""
         return None if self.curve is None else float(self.curve.depth[-1])
+
+    @cached_property
+    def cautions(self) -> tuple[str, ...]:
+        """Sentences of :func:`~viscotack.forecast.cautions_on`, found on first use."""
+        # needs the theories, up to a second for a new solid; importing it above would be a circle
+        from .cautions import cautions_on
+
+        return cautions_on(self.problem, passport=self.passport)
 
     def because(self, why: str) -> Prediction:
         """Prepend the reason why no better tier applies."""
@@ -245,6 +258,7 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
         "band": prediction.band,
         "curve_band": prediction.curve_band,
         "why": prediction.why,
+        "cautions": list(prediction.cautions),
         **groups.inputs,
         "problem": to_dict(problem),
         "run_id": run_id(problem),

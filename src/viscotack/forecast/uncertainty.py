@@ -351,15 +351,19 @@ def _in_unit(found: Prediction) -> float:
 
 def _interpolated(z: Array, logs: Array) -> tuple[Callable[[Array], Array], float]:
     """Return the interpolation of logarithms, and its error at left-out points."""
-    from scipy.interpolate import RBFInterpolator
-
     errors = np.empty(len(z))
     for fold in range(_FOLDS):
         out = np.arange(len(z)) % _FOLDS == fold
-        fitted = RBFInterpolator(z[~out], logs[~out], kernel="cubic", degree=1)
-        errors[out] = fitted(z[out]) - logs[out]
-    whole = RBFInterpolator(z, logs, kernel="cubic", degree=1)
-    return whole, float(np.sqrt(np.mean(errors**2)))
+        errors[out] = _through(z[~out], logs[~out])(z[out]) - logs[out]
+    return _through(z, logs), float(np.sqrt(np.mean(errors**2)))
+
+
+def _through(z: Array, logs: Array) -> Callable[[Array], Array]:
+    """Return the interpolation through points, of which samples of a part repeat some."""
+    from scipy.interpolate import RBFInterpolator
+
+    first = np.sort(np.unique(z, axis=0, return_index=True)[1])
+    return RBFInterpolator(z[first], logs[first], kernel="cubic", degree=1)
 
 
 def _indices(

@@ -362,16 +362,19 @@ def _of_material(
         return [], []
     if test.speed is None or test.preload is None:
         return [], ["without speed and preload the material cannot show whether the test was slow"]
-    work, tabor = max(fit.work_of_adhesion for fit in alike), _SHORT
+    work, tabor = max(fit.work_of_adhesion for fit in alike), None
     ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
     if ranged is not None and ranged in alike:
         ends = ranged.intervals["tabor"]
-        tabor = ends.low if ends.told else max(ends.low if ends.closed_below else 0.0, _SHORT)
-    gap = (test.radius * work**2 / solid.contact_modulus**2) ** (1 / 3) / tabor
+        if ends.told or (ends.closed_below and ends.low > _SHORT):
+            tabor = ends.low
+    gap = (test.radius * work**2 / solid.contact_modulus**2) ** (1 / 3) / (tabor or _SHORT)
     said = (
         f"at {readable(test.speed, 'm/s')}, {readable(work, 'J/m2')} and a range of "
         f"{readable(gap, 'm', digits=2)}"
     )
+    if tabor is None:
+        said += f", assumed at a Tabor number of {_SHORT:g} because the data do not determine it"
     try:
         pull = Problem(
             material=solid,

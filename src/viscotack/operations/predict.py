@@ -119,7 +119,10 @@ class Predict(Operation):
             metavar="SECONDS",
         ),
     ] = None
-    exact: Annotated[bool, Switch("Simulate, however long it takes.")] = False
+    exact: Annotated[
+        bool,
+        Switch("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
+    ] = False
     compare: Annotated[bool, Switch("Also simulate, and show the error of the prediction.")] = False
     time_limit: HowLong = None
 
@@ -133,7 +136,7 @@ class Predict(Operation):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import cautions_on, predict
+        from viscotack.forecast import predict
         from viscotack.forecast.prediction import prediction_summary
         from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
@@ -151,6 +154,7 @@ class Predict(Operation):
                 confidence=self.confidence,
                 budget=SOON if self.budget is None else self.budget,
                 exact=self.exact,
+                passport=self.problem.passport,
             )
             if found.curve is None and caller.wants & {"curve", "plot"}:
                 raise InputError(
@@ -158,8 +162,7 @@ class Predict(Operation):
                     "--plot, or simulate"
                 )
             result = _simulated(self.problem.problem) if self.compare else None
-        warned = cautions_on(found.problem, passport=self.problem.passport)
-        record = prediction_summary(found) | {"cautions": list(warned)}
+        record = prediction_summary(found)
         if result is not None:
             record |= _comparison(found, result)
         return Answer(

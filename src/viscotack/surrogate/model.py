@@ -194,6 +194,11 @@ class Surrogate:
             Relative change of the prediction over relative change of the input; the derivative by
             the input itself is this times prediction over input.
 
+        Raises
+        ------
+        ValueError
+            For the contacts ``"solids"`` and ``"short range"``.
+
         Examples
         --------
         >>> from viscotack.surrogate.store import shipped
@@ -201,6 +206,11 @@ class Surrogate:
         >>> bool(0 < force[0, 4] < 0.5)
         True
         """
+        if self.contact.no_slopes:
+            raise InputError(
+                f"the surrogate {self.contact.name!r} has no exact derivatives, because "
+                f"{self.contact.no_slopes}; use differences of its predictions"
+            )
         said = self.evaluate(by_logarithms(self.tests(groups).rows))
         numbers: tuple[Any, ...] = said.pull_off_force, said.work_to_pull_off
         force, work = (

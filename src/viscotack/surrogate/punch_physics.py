@@ -71,9 +71,7 @@ def compliance(groups: Array) -> Array:
 
 def unit(rows: Array) -> Array:
     """Return the units of the inputs' ranges; depths of starts are relative to the compliance."""
-    found = np.ones_like(rows)
-    found[:, PRELOAD] = compliance(rows)
-    return found
+    return np.where(np.arange(len(INPUTS)) == PRELOAD, compliance(rows)[:, None], 1.0)
 
 
 def scaled(groups: Array) -> Array:

@@ -25,6 +25,7 @@ _OF_ONE: dict[Any, Callable[[Any, Any], Any]] = {
     np.cbrt: lambda x, y: 1 / (3 * y * y),
     np.exp: lambda x, y: y,
     np.log: lambda x, y: 1 / x,
+    np.log1p: lambda x, y: 1 / (1 + x),
     np.log10: lambda x, y: 1 / (np.log(10.0) * x),
     np.tanh: lambda x, y: 1 - y * y,
     np.arcsinh: lambda x, y: 1 / np.sqrt(x * x + 1),

@@ -3,6 +3,7 @@
 import inspect
 import json
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from inspect import cleandoc
@@ -11,6 +12,7 @@ from time import monotonic
 from typing import Annotated, Any, get_args
 
 import typer
+from typer.core import TyperCommand, TyperOption
 from typer.main import get_command
 
 from viscotack.errors import InputError
@@ -30,6 +32,20 @@ _SETTINGS = {"max_content_width": 100}
 # Seconds between two lines of progress.
 LINES = 10.0
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
+
+
+class Once(TyperCommand):
+    """A command that rejects a repeated option that has one value, where the last would win."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the arguments."""
+        if args and not ctx.resilient_parsing:
+            given = Counter(self.make_parser(ctx).parse_args(list(args))[2])
+            for option, times in given.items():
+                one = isinstance(option, TyperOption) and not (option.multiple or option.is_flag)
+                if one and times > 1:
+                    raise typer.BadParameter("it is given twice and has one value", ctx, option)
+        return super().parse_args(ctx, args)
 
 
 def command_of(word: str, name: str | None = None) -> Any:
@@ -56,7 +72,8 @@ def command_of(word: str, name: str | None = None) -> Any:
         indenter, words = "" if name == "case" else name, kind.helps[name]
     alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     last = (name or word).rpartition(" ")[2]
-    alone.command(last, help=cleandoc(words), context_settings=_SETTINGS)(_command(kind, indenter))
+    made = alone.command(last, cls=Once, help=cleandoc(words), context_settings=_SETTINGS)
+    made(_command(kind, indenter))
     return get_command(alone)
 
 

@@ -297,7 +297,7 @@ def _pair(option: Option, values: dict[str, Any]) -> None:
 
 
 def answered(asked: Operation, caller: Caller) -> Answer:
-    """Run an operation; InputError if arithmetic overflows.
+    """Run an operation; InputError if arithmetic overflows or a simulation stops early.
 
     A plain division by zero is a defect of the operation.
     """
@@ -305,6 +305,13 @@ def answered(asked: Operation, caller: Caller) -> Answer:
         return asked.answer(caller)
     except (OverflowError, FloatingPointError):
         raise InputError(TOO_LARGE) from None
+    except RuntimeError as error:
+        # imported late, so that commands which do not simulate start fast
+        from viscotack.bem import SimulationError
+
+        if not isinstance(error, SimulationError):
+            raise
+        raise InputError(str(error)) from None
 
 
 def spelled(message: str, kind: type[Operation]) -> str:

@@ -10,7 +10,7 @@ from viscotack.campaign.changes import Changes, changes_of
 from viscotack.campaign.listed import EMPTY
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.forecast import cautions_on, predict
+from viscotack.forecast import predict
 from viscotack.forecast.prediction import prediction_summary
 from viscotack.forecast.prediction_table import METHOD, WORK, with_interval
 from viscotack.units import readable
@@ -54,9 +54,13 @@ def predict_changes(
 
     def answer(inputs: Mapping[str, float]) -> dict[str, Any]:
         with limited(time_limit):
-            one = predict(kind.problem(inputs), shift_deviation=stated.deviation, **options)
-            warned = cautions_on(one.problem, passport=passport)
-        return prediction_summary(one) | {"cautions": list(warned)}
+            one = predict(
+                kind.problem(inputs),
+                shift_deviation=stated.deviation,
+                passport=passport,
+                **options,
+            )
+            return prediction_summary(one)
 
     known: dict[tuple[float, ...], dict[str, Any]] = {}
     found: list[dict[str, Any]] = []
