@@ -44,6 +44,7 @@ LEAF = 150
 _SPHERES = ("sphere", "solids", "short range")
 NEEDED = dict.fromkeys(FAMILIES, _SPHERES) | {
     "power laws": ("sphere",),
+    "faces": ("sphere",),
     "light tension": ("sphere",),
     "other solids": ("sphere", "solids"),
     "two peaks": ("sphere", "solids"),

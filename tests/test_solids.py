@@ -157,7 +157,7 @@ def test_a_start_by_force_is_one_by_its_depth_with_a_wider_interval():
 
 
 def test_its_curve_ends_at_the_pull_off_and_has_a_band():
-    answer = vt.predict(sphere(SOLIDS["wide"]))
+    answer = vt.predict(sphere(SOLIDS["fractional"]))
     assert answer.curve.force[-1] == pytest.approx(-answer.pull_off_force, rel=1e-9, abs=0)
     assert 0 < answer.curve_band < answer.pull_off_force
 

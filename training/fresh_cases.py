@@ -54,6 +54,7 @@ _DIGITS = 8
 # Numbers of cases of each design that measure intervals.
 COUNTS = {
     "power laws": 3000,
+    "faces": 600,
     "other solids": 1000,
     "punches": 550,
     "two peaks": 300,
@@ -100,6 +101,13 @@ def power_law(random: Random) -> Case:
     """Draw a sphere on a power law in the range of the surrogate."""
     inputs = {name: between(random, *ends) for name, ends in physics.LIMITS.items()}
     return Case("power laws", "sphere", inputs)
+
+
+def on_face(random: Random) -> Case:
+    """Draw a sphere on a power law with one input at an end of its range."""
+    inputs = power_law(random).inputs
+    name = physics.INPUTS[int(random.integers(len(physics.INPUTS)))]
+    return Case("faces", "sphere", inputs | {name: physics.LIMITS[name][int(random.integers(2))]})
 
 
 def solid(random: Random) -> Case:
@@ -201,6 +209,7 @@ DESIGNS: dict[str, tuple[int, Callable[[Random], Case]]] = {
     "large Tabor numbers": (5, large_tabor),
     "soft punches": (6, soft_punch),
     "shallow soft punches": (7, shallow_punch),
+    "faces": (8, on_face),
 } | {name: (100 + i, partial(of_engineers, name)) for i, name in enumerate(FAMILIES)}
 
 
