@@ -588,11 +588,6 @@ def effective_surface_energy(result: Result) -> float:
     groups = _punch(result)
     if not isinstance(groups.body, Layer):
         raise InputError(f"the thin-layer formula needs a layer, got a {groups.body.word}")
-    if groups.body.base.foundation == 0:
-        raise InputError(
-            "the thin-layer formula does not apply to a bonded layer with a Poisson ratio of 0.5, "
-            "which stretches only by sideways flow"
-        )
     # in units of sigma_0 and a_0, E_0* times Delta-gamma_0 is 2/pi
     energy = thin_layer_surface_energy(
         pull_off(result).force,
