@@ -63,8 +63,9 @@ def pull_off(result: Result) -> PullOff:
     Raises
     ------
     InputError
-        If the surfaces were never in contact, the force is nowhere tensile, or it has no minimum,
-        because it still decreases where the run ends without a jump, or was set by the machine.
+        If the run failed, the surfaces were never in contact, the force is nowhere tensile, or it
+        has no minimum, because it still decreases where the run ends without a jump, or was set by
+        the machine.
 
     Examples
     --------
