@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from reference_data import reference
+from viscotack.errors import InputError
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, punch
 from viscotack.theory.crack.law import THEORIES
@@ -157,6 +158,12 @@ def test_thin_layer_surface_energy_is_printed_and_exceeds_by_a_third_of_the_thic
     excess = thin / exact - 1
     assert slope(b, excess) == pytest.approx(1, abs=2e-3)
     assert excess[-1] == pytest.approx(2 * 0.177131575829e-3 / 0.8, rel=1e-3, abs=0)
+
+
+def test_thin_layer_surface_energy_refuses_a_layer_that_cannot_stretch():
+    case = dict(half_width=5e-3, ligament=4e-3, contact_modulus=4e6 / 3, thickness=1e-4)
+    with pytest.raises(InputError, match="does not apply to a bonded layer"):
+        curve.thin_layer_surface_energy(3e4, **case, base=Bonded(poisson_ratio=0.5))
 
 
 def test_thin_layer_surface_energy_warns_of_a_thick_layer():

@@ -10,6 +10,7 @@ from viscotack import (
     AtRadius,
     Bonded,
     Cone,
+    Disc,
     Groups,
     Layer,
     MeasuredProfile,
@@ -17,11 +18,13 @@ from viscotack import (
     Sphere,
     WavySphere,
 )
+from viscotack.errors import InputError
 from viscotack.forecast.closed_forms import closed_forms
 from viscotack.materials import StandardSolid
 from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (
+    adhesion_length,
     contact,
     contact_in_groups,
     curve,
@@ -151,3 +154,11 @@ def test_the_strongest_contact_is_the_pull_off_or_the_start_itself():
     small = 0.5 * end.contact_radius
     found = strongest(Sphere(5e-3), largest=small, **LENS)
     assert found == pytest.approx((small, jkr.depth(small, **SPHERE), jkr.force(small, **SPHERE)))
+
+
+@pytest.mark.parametrize("wrong", [{"contact_modulus": 0.0}, {"work_of_adhesion": -1.0}])
+def test_a_solid_without_stiffness_or_adhesion_is_refused(wrong):
+    with pytest.raises(InputError, match=f"{next(iter(wrong))} must be positive"):
+        adhesion_length(Sphere(5e-3), **(LENS | wrong))
+    with pytest.raises(InputError, match=f"{next(iter(wrong))} must be positive"):
+        strongest(Disc(1e-3), largest=1e-3, **(LENS | wrong))

@@ -61,10 +61,31 @@ class Settings:
     most_steps : int
         Largest number of steps of a run.
 
+    Notes
+    -----
+    Change `accuracy` first, which refines all parts together; it is the argument of
+    :func:`viscotack.solve`. Change a single part with ``dataclasses.replace`` to see its share in
+    an error, or raise `most_steps` for a long protocol that stops for want of steps.
+
     Examples
     --------
-    >>> Settings.for_accuracy(0.01).accuracy
-    0.01
+    The default:
+
+    >>> for name, value in vars(Settings.for_accuracy(2e-3)).items():
+    ...     print(f"{name} {value:g}")
+    accuracy 0.002
+    nodes_per_zone 4.8
+    fine_zones 5
+    growth_inside 0.065
+    growth_outside 0.08
+    reach 100
+    step_error 0.0015
+    force_change 0.05
+    travel 0.05
+    first_travel 0.0002
+    imbalance 3e-05
+    mode_tolerance 0.0001
+    most_steps 200000
     """
 
     accuracy: float
@@ -83,7 +104,13 @@ class Settings:
 
     @classmethod
     def for_accuracy(cls, accuracy: float) -> Settings:
-        """Return the settings that keep the pull-off force within this relative error."""
+        """Return the settings that keep the pull-off force within this relative error.
+
+        Raises
+        ------
+        InputError
+            If the accuracy is outside 1e-6 to 0.02.
+        """
         accuracy = card_of(Accuracy).checked("accuracy", accuracy)
         s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
         return cls(

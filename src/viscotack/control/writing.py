@@ -58,7 +58,7 @@ def c_header(table: ForceTable, name: str = "contact") -> str:
 
     Raises
     ------
-    ValueError
+    InputError
         If the prefix is no name in C.
     """
     return _filled("force_table.h", table, name, rows="{%s}", ends=("", ""))
@@ -67,7 +67,19 @@ def c_header(table: ForceTable, name: str = "contact") -> str:
 def octave_function(table: ForceTable, name: str = "contact") -> str:
     """Return a function of Octave and MATLAB: force, slope and pull-off force.
 
-    The file must have the name of the function, `name`.m; parameters as for `c_header`.
+    The file must have the name of the function, `name`.m.
+
+    Parameters
+    ----------
+    table : ForceTable
+        The contact.
+    name : str
+        Name of the function, a name in C of at most 31 characters.
+
+    Raises
+    ------
+    InputError
+        If `name` is not a name in C.
     """
     return _filled("force_table.m", table, name, rows="%s", ends=("; ...\n", " ...\n"))
 
@@ -90,7 +102,7 @@ def fmu(table: ForceTable, name: str = "contact", *, compiler: str | None = None
 
     Raises
     ------
-    ValueError
+    InputError
         If no compiler is found or it fails.
     """
     header = c_header(table, name)

@@ -43,6 +43,11 @@ METADATA_KEY = b"viscotack dataset"
 def path(name: str) -> Path:
     """Return the Parquet file of a set.
 
+    Parameters
+    ----------
+    name : str
+        One of ``datasets.NAMES``.
+
     Returns
     -------
     Path
@@ -50,9 +55,9 @@ def path(name: str) -> Path:
 
     Raises
     ------
-    ValueError
+    InputError
         If there is no set of that name.
-    ModuleNotFoundError
+    NotInstalled
         Without the distribution ``viscotack-data``, outside a checkout.
 
     Examples
@@ -67,10 +72,22 @@ def path(name: str) -> Path:
 def plan_path(name: str) -> Path:
     """Return the plan of a set, for ``viscotack campaign``.
 
+    Parameters
+    ----------
+    name : str
+        One of ``datasets.NAMES``.
+
     Returns
     -------
     Path
         Path of the TOML file.
+
+    Raises
+    ------
+    InputError
+        If there is no set of that name.
+    NotInstalled
+        Without the distribution ``viscotack-data``, outside a checkout.
 
     Examples
     --------
@@ -111,9 +128,9 @@ def load(name: str) -> Any:
 
     Raises
     ------
-    ValueError
+    InputError
         If there is no set of that name, or its file is not the one that was published.
-    ModuleNotFoundError
+    NotInstalled
         Without pyarrow; without the distribution ``viscotack-data``, outside a checkout.
 
     Examples
@@ -142,6 +159,13 @@ def metadata(name: str) -> dict[str, Any]:
     -------
     dict
         Units, errors, plan, licence and versions of the set.
+
+    Raises
+    ------
+    InputError
+        If there is no set of that name, or its file is not the one that was published.
+    NotInstalled
+        Without pyarrow; without the distribution ``viscotack-data``, outside a checkout.
 
     Examples
     --------

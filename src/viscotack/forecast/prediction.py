@@ -204,6 +204,11 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
     unit. Unknown values are None. `interval` belongs to the pull-off force, `work_interval` to the
     work to pull-off.
 
+    Parameters
+    ----------
+    prediction : Prediction
+        Answer of :func:`viscotack.predict`.
+
     Returns
     -------
     dict

@@ -32,7 +32,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
 
     Raises
     ------
-    ValueError
+    InputError
         If there are fewer than three rows, or the shifts have the wrong curvature; then fit
         Arrhenius, or a part of the table.
 
@@ -96,7 +96,7 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedS
 
     Raises
     ------
-    ValueError
+    InputError
         If there are fewer than two rows, or the shift rises with temperature.
 
     Examples
@@ -129,6 +129,14 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShi
     Schwarz's criterion decides between the three constants of WLF (including the zero) and the two
     of Arrhenius. A law is rejected if it deviates from a row by more than three standard deviations
     and by more than 0.1 decades.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        Temperatures [K] and log10 a_T, with or without their uncertainty; 0.01 decades of
+        scatter are added to it.
+    reference_temperature : float
+        T0 of the law [K], not necessarily a row.
 
     Returns
     -------

@@ -44,6 +44,11 @@ def write_passport(passport: Passport, path: Target) -> None:
     path : path or binary file
         Output file.
 
+    Raises
+    ------
+    NotWritten
+        If the file cannot be written; an existing file is then unchanged.
+
     Examples
     --------
     >>> from pathlib import Path

@@ -55,6 +55,11 @@ def PunchGroups(  # noqa: N802
     Groups
         With ``tabor=None``, a flat punch and a layer.
 
+    Raises
+    ------
+    InputError
+        If a number is out of range, or the parts do not fit together.
+
     Examples
     --------
     >>> import warnings

@@ -34,7 +34,7 @@ def to_dict(thing: Any) -> dict[str, Any]:
 
     Raises
     ------
-    ValueError
+    InputError
         If the object is not part of a problem.
 
     Examples
@@ -69,7 +69,7 @@ def from_dict(record: Any, also: Iterable[Any] = ()) -> Any:
 
     Raises
     ------
-    ValueError
+    InputError
         If the type is unknown, a field is missing or unknown, or a value is invalid.
 
     Examples
@@ -94,6 +94,11 @@ def run_id(case: Any) -> str:
     -------
     str
         Hexadecimal digits.
+
+    Raises
+    ------
+    InputError
+        If the object is not part of a problem.
 
     Examples
     --------

@@ -83,7 +83,7 @@ def cycles(result: Result) -> tuple[Cycle, ...]:
 
     Raises
     ------
-    ValueError
+    InputError
         If the run failed.
 
     Examples
@@ -152,6 +152,13 @@ def write_cycles(result: Result, path: Target) -> None:
         Result of a simulation.
     path : path or binary file
         Output file.
+
+    Raises
+    ------
+    InputError
+        If the run failed.
+    NotWritten
+        If the file cannot be written; an existing file is then unchanged.
 
     Examples
     --------

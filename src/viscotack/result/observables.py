@@ -62,9 +62,10 @@ def pull_off(result: Result) -> PullOff:
 
     Raises
     ------
-    ValueError
-        If the surfaces were never in contact, the force is nowhere tensile, or it has no minimum,
-        because it still decreases where the run ends without a jump, or was set by the machine.
+    InputError
+        If the run failed, the surfaces were never in contact, the force is nowhere tensile, or it
+        has no minimum, because it still decreases where the run ends without a jump, or was set by
+        the machine.
 
     Examples
     --------
@@ -99,7 +100,7 @@ def peaks(result: Result) -> tuple[PullOff, ...]:
 
     Raises
     ------
-    ValueError
+    InputError
         If the run failed, or the surfaces were never in contact.
 
     Examples
@@ -121,7 +122,7 @@ def other_peak(result: Result) -> PullOff:
 
     Raises
     ------
-    ValueError
+    InputError
         If there is no pull-off, or only one peak.
     """
     found = pull_off(result)
@@ -179,6 +180,11 @@ def pull_off_force(result: Result) -> float:
     float
         [1.5 pi R Delta-gamma_0], for a punch [sigma_0].
 
+    Raises
+    ------
+    InputError
+        If the result has no pull-off, as :func:`pull_off`.
+
     Examples
     --------
     >>> from viscotack import AtDepth, Groups, StandardSolid, solve
@@ -203,6 +209,11 @@ def depth_at_pull_off(result: Result) -> float:
     -------
     float
         [h_0].
+
+    Raises
+    ------
+    InputError
+        If the result has no pull-off, as :func:`pull_off`.
 
     Examples
     --------
@@ -231,6 +242,11 @@ def contact_radius_at_pull_off(result: Result) -> float:
     float
         [(pi R^2 Delta-gamma_0/E_0*)^(1/3)], for a punch [a_0].
 
+    Raises
+    ------
+    InputError
+        If the result has no pull-off, as :func:`pull_off`.
+
     Examples
     --------
     >>> from viscotack import AtDepth, Groups, StandardSolid, solve
@@ -250,7 +266,7 @@ def inner_radius_at_pull_off(result: Result) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If the shape has a single edge.
     """
     return float(_parts(result, "inner_radius")[_step_at(result, pull_off(result))])
@@ -283,6 +299,11 @@ def crack_speed_at_pull_off(result: Result) -> float:
     -------
     float
         Positive while the contact shrinks.
+
+    Raises
+    ------
+    InputError
+        If the result has no pull-off, as :func:`pull_off`.
 
     Examples
     --------
@@ -317,7 +338,7 @@ def work_to_pull_off(result: Result) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If there is no pull-off, or the work is not determined: the retraction begins next to the
         force minimum, so that the stated error is half of the work or more; or two peaks of the
         force are equal within its stated error, each with its own work.
@@ -429,7 +450,7 @@ def work_of_separation(result: Result) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If the run did not end in separation.
 
     Examples
@@ -467,7 +488,7 @@ def pull_off_stress(result: Result) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If the result is not that of a punch; use the pull-off force for other indenters.
 
     Examples
@@ -501,6 +522,11 @@ def ligament_at_pull_off(result: Result) -> float:
     -------
     float
         In [0, 1].
+
+    Raises
+    ------
+    InputError
+        If the result is not that of a punch, or has no pull-off, as :func:`pull_off`.
 
     Examples
     --------
@@ -545,7 +571,7 @@ def effective_surface_energy(result: Result) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If the body is not a layer, or a bonded one with a Poisson ratio of 0.5.
 
     Examples
@@ -563,11 +589,6 @@ def effective_surface_energy(result: Result) -> float:
     groups = _punch(result)
     if not isinstance(groups.body, Layer):
         raise InputError(f"the thin-layer formula needs a layer, got a {groups.body.word}")
-    if groups.body.base.foundation == 0:
-        raise InputError(
-            "the thin-layer formula does not apply to a bonded layer with a Poisson ratio of 0.5, "
-            "which stretches only by sideways flow"
-        )
     # in units of sigma_0 and a_0, E_0* times Delta-gamma_0 is 2/pi
     energy = thin_layer_surface_energy(
         pull_off(result).force,
@@ -654,7 +675,7 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
 
     Raises
     ------
-    ValueError
+    InputError
         If an additional observable fails.
 
     Examples

@@ -433,6 +433,11 @@ def write_csv(result: Result, path: Target) -> None:
     path : path or binary file
         Output file.
 
+    Raises
+    ------
+    NotWritten
+        If the file cannot be written; an existing file is then unchanged.
+
     Examples
     --------
     >>> from viscotack import AtDepth, Groups, StandardSolid, solve
@@ -464,6 +469,11 @@ def save(result: Result, path: Target) -> None:
         Result to write.
     path : path or binary file
         Output file.
+
+    Raises
+    ------
+    NotWritten
+        If the file cannot be written; an existing file is then unchanged.
 
     Examples
     --------

@@ -6,7 +6,7 @@ contact modulus E* = E / (1 - nu^2). The flat punch of ``punch`` is on a layer, 
 with stress positive in tension. The varying quantity is the first argument and may be an array,
 followed by an object if there is one (``CrackLaw``, ``punch.Pad``); the parameters are
 keywords, and arrays of them broadcast. A scalar gives a float. A value outside the domain of a
-formula, in any element, raises ``ValueError``.
+formula, in any element, raises ``InputError``, which is a ``ValueError``.
 
 Four rooms, each of which imports only itself and earlier ones: ``elastic``, ``crack``, ``sphere``,
 ``punch``. The modules of the first three are also available directly, as ``theory.jkr``.

@@ -42,6 +42,20 @@ def slow_amplification(speed: Values, *, modulus_ratio: Values, exponent: Values
 
     Range: exact for :math:`\hat v \to 0`; the next term is of the order :math:`\hat v^3`.
 
+    Parameters
+    ----------
+    speed : array_like
+        Dimensionless speed :math:`\hat v`, not negative.
+    modulus_ratio : array_like
+        k, above 0 and at most 1.
+    exponent : array_like
+        Exponent n of the retardation power law, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> f"{slow_amplification(0.01, modulus_ratio=0.1, exponent=0.6):.4f}"
@@ -60,6 +74,16 @@ def intermediate_exponent(exponent: Values) -> Number:
     A finite modulus ratio keeps the slope below it, see :func:`steepest`; the limit is approached
     slowly, at n = 1 logarithmically.
 
+    Parameters
+    ----------
+    exponent : array_like
+        Exponent n of the retardation power law, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{intermediate_exponent(0.6):.3f}"
@@ -70,7 +94,19 @@ def intermediate_exponent(exponent: Values) -> Number:
 
 
 def local_exponent(speed: Values, *, material: _crack.Material) -> Number:
-    r"""Return :math:`d \ln \Gamma / d \ln \hat v` at positive dimensionless speeds.
+    r"""Return :math:`d \ln \Gamma / d \ln \hat v` at dimensionless speeds.
+
+    Parameters
+    ----------
+    speed : array_like
+        Dimensionless speed :math:`\hat v`, positive.
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`.
+
+    Raises
+    ------
+    InputError
+        If a speed is not positive and finite.
 
     Examples
     --------
@@ -94,6 +130,11 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
 
     The tangent in logarithms at the speed where the local exponent is largest.
 
+    Parameters
+    ----------
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`, not elastic.
+
     Returns
     -------
     PowerLaw
@@ -101,7 +142,7 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
 
     Raises
     ------
-    ValueError
+    InputError
         If the solid is elastic.
 
     Examples

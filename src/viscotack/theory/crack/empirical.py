@@ -26,6 +26,18 @@ def gent_schultz(speed: Values, *, reference_speed: Values, exponent: Values) ->
 
     .. math:: \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = 1 + \left( \frac{v}{v_0} \right)^\xi
 
+    Parameters
+    ----------
+    speed : array_like
+        Crack speed v [m/s], not negative.
+    reference_speed, exponent : array_like
+        :math:`v_0` [m/s] and :math:`\xi`; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     The silicone of the thesis, at 100 um/s:
@@ -41,7 +53,19 @@ def gent_schultz(speed: Values, *, reference_speed: Values, exponent: Values) ->
 def gent_schultz_speed(
     amplification: Values, *, reference_speed: Values, exponent: Values
 ) -> Number:
-    """Return the crack speed [m/s] of an amplification of at least 1.
+    r"""Return the crack speed [m/s] of an amplification, the inverse of :func:`gent_schultz`.
+
+    Parameters
+    ----------
+    amplification : array_like
+        Effective over intrinsic surface energy, at least 1.
+    reference_speed, exponent : array_like
+        :math:`v_0` [m/s] and :math:`\xi`; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -66,11 +90,16 @@ def gent_schultz_reference_speed(*, coefficient: Values, shift: Values, exponent
     Parameters
     ----------
     coefficient : float
-        :math:`k_{GS}` [(s/m)^n].
+        :math:`k_{GS}` [(s/m)^n], positive.
     shift : float
-        :math:`a_{GS}`, shift factor of temperature, see :func:`wlf_shift`.
+        :math:`a_{GS}`, shift factor of temperature, see :func:`wlf_shift`; positive.
     exponent : float
-        n.
+        n, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -89,10 +118,21 @@ def process_zone_correction(
 
     .. math:: 1 + (v/v_1)^{1/2}, \quad v_1 = 10^4 \, \mathrm{um/s}
 
-    It multiplies the amplification of the bulk. The default values of v1 (``reference_speed``
-    [m/s]) and of the power (``exponent``) are the fit to one
-    silicone (10:1, against glass, crack speeds from some um/s to 1e4 um/s); other interfaces
-    need their own values.
+    It multiplies the amplification of the bulk. The default values of v1 and of the power are the
+    fit to one silicone (10:1, against glass, crack speeds from some um/s to 1e4 um/s); other
+    interfaces need their own values.
+
+    Parameters
+    ----------
+    speed : array_like
+        Crack speed v [m/s], not negative.
+    reference_speed, exponent : array_like
+        v1 [m/s] and the power; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -107,15 +147,21 @@ def wlf_shift(temperature: Values, *, glass_transition: Values) -> Number:
 
     .. math:: \log_{10} a_T = \frac{-17.44 (T - T_g)}{51.6 + T - T_g} \quad \text{(Eq. 4.25)}
 
-    Range: as for :class:`viscotack.materials.shift.WLF`, above the pole 51.6 K below the
-    glass transition. The constants are averages from the transition to about 100 K
-    above it; below it a glass need not follow them. The shift between two temperatures is a
-    quotient.
+    The law has a pole 51.6 K below the glass transition. The constants are averages from the
+    transition to about 100 K above it; below it a glass need not follow them. The shift between two
+    temperatures is a quotient.
+
+    Parameters
+    ----------
+    temperature : array_like
+        T [K], at most 48.6 K below `glass_transition`.
+    glass_transition : array_like
+        Tg [K], positive.
 
     Raises
     ------
-    ValueError
-        If a temperature is at or below the pole.
+    InputError
+        If a temperature is not positive and finite, or more than 48.6 K below the transition.
 
     Examples
     --------

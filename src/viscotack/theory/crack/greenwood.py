@@ -11,8 +11,7 @@ with the retardation modes of any solid :math:`1/\Gamma = c_\infty + \sum_j w_j
 g(l \Gamma / v \tau_j)`, because creep adds up. Speeds are dimensionless,
 :math:`\hat v = v \tau_0 / l` with the material's ``time_unit`` (a retardation time) for tau_0
 and :func:`cohesive_zone_length` for l: multiply by l/tau_0 for m/s. Range: steady opening crack
-in a half-space much larger than l Gamma, linear viscoelastic solid. ``material`` is any of
-:mod:`viscotack.materials`.
+in a half-space much larger than l Gamma, linear viscoelastic solid.
 
 Source: Greenwood (2004), J. Phys. D 37, 2557 (no DOI known to this package), in the form of
 Maghami, PhD thesis (2025), chapter 3, published as doi:10.1016/j.engfracmech.2024.109898.
@@ -32,12 +31,24 @@ from . import _crack
 
 
 def amplification(speed: Values, *, material: _crack.Material) -> Number:
-    r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
+    r"""Return effective over rubbery surface energy at a dimensionless speed.
 
     The speed is :math:`v \tau_0 / l`, with the time unit tau_0 of the material. Eq. 3.32,
     after Greenwood (2004), for a steady opening crack; see the module.
 
     Relative error 1e-12 or better; 1e5 speeds take a fraction of a second.
+
+    Parameters
+    ----------
+    speed : array_like
+        Dimensionless speed, not negative.
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`.
+
+    Raises
+    ------
+    InputError
+        If a speed is negative or not finite.
 
     Examples
     --------
@@ -54,7 +65,17 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
 def speed(amplification: Values, *, material: _crack.Material) -> Number:
     r"""Return the dimensionless speed at which an amplification is reached.
 
-    The amplification must be at least 1 and less than the ratio of glassy to rubbery modulus.
+    Parameters
+    ----------
+    amplification : array_like
+        Effective over rubbery surface energy, at least 1 and below glassy over rubbery modulus.
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`.
+
+    Raises
+    ------
+    InputError
+        If an amplification is outside its range.
 
     Examples
     --------
@@ -78,11 +99,16 @@ def cohesive_zone_length(
     Parameters
     ----------
     contact_modulus : float
-        Rubbery E0* [Pa].
+        Rubbery E0* [Pa], positive.
     work_of_adhesion : float
-        :math:`\Delta\gamma_0` [J/m^2].
+        :math:`\Delta\gamma_0` [J/m^2], positive.
     strength : float
-        Traction in the zone :math:`\sigma_0` [Pa].
+        Traction in the zone :math:`\sigma_0` [Pa], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Notes
     -----
@@ -114,6 +140,11 @@ def zone_response(ratio: Values) -> Number:
     ----------
     ratio : array_like
         :math:`\alpha = l \Gamma / (v \tau)`, not negative.
+
+    Raises
+    ------
+    InputError
+        If a ratio is negative or not finite.
 
     Examples
     --------

@@ -12,7 +12,7 @@ With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
 :math:`\hat v = v \tau_0 / l_0` with the material's ``time_unit`` for tau_0 and
 :func:`crack_tip_length` for l_0: multiply by l_0/tau_0 for m/s. Range: steady opening crack in a
 half-space much larger than l_0 Gamma, linear viscoelastic solid. Gamma rises from 1 at zero speed
-to glassy over rubbery modulus. ``material`` is any of :mod:`viscotack.materials`.
+to glassy over rubbery modulus.
 
 Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, in the form of Maghami, PhD
 thesis (2025), chapter 4, published as doi:10.1016/j.jmps.2024.105844.
@@ -30,7 +30,7 @@ from . import _crack
 
 
 def amplification(speed: Values, *, material: _crack.Material) -> Number:
-    r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
+    r"""Return effective over rubbery surface energy at a dimensionless speed.
 
     The speed is :math:`v \tau_0 / l_0`, with the time unit tau_0 of the material. Eq. 4.17 and
     4.18, after Persson and Brener (2005), for a steady opening crack; see the module.
@@ -38,6 +38,18 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
     Relative error 1e-12 or better if the modes represent the creep to 1e-14 k, as for power laws;
     for a fractional solid 1e-11 for k down to 1e-6 and orders up to 0.95. 1e5 speeds take a
     fraction of a second.
+
+    Parameters
+    ----------
+    speed : array_like
+        Dimensionless speed, not negative.
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`.
+
+    Raises
+    ------
+    InputError
+        If a speed is negative or not finite.
 
     Examples
     --------
@@ -54,7 +66,17 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
 def speed(amplification: Values, *, material: _crack.Material) -> Number:
     r"""Return the dimensionless speed at which an amplification is reached.
 
-    The amplification must be at least 1 and below glassy over rubbery modulus.
+    Parameters
+    ----------
+    amplification : array_like
+        Effective over rubbery surface energy, at least 1 and below glassy over rubbery modulus.
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`.
+
+    Raises
+    ------
+    InputError
+        If an amplification is outside its range.
 
     Examples
     --------
@@ -78,15 +100,20 @@ def crack_tip_length(
     Parameters
     ----------
     contact_modulus : float
-        Rubbery E0* [Pa], against a rigid body.
+        Rubbery E0* [Pa], against a rigid body; positive.
     work_of_adhesion : float
-        :math:`\Delta\gamma_0` [J/m^2].
+        :math:`\Delta\gamma_0` [J/m^2], positive.
     strength : float
-        Peak traction :math:`\sigma_0` [Pa].
+        Peak traction :math:`\sigma_0` [Pa], positive.
     strength_ratio : float
-        :math:`\alpha = \sigma_c / \sigma_0`: pi/9 was fitted to simulations of a sphere with
-        the Lennard-Jones traction (chapter 4), sqrt(2)/pi makes l0 the fracture length a0 of
-        Eq. 3.3 (appendix II).
+        :math:`\alpha = \sigma_c / \sigma_0`, positive: pi/9 was fitted to simulations of a
+        sphere with the Lennard-Jones traction (chapter 4), sqrt(2)/pi makes l0 the fracture length
+        a0 of Eq. 3.3 (appendix II).
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Notes
     -----

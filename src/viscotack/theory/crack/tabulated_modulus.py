@@ -77,7 +77,7 @@ class TabulatedModulus:
 
     Raises
     ------
-    ValueError
+    InputError
         If frequencies do not ascend or leave a gap, or the moduli are invalid.
 
     Examples
@@ -141,12 +141,20 @@ def amplification(speed: Values, *, modulus: TabulatedModulus) -> Interval:
     The bounds cover the unknown modulus below the table, but not the scatter of the measurement
     nor the error of the power laws between rows, which decreases with the square of the row
     spacing: for n = 0.6 and k = 0.1, near the glassy range, 3 % at 4 rows per decade, 0.8 % at 8
-    and 0.2 % at 16. ``l0`` is :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
+    and 0.2 % at 16.
+
+    Parameters
+    ----------
+    speed : array_like
+        v/l0 [1/s] with ``l0`` of
+        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`, in :func:`speed_range`.
+    modulus : TabulatedModulus
+        Table of the complex modulus.
 
     Raises
     ------
-    ValueError
-        If a speed is outside :func:`speed_range`, because the table is too narrow.
+    InputError
+        If a speed is outside its range, because the table is too narrow.
 
     Examples
     --------
@@ -168,6 +176,11 @@ def amplification(speed: Values, *, modulus: TabulatedModulus) -> Interval:
 
 def speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
     """Return the slowest and the fastest speed v/l0 [1/s] whose cut-off lies in the table.
+
+    Parameters
+    ----------
+    modulus : TabulatedModulus
+        Table of the complex modulus.
 
     Examples
     --------
@@ -196,12 +209,19 @@ def greenwood_amplification(speed: Values, *, modulus: TabulatedModulus) -> Inte
     measurement nor the error of the power laws between rows: for n = 0.6 and k = 0.1, near
     the glassy range, 4 % at 4 rows per decade, 1 % at 8 and 0.2 % at 16. Two decades below the
     fastest speed of a table the bounds differ by some per cent, at its end by a factor of two.
-    ``l`` is :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`.
+
+    Parameters
+    ----------
+    speed : array_like
+        v/l [1/s] with ``l`` of :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`,
+        in :func:`greenwood_speed_range`.
+    modulus : TabulatedModulus
+        Table of the complex modulus.
 
     Raises
     ------
-    ValueError
-        If a speed is outside :func:`greenwood_speed_range`, because the table is too narrow.
+    InputError
+        If a speed is outside its range, because the table is too narrow.
 
     Examples
     --------
@@ -226,6 +246,11 @@ def greenwood_speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
     r"""Return the slowest and the fastest v/l [1/s] whose zone passage is covered by the table.
 
     There :math:`v/(l \Gamma)` lies between the first and the last frequency, for both bounds.
+
+    Parameters
+    ----------
+    modulus : TabulatedModulus
+        Table of the complex modulus.
 
     Examples
     --------

@@ -41,6 +41,16 @@ def hertz_load(tabor: Values) -> Number:
 
     The value ranges from 40 (DMT) to 2520 (JKR).
 
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, from 0.001 to 1000.
+
+    Raises
+    ------
+    InputError
+        If the Tabor number is outside its range.
+
     Examples
     --------
     >>> f"{hertz_load(1.0):.0f}"
@@ -61,6 +71,16 @@ def jkr_load(tabor: Values) -> Number:
     The adhesive lift there is 20 h0. Equal to minus the pull-off force if the lift is larger along
     the whole stable curve; never above :func:`hertz_load`.
 
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, from 0.001 to 1000.
+
+    Raises
+    ------
+    InputError
+        If the Tabor number is outside its range.
+
     Examples
     --------
     >>> f"{jkr_load(5.0):.1f}"
@@ -75,6 +95,16 @@ def dmt_load(tabor: Values) -> Number:
     The adhesive lift there is h0/20. Equal to minus the pull-off force if the lift is larger along
     the whole stable curve, so that DMT holds nowhere; never above :func:`hertz_load`.
 
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, from 0.001 to 1000.
+
+    Raises
+    ------
+    InputError
+        If the Tabor number is outside its range.
+
     Examples
     --------
     >>> f"{dmt_load(0.01):.1f}"
@@ -87,6 +117,16 @@ def rigid_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which the sphere is effectively rigid.
 
     .. math:: \frac{P}{\pi R \Delta\gamma_0} = \frac{4}{3 \pi} (0.05/\mu)^{3/2} - 2
+
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -105,14 +145,20 @@ def regime(
     work_of_adhesion: float,
     equilibrium_gap: float,
 ) -> str:
-    """Return "hertz", "jkr", "maugis", "dmt" or "rigid" at a force [N], positive in compression.
+    r"""Return "hertz", "jkr", "maugis", "dmt" or "rigid" at a force [N].
 
-    A tension above the pull-off force counts as pull-off.
+    Parameters
+    ----------
+    force : float
+        Force [N], compression positive; a tension above the pull-off force counts as pull-off.
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : float
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0 [m]; positive, with
+        a Tabor number from 0.001 to 1000.
 
     Raises
     ------
-    ValueError
-        If the force is not finite, or the Tabor number is outside the range of the map.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

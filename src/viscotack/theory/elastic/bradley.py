@@ -1,10 +1,9 @@
 r"""Bradley: a rigid sphere and a rigid plane that attract by the Lennard-Jones 3-9 traction.
 
-Parameters: ``radius`` R of the sphere [m], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2],
-``equilibrium_gap`` h0 [m], at which the traction of parallel planes vanishes (Eq. 2.1). The depth
-:math:`\delta` is zero where the smallest gap is h0, so that the
-gap is :math:`h_0 - \delta + r^2/2R` and the depth is below h0. Range: h0 small compared with R,
-Tabor number tending to zero. For a deformable solid use :mod:`viscotack.theory.elastic.maugis`.
+The traction of parallel planes vanishes at the equilibrium gap h0 (Eq. 2.1). The depth
+:math:`\delta` is zero where the smallest gap is h0, so the gap is
+:math:`h_0 - \delta + r^2/2R`. Range: h0 small compared with R, Tabor number tending to zero. For a
+deformable solid use :mod:`viscotack.theory.elastic.maugis`.
 
 Source: Bradley (1932), Philosophical Magazine 13, 853 (no DOI known to this package), with the 3-9
 traction of Eq. 2.1, that of Greenwood (1997), doi:10.1098/rspa.1997.0070.
@@ -21,17 +20,24 @@ from viscotack.theory._checks import Number, Values, plain, positive
 def force(
     depth: Values, *, radius: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
-    r"""Return the force [N], positive in compression, at a depth [m] below h0.
+    r"""Return the force [N], positive in compression, at a depth [m].
 
     With the nearest gap :math:`h = h_0 - \delta`,
 
     .. math:: P = -2 \pi R \Delta\gamma_0
               \left[ \tfrac43 (h_0/h)^2 - \tfrac13 (h_0/h)^8 \right]
 
+    Parameters
+    ----------
+    depth : array_like
+        Depth [m], below h0; zero where the smallest gap is h0.
+    radius, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], :math:`\Delta\gamma_0` [J/m^2] and h0 [m]; positive.
+
     Raises
     ------
-    ValueError
-        If the depth is not finite, or not below the equilibrium gap.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -57,6 +63,16 @@ def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
 
     It occurs at zero depth and depends only on radius and work of adhesion.
 
+    Parameters
+    ----------
+    radius, work_of_adhesion : array_like
+        R of the sphere [m] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{pull_off_force(radius=1e-6, work_of_adhesion=0.05) * 1e9:.1f} nN"
@@ -74,6 +90,16 @@ def work_to_pull_off(
     .. math:: W = 2 \pi R \Delta\gamma_0 h_0
               \left( \tfrac{8}{7} 2^{1/3} - \tfrac{9}{7} \right)
               = 0.20559398\ldots \times \tfrac32 \pi R \Delta\gamma_0 h_0
+
+    Parameters
+    ----------
+    radius, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], :math:`\Delta\gamma_0` [J/m^2] and h0 [m]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------

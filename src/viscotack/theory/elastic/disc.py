@@ -30,6 +30,16 @@ _HALF_SPACE = HalfSpace()
 def strength_limit(*, contact_radius: Values, strength: Values) -> Number:
     r"""Return the force [N] at which a small disc detaches everywhere, a positive number.
 
+    Parameters
+    ----------
+    contact_radius, strength : array_like
+        Radius of the disc a [m] and :math:`\sigma_0` [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{strength_limit(contact_radius=1e-6, strength=50e3) * 1e9:.1f} nN"
@@ -43,6 +53,16 @@ def crossover_radius(
     *, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the radius [m] at which Kendall's force is that of the strength.
+
+    Parameters
+    ----------
+    contact_modulus, work_of_adhesion, strength : array_like
+        E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -79,6 +99,12 @@ def energy_release_rate(
     -------
     float or ndarray
         Energy per area of opened contact [J/m^2], not negative.
+
+    Raises
+    ------
+    InputError
+        If radius or modulus is not positive and finite, or the radius exceeds 100 thicknesses
+        of the layer.
 
     Examples
     --------
@@ -120,6 +146,12 @@ def pull_off_force(
         Largest tension of the interface [Pa]; left out, it is Kendall's force.
     body : Body
         Elastic body, by default the half-space.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite, or the disc is wider than 100 thicknesses of the
+        layer.
 
     Examples
     --------

@@ -1,10 +1,7 @@
 r"""DMT in the form of Maugis (DMT-M): Hertz plus the rigid sphere's constant attraction.
 
-Parameters: ``contact_radius`` a [m], ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa],
-``work_of_adhesion``
-:math:`\Delta\gamma_0` [J/m^2]. Range: small Tabor number, attraction of long range compared with
-the elastic deformation it causes, contact radius not negative. For intermediate and short range
-use :mod:`viscotack.theory.elastic.maugis`; for rigid bodies
+Range: small Tabor number, attraction of long range compared with the elastic deformation it causes.
+For intermediate and short range use :mod:`viscotack.theory.elastic.maugis`; for rigid bodies
 :mod:`viscotack.theory.elastic.bradley`.
 
 Source: Derjaguin, Muller & Toporov (1975), doi:10.1016/0021-9797(75)90018-1; in this form
@@ -27,6 +24,18 @@ def force(
 
     .. math:: P = \frac{4 E^* a^3}{3 R} - 2 \pi R \Delta\gamma_0
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> P = force(1e-6, radius=1e-5, contact_modulus=1e9, work_of_adhesion=0.05)
@@ -40,6 +49,18 @@ def force(
 def depth(contact_radius: Values, *, radius: Values) -> Number:
     r"""Return the depth [m] at a contact radius [m], :math:`a^2/R` as for Hertz (Eq. 2.13).
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    radius : array_like
+        R of the sphere [m], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> f"{depth(1e-6, radius=1e-5) * 1e9:.0f} nm"
@@ -49,7 +70,19 @@ def depth(contact_radius: Values, *, radius: Values) -> Number:
 
 
 def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
-    r"""Return the contact radius [m] at a depth [m] that is not negative, :math:`\sqrt{R\delta}`.
+    r"""Return the contact radius [m] at a depth [m], :math:`\sqrt{R\delta}`.
+
+    Parameters
+    ----------
+    depth : array_like
+        Depth [m], not negative.
+    radius : array_like
+        R of the sphere [m], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -62,9 +95,21 @@ def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
 def contact_radius_at_force(
     force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the contact radius [m] under a force [N], at least minus the pull-off force.
+    r"""Return the contact radius [m] under a force [N].
 
     .. math:: a = \left[ \frac{3 R}{4 E^*} (P + 2 \pi R \Delta\gamma_0) \right]^{1/3}
+
+    Parameters
+    ----------
+    force : array_like
+        Force [N], compression positive, not below minus :func:`pull_off_force`.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -83,6 +128,16 @@ def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
 
     It is reached at zero contact radius and zero depth.
 
+    Parameters
+    ----------
+    radius, work_of_adhesion : array_like
+        R of the sphere [m] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{pull_off_force(radius=1e-5, work_of_adhesion=0.05) * 1e6:.2f} uN"
@@ -99,6 +154,16 @@ def work_to_pull_off(
 
     .. math:: W = \tfrac65 \left(\tfrac32\right)^{2/3} \pi R \Delta\gamma_0
               \left( \frac{\pi^2 \Delta\gamma_0^2 R}{E^{*2}} \right)^{1/3}
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------

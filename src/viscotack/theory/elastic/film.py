@@ -69,7 +69,7 @@ def pull_off(
 
     Raises
     ------
-    ValueError
+    InputError
         If a number is not positive.
 
     Examples
@@ -112,6 +112,11 @@ def instability(
     Point
         Contact radius [m], depth [m] and force [N].
 
+    Raises
+    ------
+    InputError
+        If a number is not positive, or the shape is a disc.
+
     Examples
     --------
     >>> from viscotack.geometry import Bonded, Sphere
@@ -142,6 +147,11 @@ def work_to_pull_off(
     -------
     float
         Work [J], by splines through 200 contacts, to five digits.
+
+    Raises
+    ------
+    InputError
+        If a number is not positive, or the shape is a disc.
 
     Examples
     --------
@@ -184,6 +194,11 @@ def thin_limit(*, radius: Values, work_of_adhesion: Values, base: Base) -> Numbe
         R [m] and :math:`\Delta\gamma_0` [J/m^2], positive.
     base : Frictionless or Bonded
         How the layer rests on the rigid body below.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -228,7 +243,7 @@ def half_space_thickness(
 
     Raises
     ------
-    ValueError
+    InputError
         If the tolerance is out of range or a number not positive.
 
     Examples

@@ -1,7 +1,5 @@
 r"""Hertz: a rigid sphere pressed into an elastic half-space without adhesion.
 
-Parameters: ``contact_radius`` a [m], ``position`` r from the axis [m], ``radius`` R of the
-sphere [m], ``contact_modulus`` E* [Pa].
 Range: contact radius small compared with R (parabolic profile), no adhesion. With short-range
 adhesion use :mod:`viscotack.theory.elastic.jkr`, with long-range adhesion
 :mod:`viscotack.theory.elastic.dmt`.
@@ -24,6 +22,18 @@ def force(contact_radius: Values, *, radius: Values, contact_modulus: Values) ->
 
     .. math:: P = \frac{4 E^* a^3}{3 R}
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    radius, contact_modulus : array_like
+        R of the sphere [m] and E* [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> f"{force(1e-4, radius=1e-3, contact_modulus=1e6) * 1e3:.3f} mN"
@@ -37,6 +47,18 @@ def force(contact_radius: Values, *, radius: Values, contact_modulus: Values) ->
 def depth(contact_radius: Values, *, radius: Values) -> Number:
     r"""Return the depth [m] at a contact radius [m], :math:`\delta = a^2 / R`.
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    radius : array_like
+        R of the sphere [m], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> f"{depth(1e-4, radius=1e-3) * 1e6:.1f} um"
@@ -48,7 +70,19 @@ def depth(contact_radius: Values, *, radius: Values) -> Number:
 
 
 def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
-    r"""Return the contact radius [m] at a depth [m] that is not negative, :math:`\sqrt{R \delta}`.
+    r"""Return the contact radius [m] at a depth [m], :math:`\sqrt{R \delta}`.
+
+    Parameters
+    ----------
+    depth : array_like
+        Depth [m], not negative.
+    radius : array_like
+        R of the sphere [m], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -61,9 +95,21 @@ def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
 
 
 def contact_radius_at_force(force: Values, *, radius: Values, contact_modulus: Values) -> Number:
-    r"""Return the contact radius [m] under a non-negative force [N].
+    r"""Return the contact radius [m] under a force [N].
 
     .. math:: a = \left( \frac{3 P R}{4 E^*} \right)^{1/3}
+
+    Parameters
+    ----------
+    force : array_like
+        Force [N], compression positive; not negative.
+    radius, contact_modulus : array_like
+        R of the sphere [m] and E* [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -78,9 +124,23 @@ def contact_radius_at_force(force: Values, *, radius: Values, contact_modulus: V
 def pressure(
     position: Values, *, contact_radius: Values, radius: Values, contact_modulus: Values
 ) -> Number:
-    r"""Return the pressure [Pa] at a distance ``position`` from the axis [m]; zero outside.
+    r"""Return the pressure [Pa], positive in compression; zero outside the contact.
 
     .. math:: p(r) = \frac{2 E^*}{\pi R} \sqrt{a^2 - r^2}
+
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        a [m], not negative.
+    radius, contact_modulus : array_like
+        R of the sphere [m] and E* [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -100,6 +160,20 @@ def surface_displacement(position: Values, *, contact_radius: Values, radius: Va
 
     .. math:: u = \frac{1}{\pi R} \left[ (2 a^2 - r^2) \arcsin\frac{a}{r}
               + a \sqrt{r^2 - a^2} \right]
+
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        a [m], not negative.
+    radius : array_like
+        R of the sphere [m], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -125,6 +199,20 @@ def gap(position: Values, *, contact_radius: Values, radius: Values) -> Number:
     .. math:: g = \frac{r^2}{2 \pi R} \left( \sin 2\varphi - 2 \varphi \cos 2\varphi \right),
 
     which is accurate next to the edge, where the gap grows as :math:`(r - a)^{3/2}`.
+
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        a [m], not negative.
+    radius : array_like
+        R of the sphere [m], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

@@ -49,6 +49,13 @@ def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE
     float or ndarray
         Depth [m], positive into the body.
 
+    Raises
+    ------
+    InputError
+        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
+        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
+        Poisson ratio between 0.49 and 0.5.
+
     Examples
     --------
     >>> from viscotack.geometry import Sphere
@@ -78,9 +85,9 @@ def depth(
     shape : Shape
         Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
     contact_modulus : float
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], not negative.
     body : Body
         Elastic body, by default the half-space.
 
@@ -88,6 +95,13 @@ def depth(
     -------
     float or ndarray
         Depth [m], positive into the body.
+
+    Raises
+    ------
+    InputError
+        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
+        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
+        Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -123,9 +137,9 @@ def drawn(
     shape : Shape
         Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
     contact_modulus : float
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], not negative.
     body : Body
         Elastic body, by default the half-space.
 
@@ -133,6 +147,13 @@ def drawn(
     -------
     float or ndarray
         Depth without adhesion minus depth with adhesion [m], not negative.
+
+    Raises
+    ------
+    InputError
+        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
+        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
+        Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -164,9 +185,9 @@ def force(
     shape : Shape
         Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
     contact_modulus : float
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], not negative.
     body : Body
         Elastic body, by default the half-space.
 
@@ -174,6 +195,13 @@ def force(
     -------
     float or ndarray
         Force [N], negative in tension.
+
+    Raises
+    ------
+    InputError
+        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
+        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
+        Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -214,6 +242,12 @@ def stiffness(
     float or ndarray
         Stiffness [N/m].
 
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite, or the radius exceeds 100 thicknesses of a bonded
+        layer with a Poisson ratio between 0.49 and 0.5.
+
     Examples
     --------
     >>> from viscotack.geometry import Bonded
@@ -246,15 +280,15 @@ def gap(
     Parameters
     ----------
     position : float or array_like
-        Distance r from the axis [m].
+        Distance r from the axis [m], not negative.
     contact_radius : float
         Contact radius a [m], positive.
     shape : Shape
         Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
     contact_modulus : float
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], not negative.
     body : Body
         Elastic body, by default the half-space.
 
@@ -262,6 +296,13 @@ def gap(
     -------
     ndarray
         Gap [m], not negative.
+
+    Raises
+    ------
+    InputError
+        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
+        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
+        Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------

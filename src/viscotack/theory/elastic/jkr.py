@@ -1,14 +1,14 @@
 r"""JKR: a rigid sphere on an elastic half-space with adhesion of vanishing range.
 
-Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa],
-``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], all positive. Range: large Tabor number,
-elastic solid; for a viscoelastic solid this is the infinitely slow limit. For a finite range
-use :mod:`viscotack.theory.elastic.maugis`, without adhesion :mod:`viscotack.theory.elastic.hertz`.
+Range: large Tabor number, elastic solid; for a viscoelastic solid this is the infinitely slow
+limit. For a finite range use :mod:`viscotack.theory.elastic.maugis`, without adhesion
+:mod:`viscotack.theory.elastic.hertz`.
 
 Along the equilibrium curve the contact radius decreases from the loaded state through the force
 minimum (:func:`pull_off`, where a dead load detaches) to the depth minimum
 (:func:`instability`, where a rigid drive detaches) and further to zero on an unstable
-branch. Formulas use, with Eq. 4.16,
+branch. With the radius R of the sphere, the contact modulus E* and the work of adhesion
+:math:`\Delta\gamma_0`, formulas use (Eq. 4.16)
 
 .. math:: \hat a = \frac{a}{(\pi R^2 \Delta\gamma_0 / E^*)^{1/3}}, \quad
           \hat\delta = \frac{\delta}{(\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}}, \quad
@@ -16,8 +16,7 @@ branch. Formulas use, with Eq. 4.16,
 
 A JKR contact is a Hertz contact of the same radius superposed with a flat punch displaced by
 :math:`\delta_1 = \sqrt{2 \pi a \Delta\gamma_0 / E^*}`; this gives the pressure, displacement and
-gap of its surface. There ``position`` is the distance r from the axis [m], ``contact_radius`` the
-radius a [m] of an equilibrium state.
+gap of its surface.
 
 Source: Johnson, Kendall & Roberts (1971), doi:10.1098/rspa.1971.0141; Eq. 2.3 and 2.4.
 """
@@ -43,7 +42,7 @@ _NO_FORCE = "a stronger pull detaches, see pull_off_force"
 
 
 class Point(NamedTuple):
-    """A point of the equilibrium curve: contact radius [m], depth [m], force [N].
+    """A point of the equilibrium curve: ``contact_radius`` [m], ``depth`` [m], ``force`` [N].
 
     Returned by :func:`pull_off` and :func:`instability`.
     """
@@ -59,6 +58,18 @@ def force(
     r"""Return the force [N], positive in compression, at a contact radius [m] (Eq. 2.3).
 
     .. math:: P = \frac{4 E^* a^3}{3 R} - \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
+
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -80,6 +91,18 @@ def depth(
 
     .. math:: \delta = \frac{a^2}{R} - \sqrt{\frac{2 \pi a \Delta\gamma_0}{E^*}}
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> d = depth(1e-4, radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
@@ -98,8 +121,19 @@ def contact_radius_at_depth(
 ) -> Number:
     r"""Return the stable contact radius [m] at a depth [m], for a rigid drive.
 
-    The larger root of :math:`\hat a^2 - \sqrt{2 \hat a} = \hat\delta`, in closed form; the depth
-    must not be below that of :func:`jkr.instability`.
+    The larger root of :math:`\hat a^2 - \sqrt{2 \hat a} = \hat\delta`, in closed form.
+
+    Parameters
+    ----------
+    depth : array_like
+        Depth [m], not below that of :func:`jkr.instability`.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -118,12 +152,17 @@ def unstable_contact_radius_at_depth(
 ) -> Number:
     r"""Return the smaller contact radius [m] in unstable equilibrium at a depth [m].
 
-    It exists between the depth of :func:`jkr.instability` and zero, where it vanishes.
+    Parameters
+    ----------
+    depth : array_like
+        Depth [m], from that of :func:`jkr.instability` to 0, where the radius vanishes.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 
     Raises
     ------
-    ValueError
-        If the depth is positive, or below that of the instability.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -147,8 +186,19 @@ def contact_radius_at_force(
 ) -> Number:
     r"""Return the stable contact radius [m] at a force [N], for a dead load.
 
-    The larger root of :math:`\frac43 \hat a^3 - \sqrt{8 \hat a^3} = \hat P`; the force must not
-    be below minus :func:`jkr.pull_off_force`.
+    The larger root of :math:`\frac43 \hat a^3 - \sqrt{8 \hat a^3} = \hat P`.
+
+    Parameters
+    ----------
+    force : array_like
+        Force [N], compression positive, not below minus :func:`jkr.pull_off_force`.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -166,13 +216,20 @@ def unstable_contact_radius_at_force(
 ) -> Number:
     r"""Return the smaller contact radius [m] in equilibrium at a force [N].
 
-    It exists for tension up to :func:`jkr.pull_off_force`. It is unstable under a dead load; with a
-    rigid drive it is stable for radii above that of :func:`jkr.instability`.
+    It is unstable under a dead load; with a rigid drive it is stable for radii above that of
+    :func:`jkr.instability`.
+
+    Parameters
+    ----------
+    force : array_like
+        Force [N], from minus :func:`jkr.pull_off_force` to 0.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 
     Raises
     ------
-    ValueError
-        If the force is compressive, or a tension above the pull-off force.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -196,6 +253,16 @@ def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
 
     It is independent of the modulus and holds for both load and depth control.
 
+    Parameters
+    ----------
+    radius, work_of_adhesion : array_like
+        R of the sphere [m] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{pull_off_force(radius=1e-3, work_of_adhesion=0.05) * 1e3:.4f} mN"
@@ -208,10 +275,20 @@ def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
 def pull_off(*, radius: Values, contact_modulus: Values, work_of_adhesion: Values) -> Point:
     r"""Return the force minimum: :math:`\hat a^3 = 9/8, \hat\delta = -3^{1/3}/4, \hat P = -3/2`.
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
     Returns
     -------
     Point
         Contact radius [m], depth [m] and force [N].
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -227,10 +304,20 @@ def pull_off(*, radius: Values, contact_modulus: Values, work_of_adhesion: Value
 def instability(*, radius: Values, contact_modulus: Values, work_of_adhesion: Values) -> Point:
     r"""Return the depth minimum: :math:`\hat a = 1/2, \hat\delta = -3/4, \hat P = -5/6`.
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
     Returns
     -------
     Point
         Contact radius [m], depth [m] and force [N].
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -253,6 +340,16 @@ def work_to_pull_off(
               \pi R \Delta\gamma_0 (\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}
               \quad \text{(Eq. 46)}
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> W = work_to_pull_off(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
@@ -272,6 +369,16 @@ def work_to_instability(
 
     .. math:: W = \left[ \tfrac35 \left(\tfrac92\right)^{2/3} + \tfrac1{10} \right]
               \pi R \Delta\gamma_0 (\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -296,12 +403,20 @@ def pressure(
     .. math:: p(r) = \frac{2 E^*}{\pi R} \sqrt{a^2 - r^2}
               - \sqrt{\frac{2 E^* a \Delta\gamma_0}{\pi (a^2 - r^2)}}
 
-    The pressure is undefined at the edge itself, where the tension is infinite.
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        Radius a of an equilibrium state [m], positive.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 
     Raises
     ------
-    ValueError
-        If a position is the contact edge, where the tension is infinite.
+    InputError
+        If a value is outside its range or not finite, or a position is the contact edge, where the
+        tension is infinite.
 
     Examples
     --------
@@ -333,6 +448,20 @@ def surface_displacement(
     Inside the contact :math:`u = \delta - r^2/2R`, outside the displacement of Hertz minus
     :math:`\delta_1 \frac{2}{\pi} \arcsin(a/r)`.
 
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        Radius a of an equilibrium state [m], positive.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> state = dict(contact_radius=1e-4, radius=1e-3, contact_modulus=1e6)
@@ -356,6 +485,20 @@ def gap(
 
     The gap of Hertz plus :math:`\delta_1 \frac{2}{\pi} \arccos(a/r)`; next to the edge it opens
     as a crack, with :math:`\sqrt{r - a}`, without cancellation.
+
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        Radius a of an equilibrium state [m], positive.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

@@ -55,6 +55,16 @@ _WORK_SERIES = _coefficients(np.log(_WORK))
 def pull_off_ratio(tabor: Values) -> Number:
     r"""Return the pull-off force over that of JKR, f(mu), between 4/3 and 1.
 
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{pull_off_ratio(3.24):.4f}"
@@ -73,6 +83,16 @@ def work_ratio(tabor: Values) -> Number:
     r"""Return the work from zero force to pull-off [1.5 pi R w h0].
 
     It increases from Bradley's 0.2056 for a rigid sphere to JKR's :math:`0.8018 \pi^{2/3} \mu`.
+
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -94,6 +114,16 @@ def pull_off_force(
 ) -> Number:
     r"""Return the pull-off force [N], a positive number, :math:`\tfrac32 \pi R w f(\mu)`.
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0 [m]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> tip = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, equilibrium_gap=1e-9)
@@ -108,6 +138,16 @@ def work_to_pull_off(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the work [J] of the drive from zero force to the force minimum.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0 [m]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -125,6 +165,16 @@ def tabor_number(
     r"""Return the Tabor number, dimensionless.
 
     .. math:: \mu = (R \Delta\gamma_0^2 / E^{*2} h_0^3)^{1/3} \quad \text{(Eq. 2.2 as in Eq. 31)}
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0 [m]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------

@@ -2,11 +2,10 @@ r"""Maugis-Dugdale: a rigid sphere on an elastic half-space, from long to short 
 
 A constant tension, the ``strength`` :math:`\sigma_0`, acts where the gap is below
 :math:`\Delta\gamma_0 / \sigma_0`: in the ring a < r < c around the contact (c the cohesive
-radius). Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus`` E*
-[Pa], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``strength`` [Pa], all positive. The
-only dimensionless group is :func:`maugis_parameter`; DMT is its small, JKR its large limit. Range:
-elastic solid, c small compared with R. A smooth traction of the same strength and work gives nearly
-the same curve: the pull-off force of a Lennard-Jones contact differs by up to 6 %.
+radius). The only dimensionless group is :func:`maugis_parameter`; DMT is its small, JKR its large
+limit. Range: elastic solid, c small compared with the radius R of the sphere. A smooth traction
+of the same strength and work gives nearly the same curve: the pull-off force of a Lennard-Jones
+contact differs by up to 6 %.
 
 With m = c/a everything is explicit, so a curve is parametrised by m from near 1 (large load) to
 infinity, where the contact is a point; :func:`curve_without_contact` continues it.
@@ -55,7 +54,7 @@ def curve(
     work_of_adhesion: Values,
     strength: Values,
 ) -> Point:
-    r"""Return the equilibrium state where the cohesive radius is ``ratio`` > 1 contact radii.
+    r"""Return the equilibrium state at a ratio of cohesive to contact radius.
 
     With :math:`t = \sqrt{m^2 - 1}`, :math:`\varphi = \sec^{-1} m` and the scales of
     :math:`K = \frac43 E^*`: :math:`\bar a` is the positive root of
@@ -66,10 +65,18 @@ def curve(
     and :math:`\bar P = \bar a^3 - \lambda \bar a^2 (t + m^2 \varphi)`,
     :math:`\bar\delta = \bar a^2 - \frac43 \lambda \bar a t`.
 
+    Parameters
+    ----------
+    ratio : array_like
+        Cohesive over contact radius m = c/a, above 1.
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
+
     Raises
     ------
-    ValueError
-        If the ratio is not above 1.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -97,6 +104,17 @@ def touching_radius(
 
     .. math:: \frac{c^2}{2 R} + \frac{2 \sigma_0 c}{E^*} \left( 1 - \frac2\pi \right)
               = \frac{\Delta\gamma_0}{\sigma_0}
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -130,14 +148,21 @@ def curve_without_contact(
     .. math:: \delta = \frac{c^2}{2R} - \frac{4 \sigma_0 c}{\pi E^*}
               - \frac{\Delta\gamma_0}{\sigma_0}, \quad P = -\pi c^2 \sigma_0
 
-    The ``cohesive_radius`` c extends from :func:`touching_radius`, where the states join
-    :func:`curve`, to zero, where the sphere leaves the range of adhesion. It is stable
-    with a rigid drive for :math:`c > 4 \sigma_0 R/\pi E^*`.
+    It is stable with a rigid drive for :math:`c > 4 \sigma_0 R/\pi E^*`.
+
+    Parameters
+    ----------
+    cohesive_radius : array_like
+        c [m], from 0, where the sphere leaves the range of adhesion, to
+        :func:`touching_radius`, where the states join :func:`curve`.
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
 
     Raises
     ------
-    ValueError
-        If the cohesive radius exceeds that at which the sphere touches.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -171,9 +196,7 @@ def pressure(
     contact_modulus: Values,
     strength: Values,
 ) -> Number:
-    r"""Return the pressure [Pa] at a distance ``position`` [m] from the axis.
-
-    Positive in compression.
+    r"""Return the pressure [Pa], positive in compression.
 
     Inside the contact
 
@@ -181,6 +204,22 @@ def pressure(
               - \frac{2 \sigma_0}{\pi} \arctan \sqrt{\frac{c^2 - a^2}{a^2 - r^2}},
 
     minus the strength up to c, zero beyond.
+
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    contact_radius : array_like
+        a [m], not negative.
+    cohesive_radius : array_like
+        c [m], at least a.
+    radius, contact_modulus, strength : array_like
+        R of the sphere [m], E* [Pa] and :math:`\sigma_0` [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -205,6 +244,17 @@ def maugis_parameter(
 
     .. math:: \lambda = \sigma_0 (9 R / 2 \pi \Delta\gamma_0 E^{*2})^{1/3}
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> case = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, strength=2e7)
@@ -215,13 +265,23 @@ def maugis_parameter(
 
 
 def parameter_from_tabor(tabor: Values) -> Number:
-    r"""Return the Maugis parameter of a Lennard-Jones contact from ``tabor``, dimensionless.
+    r"""Return the Maugis parameter of a Lennard-Jones contact, dimensionless.
 
     Peak tension and work of adhesion are those of the 3-9 traction (Eq. 2.1),
     :math:`\sigma_0 = 16 \Delta\gamma_0 / 9 \sqrt3 h_0`:
 
     .. math:: \lambda = \frac{16}{9 \sqrt 3} \left( \frac{9}{2 \pi} \right)^{1/3} \mu
               = 1.15701\ldots \mu
+
+    Parameters
+    ----------
+    tabor : array_like
+        Tabor number, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -236,6 +296,18 @@ def pull_off_force(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the pull-off force [N], a positive number between 3/2 and 2 :math:`\pi R w`.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite, or the Maugis parameter is not between 1e-6 and
+        1e6.
 
     Examples
     --------
@@ -255,15 +327,27 @@ def pull_off_force(
 def pull_off(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Point:
-    r"""Return the force minimum, for a Maugis parameter from 1e-6 to 1e6.
+    r"""Return the force minimum.
 
     It always lies on the part of the curve with contact, because the force still rises with a^2
     where the contact shrinks to a point.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
 
     Returns
     -------
     Point
         Contact radius [m], cohesive radius [m], depth [m] and force [N].
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite, or the Maugis parameter is not between 1e-6 and
+        1e6.
 
     Examples
     --------
@@ -281,7 +365,19 @@ def work_to_pull_off(
     r"""Return the work [J] of the drive from zero force to the force minimum.
 
     The integral of P over the depth along retraction (both negative steps in tension), by 64-point
-    Gauss quadrature in :math:`\ln(c/a - 1)`; range as for :func:`pull_off`.
+    Gauss quadrature in :math:`\ln(c/a - 1)`.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, strength : array_like
+        R of the sphere [m], E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite, or the Maugis parameter is not between 1e-6 and
+        1e6.
 
     Examples
     --------

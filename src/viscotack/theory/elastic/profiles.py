@@ -6,12 +6,10 @@ work of adhesion:
 .. math:: \delta = \delta_1(a) - \sqrt{\frac{2 \pi a \Delta\gamma_0}{E^*}}, \quad
           P = P_1(a) - \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
 
-with the adhesionless depth and force at the same radius (Eq. 2.10 and 2.11). Parameters:
-``contact_radius`` a [m], ``position`` r from the axis [m],
-``contact_modulus`` E* [Pa], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2]; the indenter is
-rigid. Range: large Tabor number, elastic half-space, small slopes. A profile is
-:math:`z = A r^q`, with ``exponent`` q and ``coefficient`` A [m^(1-q)]: q = 1 is a cone of slope
-A, q = 2 with A = 1/2R the sphere of :mod:`viscotack.theory.elastic.jkr`.
+with the adhesionless depth and force at the same contact radius a (Eq. 2.10 and 2.11). Range: large
+Tabor number, rigid indenter, elastic half-space, small slopes. A profile is :math:`z = A r^q`:
+q = 1 is a cone of slope A, q = 2 with A = 1/2R the sphere of
+:mod:`viscotack.theory.elastic.jkr`.
 
 Source: Sneddon (1965), doi:10.1016/0020-7225(65)90019-4, without adhesion; Maghami, PhD thesis
 (2025), Eq. 2.10 and 2.11; the flat punch of Kendall (1971), doi:10.1088/0022-3727/4/8/320.
@@ -57,6 +55,11 @@ def with_adhesion(
     work_of_adhesion : array_like
         :math:`\Delta\gamma_0` [J/m^2].
 
+    Raises
+    ------
+    InputError
+        If a derivative or the work of adhesion is not positive and finite.
+
     Notes
     -----
     Exact for every axisymmetric profile on a half-space; an approximation where the contact is
@@ -88,6 +91,18 @@ def punch_force(depth: Values, *, contact_radius: Values, contact_modulus: Value
 
     In tension until :func:`punch_pull_off`.
 
+    Parameters
+    ----------
+    depth : array_like
+        Depth [m], negative in tension.
+    contact_radius, contact_modulus : array_like
+        Radius of the punch a [m] and E* [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If radius or modulus is not positive and finite.
+
     Examples
     --------
     >>> f"{punch_force(-1e-6, contact_radius=1e-3, contact_modulus=1e6) * 1e3:.1f} mN"
@@ -100,14 +115,24 @@ def punch_force(depth: Values, *, contact_radius: Values, contact_modulus: Value
 def punch_pressure(
     position: Values, *, depth: Values, contact_radius: Values, contact_modulus: Values
 ) -> Number:
-    r"""Return the pressure [Pa] under a flat punch at a distance [m] from the axis; zero outside.
+    r"""Return the pressure [Pa] under a flat punch, positive in compression; zero outside.
 
     .. math:: p = \frac{E^* \delta}{\pi \sqrt{a^2 - r^2}}
 
+    Parameters
+    ----------
+    position : array_like
+        Distance r from the axis [m], not negative.
+    depth : array_like
+        Depth [m], negative in tension.
+    contact_radius, contact_modulus : array_like
+        Radius of the punch a [m] and E* [Pa]; positive.
+
     Raises
     ------
-    ValueError
-        If a position is the edge of the punch, where the stress is infinite.
+    InputError
+        If radius or modulus is not positive and finite, or a position is negative, not finite or
+        the edge of the punch, where the stress is infinite.
 
     Examples
     --------
@@ -133,6 +158,16 @@ def punch_pull_off(
 
     Range: :math:`E^* \Delta\gamma_0/\sigma_0^2` is small compared with a; a smaller punch
     detaches uniformly, at the strength.
+
+    Parameters
+    ----------
+    contact_radius, contact_modulus, work_of_adhesion : array_like
+        Radius of the punch a [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -162,6 +197,20 @@ def depth(
     .. math:: \delta = A \kappa a^q - \sqrt{2 \pi a \Delta\gamma_0/E^*}, \quad
               \kappa = \sqrt\pi \, \Gamma(1 + q/2) / \Gamma(1/2 + q/2)
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    exponent, coefficient : array_like
+        q and A [m^(1-q)] of the profile; positive.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> cone = dict(exponent=1.0, coefficient=0.1, contact_modulus=1e6, work_of_adhesion=0.05)
@@ -187,6 +236,20 @@ def force(
 
     with :math:`\kappa` of :func:`depth`.
 
+    Parameters
+    ----------
+    contact_radius : array_like
+        a [m], not negative.
+    exponent, coefficient : array_like
+        q and A [m^(1-q)] of the profile; positive.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> cone = dict(exponent=1.0, coefficient=0.1, contact_modulus=1e6, work_of_adhesion=0.05)
@@ -206,13 +269,25 @@ def pull_off(
     .. math:: a^{q - 1/2} = \frac{3}{2 q A \kappa} \sqrt{2 \pi \Delta\gamma_0/E^*}, \quad
               P = -\frac{q - 1/2}{q + 1} \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
 
-    The force is independent of the modulus only for q = 2. Range: q above 1/2; flatter tips have no
-    force minimum.
+    The force is independent of the modulus only for q = 2. A tip with q up to 1/2 has
+    no force minimum.
+
+    Parameters
+    ----------
+    exponent, coefficient : array_like
+        q, above 1/2, and A [m^(1-q)], positive, of the profile.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 
     Returns
     -------
     Point
         Contact radius [m], depth [m] and force [N].
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -229,12 +304,24 @@ def instability(
 ) -> Point:
     r"""Return the depth minimum of a profile, where a rigid drive detaches.
 
-    :math:`a^{q - 1/2}` is a third of that of :func:`pull_off`; range q above 1/2.
+    :math:`a^{q - 1/2}` is a third of that of :func:`pull_off`.
+
+    Parameters
+    ----------
+    exponent, coefficient : array_like
+        q, above 1/2, and A [m^(1-q)], positive, of the profile.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
 
     Returns
     -------
     Point
         Contact radius [m], depth [m] and force [N].
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

@@ -33,7 +33,7 @@ from viscotack.geometry import (
     equivalent_radius,
 )
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
-from viscotack.theory._checks import ROUND_OFF
+from viscotack.theory._checks import ROUND_OFF, positive
 from viscotack.theory._roots import least
 
 from . import indenter, jkr, on_layer, profiles
@@ -70,7 +70,7 @@ def contact(
     shape : shape of revolution
         A sphere and a power law by their closed forms, any other shape by quadrature.
     contact_modulus, work_of_adhesion : float
-        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
     body : Body
         The deformable body.
 
@@ -81,6 +81,12 @@ def contact(
         stable with a rigid drive; None below the depth or the radius of the depth minimum. By
         force: the contact of the larger radius, stable under a dead load; None below the force
         minimum. If a shape has several contacts, the largest is returned.
+
+    Raises
+    ------
+    InputError
+        If modulus or work of adhesion is not positive and finite, or the contact is too wide
+        for the theory of its layer, as in :func:`.indenter.depth`.
 
     Examples
     --------
@@ -126,7 +132,7 @@ def ends(
     shape : shape of revolution
         Rigid indenter.
     contact_modulus, work_of_adhesion : float
-        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
     body : HalfSpace, Layer or a user-defined body
         Elastic body.
 
@@ -134,6 +140,12 @@ def ends(
     -------
     tuple of Point
         Contact radius [m], depth [m] and force [N] of the least depth and of the least force.
+
+    Raises
+    ------
+    InputError
+        If modulus or work of adhesion is not positive and finite, or the contact is too wide
+        for the theory of its layer, as in :func:`.indenter.depth`.
 
     Examples
     --------
@@ -176,9 +188,9 @@ def strongest(
     shape : shape of revolution
         Rigid indenter.
     largest : float
-        Largest contact radius [m].
+        Largest contact radius [m], positive.
     contact_modulus, work_of_adhesion : float
-        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
     body : HalfSpace, Layer or a user-defined body
         Elastic body.
 
@@ -186,6 +198,12 @@ def strongest(
     -------
     Point
         Contact radius [m], depth [m] and force [N, negative in tension].
+
+    Raises
+    ------
+    InputError
+        If a number is not positive and finite, or the contact is too wide for the theory of its
+        layer, as in :func:`.indenter.depth`.
 
     Examples
     --------
@@ -195,6 +213,7 @@ def strongest(
     '-2.21 mN, -3.53 mN'
     """
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    positive(largest=largest, **solid)
     depth, force = curve(shape, body=body, **solid)
     radii = largest * np.geomspace(_SMALLEST, 1.0, _LOOKS)
     if np.isfinite(detail(shape)):
@@ -213,9 +232,24 @@ def contact_in_groups(
 ) -> Point | None:
     r"""Compute the contact of :func:`contact` for a start and a shape of dimensionless groups.
 
-    The start is in h0, :math:`\tfrac32 \pi R \Delta\gamma_0` or :math:`(\pi R^2
-    \Delta\gamma_0/E_0^*)^{1/3}`, the thickness of a `body` in :math:`\beta`; the contact is in the
-    units in which R, :math:`E_0^*` and :math:`\Delta\gamma_0` are 1.
+    The contact is in the units in which R, :math:`E_0^*` and :math:`\Delta\gamma_0` are 1.
+
+    Parameters
+    ----------
+    start : AtDepth, AtForce, AtRadius or Apart
+        Depth [h0], force [:math:`\tfrac32 \pi R \Delta\gamma_0`, compression positive] or
+        contact radius [:math:`(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}`].
+    tabor : float
+        Tabor number, positive.
+    shape : shape of revolution
+        Indenter with R = 1.
+    body : Body
+        Elastic body; the thickness of a layer is in :math:`\beta`.
+
+    Raises
+    ------
+    InputError
+        If the contact is too wide for the theory of its layer, as in :func:`.indenter.depth`.
 
     Examples
     --------
@@ -237,8 +271,17 @@ def contact_in_groups(
 def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: float = 2.0) -> float:
     r"""Estimate the radius of a large start [:math:`(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}`].
 
-    This is the Hertz radius, approximate for an ``exponent`` of the profile other than 2. It is
+    This is the Hertz radius, approximate for an exponent of the profile other than 2. It is
     explicit, so starts that are too large can be rejected before anything is solved.
+
+    Parameters
+    ----------
+    start : AtDepth, AtForce, AtRadius or Apart
+        In the units of :func:`contact_in_groups`.
+    tabor : float
+        Tabor number, positive.
+    exponent : float
+        Exponent of the profile, 2 for a sphere, positive.
 
     Examples
     --------
@@ -266,7 +309,7 @@ def curve(
     shape : shape of revolution
         Rigid indenter.
     contact_modulus, work_of_adhesion : float
-        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
     body : HalfSpace, Layer or a user-defined body
         Elastic body.
 
@@ -293,12 +336,18 @@ def adhesion_length(shape: Shape, *, contact_modulus: float, work_of_adhesion: f
     contact_modulus, work_of_adhesion : float
         :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
 
+    Raises
+    ------
+    InputError
+        If modulus or work of adhesion is not positive and finite.
+
     Examples
     --------
     >>> length = adhesion_length(Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.15)
     >>> f"{length * 1e6:.0f} um"
     '123 um'
     """
+    positive(contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
     adhesion = work_of_adhesion / contact_modulus
     return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
 

@@ -29,7 +29,21 @@ def contact_radius(
     pull_off_force: Values,
     transition: Values,
 ) -> Number:
-    r"""Return the contact radius [m] under a force [N], positive in compression.
+    r"""Return the contact radius [m] under a force [N].
+
+    Parameters
+    ----------
+    force : array_like
+        Force P [N], compression positive, not below minus `pull_off_force`.
+    contact_radius_without_load, pull_off_force : array_like
+        a0 [m] and :math:`P_{po}` [N]; positive.
+    transition : array_like
+        alpha, from 0 (DMT) to 1 (JKR).
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -49,12 +63,15 @@ def contact_radius(
 def maugis_parameter(transition: Values) -> Number:
     r"""Return the dimensionless Maugis parameter, :math:`\lambda = -0.924 \ln(1 - 1.02 \alpha)`.
 
-    The transition number must be below 1/1.02, where lambda is infinite.
+    Parameters
+    ----------
+    transition : array_like
+        alpha, from 0 to below 1/1.02, where :math:`\lambda` is infinite.
 
     Raises
     ------
-    ValueError
-        If the transition number is not in [0, 1/1.02).
+    InputError
+        If the transition number is outside its range.
 
     Examples
     --------
@@ -75,6 +92,16 @@ def transition(maugis_parameter: Values) -> Number:
 
     At most 1/1.02: the fit does not cover the last 2 % before JKR.
 
+    Parameters
+    ----------
+    maugis_parameter : array_like
+        :math:`\lambda`, positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> f"{transition(0.5):.3f}"
@@ -87,10 +114,20 @@ def transition(maugis_parameter: Values) -> Number:
 def pull_off_force(maugis_parameter: Values, *, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N] by the fit to Maugis-Dugdale, within 2 %.
 
-    With :math:`\lambda` = ``maugis_parameter``,
-
     .. math:: \frac{P_{po}}{\pi R \Delta\gamma_0} = \frac74
               - \frac14 \, \frac{4.04 \lambda^{1.4} - 1}{4.04 \lambda^{1.4} + 1}
+
+    Parameters
+    ----------
+    maugis_parameter : array_like
+        :math:`\lambda`, positive.
+    radius, work_of_adhesion : array_like
+        R of the sphere [m] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -108,10 +145,20 @@ def contact_radius_without_load(
 ) -> Number:
     r"""Return the contact radius [m] without load by the fit to Maugis-Dugdale, within 2 %.
 
-    With :math:`\lambda` = ``maugis_parameter``,
-
     .. math:: \frac{a_0}{(3 \pi R^2 \Delta\gamma_0/4 E^*)^{1/3}} = 1.54 + 0.279 \,
               \frac{2.28 \lambda^{1.3} - 1}{2.28 \lambda^{1.3} + 1}
+
+    Parameters
+    ----------
+    maugis_parameter : array_like
+        :math:`\lambda`, positive.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------

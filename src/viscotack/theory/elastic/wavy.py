@@ -53,16 +53,21 @@ def depth(
     contact_radius : float or array_like
         Contact radius a [m], not negative.
     radius, amplitude, wavelength : float or array_like
-        Radius R of the sphere, amplitude A and wavelength of the waves [m].
+        Radius R of the sphere, amplitude A and wavelength of the waves [m]; positive.
     contact_modulus : float or array_like
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float or array_like
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], positive.
 
     Returns
     -------
     float or ndarray
         Depth [m], positive into the body.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -94,16 +99,21 @@ def force(
     contact_radius : float or array_like
         Contact radius a [m], not negative.
     radius, amplitude, wavelength : float or array_like
-        Radius R of the sphere, amplitude A and wavelength of the waves [m].
+        Radius R of the sphere, amplitude A and wavelength of the waves [m]; positive.
     contact_modulus : float or array_like
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float or array_like
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], positive.
 
     Returns
     -------
     float or ndarray
         Force [N], negative in tension.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -140,16 +150,21 @@ def pull_off(
     Parameters
     ----------
     radius, amplitude, wavelength : float
-        Radius R of the sphere, amplitude A and wavelength of the waves [m].
+        Radius R of the sphere, amplitude A and wavelength of the waves [m]; positive.
     contact_modulus : float
-        Contact modulus E* [Pa].
+        Contact modulus E* [Pa], positive.
     work_of_adhesion : float
-        Work of adhesion [J/m^2].
+        Work of adhesion [J/m^2], positive.
 
     Returns
     -------
     Point
         Contact radius [m], depth [m] and force [N] at pull-off; the force is negative.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------

@@ -1,7 +1,8 @@
 r"""Flat punch on an elastic layer of any thickness: the exact curve between thin and thick.
 
-A punch displaced by delta carries the force :math:`P/L = E^* S(a) \, \delta`, and detaches
-over its whole area when the energy release rate of its edges equals the work of adhesion:
+A punch of half width a on a layer of thickness b, displaced by delta, carries the force
+:math:`P/L = E^* S(a) \, \delta`. It detaches over its whole area when the energy release rate of
+its edges equals the work of adhesion:
 
 .. math:: \frac14 E^* \delta^2 S'(a) = \Delta\gamma_0, \quad
           \bar\sigma_{po} = \frac{S}{2a} \sqrt{\frac{4 E^* \Delta\gamma_0}{S'}}.
@@ -14,8 +15,8 @@ with c/2 = 0.177131575829 on a frictionless base; for a thick one
 frictionless base and 1e-9 on a bonded one: once per base, in 0.1 to 2
 seconds, and then interpolated by Chebyshev polynomials in ln(1 + a/b).
 
-Parameters as in :mod:`viscotack.theory.punch.laws`. Range: forces of short range (a cohesive zone
-small compared with a and b: no limit by the strength), linear elastic layer, frictionless punch.
+Range: forces of short range (a cohesive zone small compared with a and b: no limit by the
+strength), linear elastic layer, frictionless punch.
 
 Source: this package; the transfer function of the layer is that of Maghami, PhD thesis (2025),
 Eq. 3.19 to 3.22, after Bentall and Johnson.
@@ -45,6 +46,21 @@ def stiffness(
 ) -> Number:
     r"""Return force per length over depth, :math:`E^* S` [Pa].
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    half_width, contact_modulus : array_like
+        a [m] and E* [Pa]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is at
+        most 0.49.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.theory.punch import Frictionless
@@ -62,8 +78,22 @@ def energy_release_rate(
 ) -> Number:
     r"""Return the energy [J/m^2] that the receding edges release, :math:`E^* \delta^2 S'(a)/4`.
 
-    Per edge and unit length, at a ``depth`` :math:`\delta` [m]. The punch detaches when it
-    reaches the work of adhesion.
+    Per edge and unit length. The punch detaches when it reaches the work of adhesion.
+
+    Parameters
+    ----------
+    depth : array_like
+        :math:`\delta` [m], of either sign.
+    thickness, half_width, contact_modulus : array_like
+        b [m], a [m] and E* [Pa]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is at
+        most 0.49.
+
+    Raises
+    ------
+    InputError
+        If thickness, half width, modulus or Poisson ratio is outside its range.
 
     Examples
     --------
@@ -86,10 +116,25 @@ def pull_off_stress(
     work_of_adhesion: Values,
     base: Base,
 ) -> Number:
-    """Return the mean pull-off stress [Pa] of an elastic layer of any thickness.
+    r"""Return the mean pull-off stress [Pa] of an elastic layer of any thickness.
 
     It decreases with the thickness, without an upper limit for thin layers, because the strength of
     the interface is not included. 1e5 thicknesses take a few hundredths of a second.
+
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    half_width, contact_modulus, work_of_adhesion : array_like
+        a [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is at
+        most 0.49.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -121,6 +166,21 @@ def depth_at_pull_off(
 ) -> Number:
     r"""Return the depth [m] of pull-off, negative, :math:`-\sqrt{4 \Delta\gamma_0/(E^* S')}`.
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    half_width, contact_modulus, work_of_adhesion : array_like
+        a [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is at
+        most 0.49.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.theory.punch import Frictionless
@@ -149,6 +209,21 @@ def work_of_separation(
     thin layer; for a thick one it grows with :math:`\ln(b/a)`, because the punch is displaced
     relative to the base. It is the same for a slow and a fast viscoelastic layer.
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    half_width, work_of_adhesion : array_like
+        a [m] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is at
+        most 0.49.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.theory.punch import Frictionless
@@ -169,14 +244,22 @@ def thickness(
     work_of_adhesion: Values,
     base: Base,
 ) -> Number:
-    """Return the thickness [m] of the elastic layer with a given pull-off stress [Pa].
+    r"""Return the thickness [m] of the elastic layer with a given pull-off stress [Pa].
 
-    The stress must exceed that of the half-plane, the smallest of all layers.
+    Parameters
+    ----------
+    stress : array_like
+        Mean pull-off stress [Pa], above that of the half-plane, the smallest of all layers.
+    half_width, contact_modulus, work_of_adhesion : array_like
+        a [m], E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is at
+        most 0.49.
 
     Raises
     ------
-    ValueError
-        If the stress does not exceed that of the half-plane.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

@@ -1,8 +1,7 @@
 r"""Surface energy and work from the retraction curve of a flat punch on a layer.
 
-The curve may be simulated or measured. Parameters as in :mod:`viscotack.theory.punch.laws`; stress
-is the
-force over the area of the punch, tension positive.
+The curve may be simulated or measured. Stress is the force over the area of the punch, tension
+positive.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.29, 3.30 and 3.36.
 """
@@ -40,13 +39,18 @@ def surface_energy(
     pull_off_stress : array_like
         Largest tensile force over the area of the punch [Pa], positive.
     thickness, half_width : array_like
-        b and a [m].
+        b and a [m], positive.
     ligament : array_like
-        Half width :math:`a_c` [m] still in contact at pull-off, at most a.
+        Half width :math:`a_c` [m] still in contact at pull-off, positive, at most a.
     contact_modulus : array_like
-        Rubbery E0* [Pa].
+        Rubbery E0* [Pa], positive.
     base : Frictionless or Bonded
-        Boundary condition of the layer.
+        Boundary condition of the layer; the Poisson ratio of a bonded one is at most 0.49.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -71,14 +75,32 @@ def thin_layer_surface_energy(
     contact_modulus: Values,
     base: Base,
 ) -> Number:
-    r"""Compute the surface energy [J/m^2] from a ``pull_off_stress`` [Pa], for a thin layer.
+    r"""Compute the surface energy [J/m^2] from a measured pull-off stress, for a thin layer.
 
     .. math:: \Delta\gamma_{eff} = \frac{\bar\sigma_{po}^2 b}{2 \zeta E_0^*}
               \left( \frac{a}{a_c} \right)^2
 
-    Eq. 3.29, and 3.30 over the work of adhesion. Parameters as for :func:`surface_energy`, which
-    holds for every thickness. Issues a ``UserWarning`` for a layer thicker than :math:`b_1 = 4
+    Eq. 3.29, and 3.30 over the work of adhesion. :func:`surface_energy` holds for every
+    thickness. Issues a ``UserWarning`` for a layer thicker than :math:`b_1 = 4
     \zeta a/\pi`, where this formula overestimates the energy.
+
+    Parameters
+    ----------
+    pull_off_stress : array_like
+        Largest tensile force over the area of the punch [Pa], positive.
+    thickness, half_width : array_like
+        b and a [m], positive.
+    ligament : array_like
+        Half width :math:`a_c` [m] still in contact at pull-off, positive, at most a.
+    contact_modulus : array_like
+        Rubbery E0* [Pa], positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer; the Poisson ratio of a bonded one is below 0.5.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -90,6 +112,11 @@ def thin_layer_surface_energy(
     on_ligament, b, a, _, E = _checked(
         pull_off_stress, thickness, half_width, ligament, contact_modulus
     )
+    if base.foundation == 0:
+        raise InputError(
+            "the thin-layer formula does not apply to a bonded layer with a Poisson ratio of 0.5, "
+            "which stretches only by sideways flow"
+        )
     if np.any(b * base.foundation > 4 / np.pi * a):
         warnings.warn(
             "the layer is thicker than b1 = 4 zeta a/pi, where the thin-layer formula "
@@ -118,7 +145,7 @@ def work_of_separation(depth: Values, stress: Values) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If depth and stress have different shapes, are not finite, or there is no tension.
 
     Notes

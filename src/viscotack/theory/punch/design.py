@@ -40,6 +40,22 @@ def pull_off_stress(thickness: Values, pad: Pad, law: CrackLaw, *, crack_speed: 
     of :math:`1/\sqrt k` times that and the strength. A ligament narrower than the punch carries
     less in proportion.
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is at most 0.49.
+    law : CrackLaw
+        Crack law of the edges, :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
+    crack_speed : array_like
+        v [m/s], not negative.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
@@ -66,8 +82,23 @@ def thickness_at_crack_speed(
 ) -> Number:
     """Return the thickness [m] with a given pull-off stress [Pa] at a crack speed [m/s].
 
-    The inverse of :func:`pull_off_stress`, for a stress below the strength and above that
-    of a layer of 100 a. Takes 20 ms per value.
+    The inverse of :func:`pull_off_stress`. Takes 20 ms per value.
+
+    Parameters
+    ----------
+    stress : array_like
+        Mean pull-off stress [Pa], below the strength and above that of a layer of 100 a.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is at most 0.49.
+    law : CrackLaw
+        Crack law of the edges, :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
+    crack_speed : float
+        v [m/s], not negative.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -92,8 +123,23 @@ def thickness_at_crack_speed(
 def thickness_at_speed(stress: Values, pad: Pad, law: CrackLaw, *, speed: float) -> Number:
     """Return the thickness [m] with a given pull-off stress [Pa] at a retraction speed [m/s].
 
-    The inverse of :func:`viscotack.theory.punch.unloading.pull_off`, for a stress
-    below the strength and above that of a layer of 5 a. Takes 50 ms per value.
+    The inverse of :func:`viscotack.theory.punch.unloading.pull_off`. Takes 50 ms per value.
+
+    Parameters
+    ----------
+    stress : array_like
+        Mean pull-off stress [Pa], below the strength and above that of a layer of 5 a.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is at most 0.49.
+    law : CrackLaw
+        Crack law of the edges, :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
+    speed : float
+        r [m/s], positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

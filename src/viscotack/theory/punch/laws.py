@@ -1,9 +1,6 @@
 r"""Flat punch in the limits of thickness: half-plane and thin layer.
 
-Parameters: ``half_width`` a [m], ``thickness`` b [m], ``contact_modulus`` E* = E/(1 - nu^2) [Pa],
-``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``strength`` :math:`\sigma_0` [Pa], all
-positive, and ``base``, ``Frictionless()`` or ``Bonded(poisson_ratio=...)``. Stress is the mean over
-the punch, tension positive; the depth of a punch in tension is negative.
+Stress is the mean over the punch, tension positive; the depth of a punch in tension is negative.
 :mod:`viscotack.theory.punch.regimes` joins the limits.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.1 to 3.9 and appendix I.
@@ -38,6 +35,16 @@ def fracture_length(
 
     Twice :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`.
 
+    Parameters
+    ----------
+    contact_modulus, work_of_adhesion, strength : array_like
+        E* [Pa], :math:`\Delta\gamma_0` [J/m^2] and :math:`\sigma_0` [Pa]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> a0 = fracture_length(contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4)
@@ -58,6 +65,18 @@ def half_plane_pull_off_stress(
     .. math:: \bar\sigma_{po} = \sqrt{\frac{\pi E^* \Delta\gamma_0}{2 a}} \quad \text{(Eq. 3.2)}
 
     Range: a well above :func:`fracture_length`. Times 2a it is the force per length, Eq. 3.1.
+
+    Parameters
+    ----------
+    half_width : array_like
+        a [m], positive.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -81,6 +100,21 @@ def thin_layer_pull_off_stress(
 
     Range: b0 < b << a; too low by a fraction 0.177 b/a on a frictionless base. A bonded layer with
     a Poisson ratio above 0.45 causes a ``UserWarning``.
+
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is below
+        0.5.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -107,6 +141,21 @@ def thin_layer_depth_at_pull_off(
     Exact up to terms of the order exp(-2 pi a/b) on a frictionless base. Otherwise as
     :func:`thin_layer_pull_off_stress`.
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    contact_modulus, work_of_adhesion : array_like
+        E* [Pa] and :math:`\Delta\gamma_0` [J/m^2]; positive.
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is below
+        0.5.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.theory.punch import Frictionless
@@ -126,12 +175,18 @@ def stiffening(base: Base) -> float:
     .. math:: \zeta = \frac{(1 - \nu)^2}{1 - 2 \nu} \quad \text{(bonded, appendix I)}
 
     Issues a ``UserWarning`` for a Poisson ratio above 0.45, where only extremely thin
-    layers obey the thin-layer law; raises ``ValueError`` at 0.5, where it does not exist.
+    layers obey the thin-layer law.
+
+    Parameters
+    ----------
+    base : Frictionless or Bonded
+        Boundary condition of the layer on its base; the Poisson ratio of a bonded one is below
+        0.5.
 
     Raises
     ------
-    ValueError
-        If a bonded layer has a Poisson ratio of 0.5.
+    InputError
+        If a bonded layer has a Poisson ratio of 0.5, for which the thin-layer law does not exist.
 
     Examples
     --------

@@ -49,16 +49,27 @@ class RegimeMap(NamedTuple):
 
 
 def regime_map(thickness: Values, speed: Values, pad: Pad, law: CrackLaw) -> RegimeMap:
-    """Compute the detachment regimes over thicknesses [m] and retraction speeds [m/s].
+    """Compute the detachment regimes over thicknesses and retraction speeds.
 
     Cohesive if the energy of the crack at pull-off on a half-space would exceed the limit of the
     finite size; otherwise a thin layer below b1 and a half-plane above. A 40 by 40 map takes half a
     second.
 
+    Parameters
+    ----------
+    thickness : array_like, shape (N,)
+        b [m], positive.
+    speed : array_like, shape (M,)
+        Retraction speed [m/s], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is at most 0.49.
+    law : CrackLaw
+        Crack law of the edges, :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
+
     Raises
     ------
-    ValueError
-        If the axes are not one-dimensional arrays.
+    InputError
+        If a value is outside its range or not finite, or an axis is not one-dimensional.
 
     Examples
     --------

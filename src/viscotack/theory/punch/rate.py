@@ -39,6 +39,18 @@ def largest_amplification(thickness: Values, pad: Pad) -> Number:
     where the mean stress equals the strength (Eq. 3.31, which is for b < b1). The material gives
     another limit, 1/k. Below 1 the pad detaches at its strength at any speed.
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is below 0.5.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.theory.punch import Frictionless
@@ -65,6 +77,11 @@ def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Num
         Crack law of the edges on a half-space.
     largest : array_like
         Limit by the size: :func:`largest_amplification`, or infinity for a half-space.
+
+    Raises
+    ------
+    InputError
+        If a speed is negative or not finite, or a limit is not positive.
 
     Notes
     -----
@@ -100,13 +117,20 @@ def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Num
 def crack_speed(amplification: Values, law: CrackLaw, *, largest: Values) -> Number:
     """Return the crack speed [m/s] at which an amplification is reached.
 
-    Parameters as for :func:`amplification`. The amplification must be at least 1 and below both
-    ``largest`` and glassy over rubbery modulus.
+    Parameters
+    ----------
+    amplification : array_like
+        Effective over rubbery surface energy, at least 1 and below both `largest` and glassy
+        over rubbery modulus.
+    law : CrackLaw
+        Crack law of the edges on a half-space.
+    largest : array_like
+        As for :func:`amplification`.
 
     Raises
     ------
-    ValueError
-        If the amplification is not in its range.
+    InputError
+        If an amplification is not in its range, or a limit is not positive.
 
     Examples
     --------

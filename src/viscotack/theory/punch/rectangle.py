@@ -70,6 +70,11 @@ def bounds(
     contact_modulus, work_of_adhesion : array_like
         :math:`E^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
 
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
+
     Examples
     --------
     >>> low, high = bounds(1e-4, half_width=1e-4, contact_modulus=1e6, work_of_adhesion=0.05)
@@ -118,7 +123,7 @@ def on_layer(
 
     Raises
     ------
-    ValueError
+    InputError
         If the layer is thicker than half the width.
 
     Examples

@@ -66,9 +66,21 @@ def regime_thicknesses(pad: Pad, *, modulus_ratio: Values) -> Thicknesses:
     .. math:: b_0 = \frac{2 \zeta E_0^* \Delta\gamma_0}{\sigma_0^2} = \frac4\pi \zeta a_0, \quad
               b_{0\infty} = \frac{b_0}{k}, \quad b_1 = \frac4\pi \zeta a
 
-    (Eq. 3.10, 3.16, 3.11, appendix I), with the rubbery contact modulus and k = ``modulus_ratio``
-    in (0, 1]. If b0 exceeds b1, that is for a < a0 (b0 fast: for a < a0/k), the punch detaches
-    at its strength at every thickness, and the half-plane regime does not exist.
+    (Eq. 3.10, 3.16, 3.11, appendix I), with the rubbery contact modulus. If b0 exceeds b1, that is
+    for a < a0 (b0 fast: for a < a0/k), the punch detaches at its strength at every thickness, and
+    the half-plane regime does not exist.
+
+    Parameters
+    ----------
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is below 0.5.
+    modulus_ratio : array_like
+        Rubbery over glassy modulus k, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -89,6 +101,18 @@ def regime_thicknesses(pad: Pad, *, modulus_ratio: Values) -> Thicknesses:
 def pull_off_stress(thickness: Values, pad: Pad) -> Number:
     """Return the mean pull-off stress [Pa] by the regime of the layer (Eq. 3.12).
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is below 0.5.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> from viscotack.theory.punch import Frictionless
@@ -106,8 +130,22 @@ def pull_off_stress(thickness: Values, pad: Pad) -> Number:
 def limits(thickness: Values, pad: Pad, *, modulus_ratio: Values) -> Limits:
     """Return the pull-off stress [Pa] of the slowest and the fastest retraction (Eq. 3.6, 3.15).
 
-    They follow from the rubbery contact modulus of the pad, and from that over ``modulus_ratio``.
-    The strength limits both.
+    They follow from the rubbery contact modulus of the pad, and from that over k. The strength
+    limits both.
+
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is below 0.5.
+    modulus_ratio : array_like
+        Rubbery over glassy modulus k, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -127,10 +165,22 @@ def limits(thickness: Values, pad: Pad, *, modulus_ratio: Values) -> Limits:
 def regime(thickness: Values, pad: Pad) -> Any:
     """Return the regime of an elastic layer, one of ``REGIMES``: a word, or an array of words.
 
+    Parameters
+    ----------
+    thickness : array_like
+        b [m], positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is below 0.5.
+
     Returns
     -------
     str or ndarray of str
         "cohesive", "thin layer" or "half-plane".
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

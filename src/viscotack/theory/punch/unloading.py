@@ -17,9 +17,6 @@ and pull-off is the point of largest stress. The amplification is limited by
 :math:`(\sigma_0/\bar\sigma_{el})^2`, with the exact elastic pull-off stress of
 :mod:`viscotack.theory.punch.crossover`, so the stress does not exceed the strength.
 
-The crack law is that of the edges of the pad, :meth:`viscotack.theory.punch.pad.Pad.crack_law`;
-``speed`` r [m/s] is the retraction speed, positive.
-
 Range: b < 5a, a relaxed start, a cohesive zone small compared with a and b. The bulk is assumed
 relaxed; in fast retraction this hardly changes the stress, but pull-off occurs at a much
 smaller depth. Compared with 35 simulations of a standard solid with Lennard-Jones forces (k = 0.1,
@@ -76,10 +73,29 @@ class PullOff(NamedTuple):
 
 
 def pull_off(speed: Values, pad: Pad, law: CrackLaw, *, thickness: Values) -> PullOff:
-    """Compute the state at pull-off for retraction speeds [m/s] and thicknesses [m], broadcast.
+    """Compute the state at pull-off for retraction speeds and thicknesses, broadcast.
 
     Uses the trapezoidal rule over a fine grid of crack speeds: the error of the stress is below
     1e-5. Every distinct thickness takes 2 to 5 ms, every speed 0.3 ms.
+
+    Parameters
+    ----------
+    speed, thickness : array_like
+        Retraction speed r [m/s] and b [m]; positive.
+    pad : Pad
+        Punch, layer and interface; the Poisson ratio of a bonded layer is at most 0.49.
+    law : CrackLaw
+        Crack law of the edges, :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
+
+    Returns
+    -------
+    PullOff
+        Stress [Pa], depth [m], ligament [m], crack speed [m/s] and amplification.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

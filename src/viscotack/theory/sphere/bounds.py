@@ -2,13 +2,11 @@ r"""Limits of the detachment of a viscoelastic sphere: slow and fast retraction,
 
 In slow retraction from a relaxed contact the solid is rubbery, in fast retraction glassy. With the
 modulus ratio :math:`k = E_0/E_\infty` the fast problem is an elastic one of modulus
-:math:`E_0^*/k` and, because the contact formed relaxed, of radius :math:`R/k`: its Tabor
-number is :math:`\mu k^{1/3}`, and the force in units of JKR's tends to
+:math:`E_0^*/k` and, because the contact formed relaxed, of the radius R of the sphere over k: its
+Tabor number is :math:`\mu k^{1/3}`, and the force in units of JKR's tends to
 :math:`f(\mu k^{1/3})/k`, with the elastic f of :mod:`viscotack.theory.elastic.lennard_jones`.
 
-Parameters: ``radius`` R [m], ``contact_modulus`` the rubbery :math:`E_0^*` [Pa],
-``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``equilibrium_gap`` h0 [m], ``modulus_ratio`` k
-in (0, 1]. Force and work are positive numbers. These are limits in rate; simulations show that all
+Force and work are positive numbers. These are limits in rate; simulations show that all
 intermediate rates lie between them, but there is no proof.
 
 Source: Maghami, PhD thesis (2025), sections 4.4 and 4.7, appendices VIII and IX, published as
@@ -32,6 +30,17 @@ def rubbery_force(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the pull-off force [N] of the slowest retraction, :math:`f(\mu)` times that of JKR.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0
+        [m]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -64,6 +73,19 @@ def glassy_force(
     It ranges from 1/k times that of JKR (short range) to 4/(3k) times (long range). For a smaller
     contact see :func:`glassy_force_at_radius`.
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0
+        [m]; positive.
+    modulus_ratio : array_like
+        k, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> lens = dict(
@@ -89,13 +111,28 @@ def glassy_force_at_radius(
     work_of_adhesion: Values,
     modulus_ratio: Values,
 ) -> Number:
-    r"""Return the fast limit of the pull-off force [N] from a relaxed ``contact_radius`` [m].
+    r"""Return the fast limit of the pull-off force [N] from a relaxed contact radius [m].
 
     .. math:: P = \sqrt{8 \pi E_0^* a_0^3 \Delta\gamma_0 / k} - \frac{4 E_0^* a_0^3}{3 R}
 
     up to the radius :math:`\hat a_0 = (9/8k)^{1/3}`, and 1/k times that of JKR above it. Range:
     forces of short range, a cohesive zone small against a0; at mu = 3.24 and k = 0.1 simulations
     are 16 % (a0 = 2.21 in units of Eq. 4.16) and 28 % (1.56) lower.
+
+    Parameters
+    ----------
+    contact_radius : array_like
+        Relaxed contact radius a0 [m], not negative.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2];
+        positive.
+    modulus_ratio : array_like
+        k, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -117,6 +154,17 @@ def rubbery_work(
 
     Eq. 46, :func:`viscotack.theory.elastic.jkr.work_to_pull_off`, is its short-range limit
     and a lower bound for every Tabor number.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0
+        [m]; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive and finite.
 
     Examples
     --------
@@ -148,6 +196,19 @@ def glassy_work(
     :math:`0.8018 \, k^{-2/3} \mu \pi^{2/3} \tfrac32 \pi R \Delta\gamma_0 h_0`. "Large" means a
     relaxed radius :math:`\hat a_0 \ge (9/2k)^{1/3}`, because the work is counted from zero force.
 
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion, equilibrium_gap : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa], :math:`\Delta\gamma_0` [J/m^2] and h0
+        [m]; positive.
+    modulus_ratio : array_like
+        k, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
+
     Examples
     --------
     >>> lens = dict(
@@ -168,7 +229,7 @@ def glassy_work(
 def glassy_work_estimate(
     contact_radius: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the glassy estimate of the work [J] from the ``contact_radius`` at pull-off [m].
+    r"""Return the glassy estimate of the work [J] from the contact radius at pull-off [m].
 
     Eq. 43:
 
@@ -178,6 +239,19 @@ def glassy_work_estimate(
     The energy of a glassy flat punch of that radius; k cancels. It is an estimate, not a bound: in
     the fast limit of JKR it is 1.8 times :func:`glassy_work`, at mu = 0.8 it agrees with
     simulations.
+
+    Parameters
+    ----------
+    contact_radius : array_like
+        Contact radius at pull-off :math:`a_{po}` [m], not negative.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -199,6 +273,19 @@ def smallest_full_radius(
 
     in the limit of short range, from :func:`glassy_force_at_radius`; larger cohesive zones need a
     larger radius.
+
+    Parameters
+    ----------
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2];
+        positive.
+    modulus_ratio : array_like
+        k, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -222,6 +309,14 @@ def threshold_contact_radius(
     ----------
     force : array_like
         Expected pull-off force at the rate [N], positive and not below that of JKR.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Notes
     -----

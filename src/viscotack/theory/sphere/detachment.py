@@ -109,7 +109,7 @@ def at_pull_off(
 
     Raises
     ------
-    ValueError
+    InputError
         If the start has no contact, or one smaller than the state at pull-off, because then the
         force depends on the preload.
 
@@ -165,7 +165,19 @@ def unlimited(
     r"""Compute the state of :func:`at_pull_off`, also for a start smaller than the state.
 
     It then describes the relaxation of the bulk during the retraction from this depth, not the
-    force. Speeds and depths are broadcast; other parameters as there.
+    force. Speeds and depths are broadcast.
+
+    Parameters
+    ----------
+    speed : array_like
+        Retraction speed [m/s], positive.
+    law : CrackLaw
+        Crack law of the edge; the bulk creeps as its material.
+    depth : array_like
+        Depth of the relaxed start [m], above that of the pull-off of the relaxed contact.
+    radius, contact_modulus, work_of_adhesion : float
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2];
+        positive.
 
     Returns
     -------
@@ -174,8 +186,8 @@ def unlimited(
 
     Raises
     ------
-    ValueError
-        If the depth is not above that of the pull-off of the relaxed contact.
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

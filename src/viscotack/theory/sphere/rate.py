@@ -49,6 +49,11 @@ def crack_speed(rate: Values, *, tabor: Values) -> Number:
         Tabor number of the case. It has no effect; a ``UserWarning`` is issued if it differs from
         the 3.24 of the fit by more than a quarter.
 
+    Raises
+    ------
+    InputError
+        If the rate is negative, the Tabor number is not positive, or one of them is not finite.
+
     Examples
     --------
     >>> f"{crack_speed(10.0, tabor=3.24):.2f}"
@@ -71,8 +76,18 @@ def crack_speed(rate: Values, *, tabor: Values) -> Number:
 def rate_in_tip_lengths(speed: Values, *, time_unit: Values, tip_length: Values) -> Number:
     r"""Return :math:`r \tau_0 / l_0`, the rate of Eq. 4.24 as printed, from a speed [m/s].
 
-    ``time_unit`` [s] and ``tip_length`` [m] of
-    :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
+    Parameters
+    ----------
+    speed : array_like
+        Retraction speed r [m/s], not negative.
+    time_unit, tip_length : array_like
+        :math:`\tau_0` [s] and :math:`l_0` [m] of
+        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`; positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------
@@ -92,6 +107,16 @@ def rate_as_published(rate: Values) -> Number:
 
     This is the rate in the authors' published tables and models, at every Tabor number.
 
+    Parameters
+    ----------
+    rate : array_like
+        :math:`\hat r_u`, retraction speed [h0/tau0], not negative.
+
+    Raises
+    ------
+    InputError
+        If the rate is negative or not finite.
+
     Examples
     --------
     >>> f"{rate_as_published(100.0):.3f}"
@@ -110,6 +135,21 @@ def rate_in_contact_heights(
     work_of_adhesion: Values,
 ) -> Number:
     r"""Return :math:`r \tau_0 / (\pi^2 \Delta\gamma_0^2 R / E_0^{*2})^{1/3}` from a speed [m/s].
+
+    Parameters
+    ----------
+    speed : array_like
+        Retraction speed r [m/s], not negative.
+    time_unit : array_like
+        :math:`\tau_0` [s], positive.
+    radius, contact_modulus, work_of_adhesion : array_like
+        R of the sphere [m], rubbery :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2];
+        positive.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range or not finite.
 
     Examples
     --------

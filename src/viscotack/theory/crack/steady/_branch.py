@@ -36,8 +36,15 @@ _FINE = 16
 def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
     """Return the dimensionless energy Gamma of a crack from its odds.
 
-    The odds are (Gamma - 1)/(1/k - Gamma) for an opening crack (``sign`` 1) and
-    (1 - Gamma)/(Gamma - k) for a closing one (-1), with k = ``modulus_ratio``.
+    Parameters
+    ----------
+    odds : ndarray
+        (Gamma - 1)/(1/k - Gamma) for an opening crack, (1 - Gamma)/(Gamma - k) for a closing
+        one; not negative.
+    modulus_ratio : float
+        k, above 0 and at most 1.
+    sign : int
+        1 opening, -1 closing.
 
     Examples
     --------

@@ -66,9 +66,16 @@ def compared(
     crack : SteadyCrack
         Solid and law.
     speed : array_like
-        Positive.
+        Dimensionless speeds, positive.
     strength_ratio : float
         Alpha of the Persson-Brener length.
+
+    Raises
+    ------
+    InputError
+        If a speed or the ratio is not positive and finite.
+    OutOfRange
+        If the law depends on more than the gap.
 
     Examples
     --------
@@ -100,8 +107,12 @@ def compared(
 def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
     """Fit the alpha of the Persson-Brener length, and return it with the remaining deviation.
 
-    The deviation is the largest relative one of the amplification, over all speeds; both numbers
-    are dimensionless.
+    The deviation is the largest relative one of the amplification, over all speeds.
+
+    Parameters
+    ----------
+    crack : SteadyCrack
+        Solid, not elastic, and law of the gap alone.
 
     Returns
     -------
@@ -110,8 +121,10 @@ def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
 
     Raises
     ------
-    ValueError
+    InputError
         If the solid is elastic.
+    OutOfRange
+        If the law depends on more than the gap.
 
     Examples
     --------

@@ -332,6 +332,11 @@ def _finite(name: str, value: Values) -> Array:
 def modes_of(material: Any) -> Modes:
     """Return the modes of a solid; weights are dimensionless, times in its time unit.
 
+    Parameters
+    ----------
+    material : Material
+        Viscoelastic solid of :mod:`viscotack.materials`.
+
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
