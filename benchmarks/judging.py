@@ -52,6 +52,7 @@ NEEDED = dict.fromkeys(FAMILIES, _SPHERES) | {
     "punches": ("punch",),
     "soft punches": ("punch",),
     "shallow soft punches": ("punch",),
+    "wide punches": ("punch",),
     "stamps": ("punch",),
 }
 _COLUMNS = ("design", "kind", "inputs", "method", *(f"{x}, half widths" for x in OF))

@@ -49,6 +49,7 @@ SOFT_PUNCHES = (
     ((1.0, 6.0), (100.0, 1000.0), (1e-3, 5e-3), (1.0, 10.0), (0.1, 4.0)),
 )
 SHALLOW_PUNCHES = (1.0, 4.0), (100.0, 1000.0), (1e-3, 4e-3), (1.5e-3, 0.05), (1.0, 30.0)
+WIDE_PUNCHES = (40.0, 200.0), (1.0, 5.0), (0.35, 0.7), (2.0, 10.0), (1.0, 1e4)
 Random = np.random.Generator
 _DIGITS = 8
 # Numbers of cases of each design that measure intervals.
@@ -61,6 +62,7 @@ COUNTS = {
     "light tension": 300,
     "soft punches": 400,
     "shallow soft punches": 100,
+    "wide punches": 200,
 }
 # Largest Tabor number of the design of large ones: beyond it a simulation takes minutes.
 LARGEST = 20.0
@@ -140,15 +142,20 @@ def soft_punch(random: Random) -> Case:
 
     There an adversary found errors of five half widths of earlier intervals.
     """
-    return _on_soft("soft punches", SOFT_PUNCHES[int(random.random() < 0.5)], random)
+    return _on_layer("soft punches", SOFT_PUNCHES[int(random.random() < 0.5)], random)
 
 
 def shallow_punch(random: Random) -> Case:
     """Draw a narrow punch on a thick, soft layer from a shallow start: he found works there."""
-    return _on_soft("shallow soft punches", SHALLOW_PUNCHES, random)
+    return _on_layer("shallow soft punches", SHALLOW_PUNCHES, random)
 
 
-def _on_soft(design: str, ends: tuple[tuple[float, float], ...], random: Random) -> Case:
+def wide_punch(random: Random) -> Case:
+    """Draw a wide punch on a thin, nearly elastic layer from a deep start: here too, if fast."""
+    return _on_layer("wide punches", WIDE_PUNCHES, random)
+
+
+def _on_layer(design: str, ends: tuple[tuple[float, float], ...], random: Random) -> Case:
     size, thickness, ratio, stress, part = (between(random, *each) for each in ends)
     depth = stress * float(punch_physics.compliance(np.array([[size, thickness]]))[0])
     drawn = (size, thickness, ratio, depth, part * depth)
@@ -210,6 +217,7 @@ DESIGNS: dict[str, tuple[int, Callable[[Random], Case]]] = {
     "soft punches": (6, soft_punch),
     "shallow soft punches": (7, shallow_punch),
     "faces": (8, on_face),
+    "wide punches": (9, wide_punch),
 } | {name: (100 + i, partial(of_engineers, name)) for i, name in enumerate(FAMILIES)}
 
 

@@ -16,7 +16,7 @@ from viscotack.surrogate import line, physics
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
 LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"
-# Those that were drawn where errors reach far; they tell how far, and no network learns the answer.
+# Those that were drawn where errors reach far; they tell how far. Second networks alone learn them.
 FAR_OFF = ("hard", "steep")
 # Largest stated errors of force and work of rows that may judge others.
 MOST_ERRORS = (3e-3, 1e-2)
