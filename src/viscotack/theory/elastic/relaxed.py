@@ -249,8 +249,8 @@ def contact_in_groups(
     Raises
     ------
     InputError
-        If the Tabor number is not positive and finite, or the contact is too wide for the theory of its layer,
-        as in :func:`.indenter.depth`.
+        If the Tabor number is not positive and finite, or the contact is too wide for the theory of
+        its layer, as in :func:`.indenter.depth`.
 
     Examples
     --------
