@@ -15,6 +15,9 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
+from viscotack.materials.modes import compressed
+from viscotack.materials.scaling import _factor
+from viscotack.materials.springpots import FractionalMaxwell
 
 ELASTIC = dict(rubbery_modulus=1e6, poisson_ratio=0.5)
 STANDARD = dict(ELASTIC, glassy_modulus=1e7, tau0=1e-3)
@@ -205,3 +208,96 @@ def test_modes_need_a_time_for_each_weight():
         Modes(instantaneous=0.1, weights=(0.4, 0.5), times=(1.0,), error=0.0)
     with pytest.raises(ValueError, match="time must not be negative"):
         Modes(instantaneous=1.0, weights=(), times=(), error=0.0).creep(-1.0)
+    with pytest.raises(ValueError, match="got 1 weights and 2 times"):
+        Modes(instantaneous=0.1, weights=(0.9,), times=(1.0, 2.0), error=0.0)
+
+
+FAST = {"shortest": 2.0, "longest": 1e4, "error": 0.25}
+# what the two fastest of the modes (0.01, 1), (0.02, 2) lose at a time of 2
+LOST = np.cumsum([0.01 * np.exp(-2.0), 0.02 * np.exp(-1.0)])
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "fast"),
+    [(1.999 * LOST[0], 0), (2.001 * LOST[0], 1), (1.999 * LOST[1], 1), (2.001 * LOST[1], 2)],
+)
+def test_modes_are_instantaneous_while_half_of_the_tolerance_lasts(tolerance, fast):
+    weights, times = np.array([0.01, 0.02, 0.5]), np.array([1.0, 2.0, 100.0])
+    modes = compressed(0.47, weights, times, tolerance=tolerance, **FAST)
+    assert modes.weights == tuple(weights[fast:]) and modes.times == tuple(times[fast:])
+    assert modes.instantaneous == pytest.approx(0.47 + sum(weights[:fast]), rel=1e-14)
+    assert modes.error == pytest.approx(0.25 + (LOST[fast - 1] if fast else 0), rel=1e-14)
+
+
+def test_slow_modes_are_one_while_half_of_the_tolerance_lasts():
+    # the modes 0.2 in 100 and 0.3 in 300 have the weight 0.5 and the rate 0.003
+    weights, times = np.array([0.4, 0.2, 0.3]), np.array([5.0, 100.0, 300.0])
+    window = {"shortest": 1.0, "longest": 20.0, "error": 0.25}
+    both = 0.2 * -np.expm1(-20 / 100) + 0.3 * -np.expm1(-20 / 300)
+    excess = 0.5 * -np.expm1(-20 * 0.003 / 0.5) - both
+    for tolerance, merged in ((1.99 * excess, False), (2.01 * excess, True)):
+        modes = compressed(0.1, weights, times, tolerance=tolerance, **window)
+        kept = (
+            ((0.4, 0.5), (5.0, 0.5 / 0.003)) if merged else ((0.4, 0.2, 0.3), (5.0, 100.0, 300.0))
+        )
+        assert modes.weights == pytest.approx(kept[0], rel=1e-14)
+        assert modes.times == pytest.approx(kept[1], rel=1e-14)
+        assert modes.error == pytest.approx(0.25 + excess * merged, rel=1e-9)
+
+
+def test_branches_may_lie_a_billionth_apart_and_be_ten_thousand():
+    series = {"rubbery_modulus": 1e6, "poisson_ratio": 0.5}
+    assert len(Prony(**series, branches=[(1.0, 1.0), (1.0, 1.0 + 2e-9)]).branches) == 2
+    for near in (1.0, 1.0 + 5e-10):
+        with pytest.raises(ValueError, match="must differ by more than 1e-9"):
+            Prony(**series, branches=[(1.0, 1.0), (1.0, near)])
+    many = [(1.0, 1.0 + i) for i in range(10_001)]
+    assert len(Prony(**series, branches=many[1:]).branches) == 10_000
+    with pytest.raises(ValueError, match="at most 10,000 branches, got 10,001"):
+        Prony(**series, branches=many)
+
+
+def test_a_tolerance_is_below_1_and_a_springpot_at_most_099_above_another():
+    with pytest.raises(ValueError, match="must be below 1, got 1"):
+        Elastic(rubbery_modulus=1.0, poisson_ratio=0.5).retardation_modes(
+            shortest=1.0, longest=1.0, tolerance=1.0
+        )
+    law = {"modulus": 1e5, "tau0": 1.0, "poisson_ratio": 0.5}
+    for order, lower in ((0.99, 0.0), (0.5, 0.5)):
+        assert FractionalMaxwell(**law, order=order, lower_order=lower).order == order
+    for order, lower in ((0.995, 0.0), (0.5, 0.51)):
+        with pytest.raises(ValueError, match=f"got {lower:g} and {order:g}"):
+            FractionalMaxwell(**law, order=order, lower_order=lower)
+    for time in (0.0, math.inf):
+        with pytest.raises(ValueError, match="springpots have no plateau"):
+            FractionalMaxwell(**law, order=0.5, lower_order=0.5).creep(time)
+
+
+def test_an_elastic_solid_is_its_own_reference():
+    solid = Elastic(rubbery_modulus=2.0, poisson_ratio=0.5)
+    assert (solid.glassy_modulus, solid.modulus_ratio, solid.time_unit) == (2.0, 1.0, 1.0)
+    assert solid.reduced() == Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    modes = solid.retardation_modes(shortest=1.0, longest=2.0, tolerance=0.5)
+    assert modes == Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [
+        ("Pa", 2.0),
+        ("s", 3.0),
+        ("1/Pa", 0.5),
+        ("Pa s^0.5", 2 * 3**0.5),
+        ("Pa/s^2", 2 / 9),
+        ("Pa^-1 s^-0.5", 0.5 / 3**0.5),
+        ("1/s", 1 / 3),
+    ],
+)
+def test_the_factor_of_a_unit_is_that_of_its_powers(unit, factor):
+    assert _factor(unit, {"Pa": 2.0, "s": 3.0}) == pytest.approx(factor, rel=1e-15)
+
+
+def test_a_unit_of_a_material_is_composed_of_pascals_and_seconds():
+    for wrong in ("m", "Pa m", "1/m", "Pa^x"):
+        with pytest.raises(ValueError, match="must be composed of Pa and s"):
+            _factor(wrong, {"Pa": 2.0, "s": 3.0})

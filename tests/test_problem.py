@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from viscotack.app.cli import application
-from viscotack.geometry import Cone, FlatPunch, Layer, Sphere
+from viscotack.geometry import Bonded, Cone, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -16,7 +16,9 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.problem import Groups, Problem, revolution
+from viscotack.problem import Groups, Problem, plane, ranges, revolution
+from viscotack.problem.changed import changed, moved
+from viscotack.problem.inputs import check_exponent, check_paths, inputs_of, replaced
 from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import LennardJones
@@ -350,3 +352,122 @@ def test_lengths_whose_ratios_no_number_holds_are_refused(radius, gap):
             geometry=Sphere(radius=radius),
             protocol=Retraction(start=AtForce(1e-3), speed=1e-6),
         )
+
+
+def test_a_range_ends_at_its_ends_within_rounding():
+    for value, reached in ((2.0, True), (2.0 * (1 - 0.9e-9), True), (2.0 * (1 - 1.1e-9), False)):
+        assert ranges.at_least(value, 2.0) is reached
+    for value, reached in ((2.0, True), (2.0 * (1 + 0.9e-9), True), (2.0 * (1 + 1.1e-9), False)):
+        assert ranges.at_most(value, 2.0) is reached
+    both = {"a": (1.0, 2.0), "b": (1.0, 2.0)}
+    assert ranges.outside({"a": 1.0, "b": 2.0}, both) == ""
+    said = "a is 0.5, verified from 1 to 2; b is 3, verified from 1 to 2"
+    assert ranges.outside({"a": 0.5, "b": 3.0}, both) == said
+
+
+def test_a_number_is_changed_to_both_sides_within_its_range():
+    solid = replace(MATERIALS[1], poisson_ratio=0.5)
+    found = {x.name: x for x in changed(lens(material=solid))}
+    tau = found["material.tau0"]
+    assert (tau.down, tau.up, tau.value) == (-1e-4, 1e-4, 0.02)
+    assert tau.low.material.tau0 == pytest.approx(0.02 * 0.9999, rel=1e-14)
+    assert tau.high.material.tau0 == pytest.approx(0.02 * 1.0001, rel=1e-14)
+    assert tau.step == pytest.approx(math.log(1.0001 / 0.9999), rel=1e-12)
+    assert tau.base == lens(material=solid).groups()
+    assert [x.tabor for x in tau.groups] == [tau.base.tabor] * 2
+    most = found["material.poisson_ratio"]
+    assert (most.down, most.up) == (-1e-4, 0.0)
+    assert most.high == lens(material=solid) != most.low
+    with pytest.raises(ValueError, match="'material.tau1' is not an input .* material.tau0"):
+        changed(lens(material=solid), ["material.tau1"])
+
+
+def test_a_number_is_multiplied_unless_it_cannot_be():
+    assert moved(lens(), "protocol.speed", 3.0).protocol.speed == pytest.approx(3e-4)
+    assert moved(lens(), "material.poisson_ratio", 1.1) is None
+    assert moved(lens(), "protocol.nothing", 1.1) is None
+
+
+def test_paths_of_numbers_are_checked_with_what_there_is():
+    case = lens(geometry=PowerLawProfile(exponent=3.0, coefficient=1e4))
+    check_paths(case, ["material.tau0", "geometry.height", "geometry.at_radius"])
+    for paths, said in (
+        (["geometry.height"], "go together; add geometry.at_radius"),
+        (["geometry.at_radius"], "go together; add geometry.height"),
+        (["geometry.height", "geometry.at_radius", "geometry.coefficient"], "remove one"),
+        (["material.tau"], "no number 'material.tau': at 'tau' there is rubbery_modulus,"),
+        (["material.type"], "material.type is not a number of the problem"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            check_paths(case, paths)
+    for paths in (["geometry.exponent", "geometry.height"], ["material.tau0"]):
+        check_exponent(case, paths)
+    with pytest.raises(ValueError, match="is another shape with every exponent"):
+        check_exponent(case, ["geometry.exponent"])
+    series = lens(material=MATERIALS[2])
+    check_paths(series, ["material.branches.1.0"])
+    with pytest.raises(ValueError, match="at '2' there is 0, 1$"):
+        check_paths(series, ["material.branches.2.0"])
+
+
+def test_a_tip_is_made_by_its_height_at_a_radius_and_reduced_again_in_groups():
+    case = lens(geometry=PowerLawProfile(exponent=3.0, coefficient=1e4))
+    tip = {"geometry.height": 1e-5, "geometry.at_radius": 2e-4}
+    found = replaced(to_dict(case), tip, inputs_of(case))["geometry"]
+    assert found["coefficient"] == pytest.approx(1e-5 / 2e-4**3, rel=1e-14)
+    groups = case.groups()
+    found = replaced(to_dict(groups), {"geometry.exponent": 4.0}, inputs_of(groups))["geometry"]
+    assert (found["exponent"], found["coefficient"]) == (4.0, 0.25)
+
+
+def test_the_ratio_of_a_bonded_layer_is_that_of_its_material():
+    bonded = Layer(1e-3, Bonded(poisson_ratio=0.4))
+    case = lens(material=MATERIALS[2], body=bonded)
+    made = replaced(to_dict(case), {"material.poisson_ratio": 0.3}, inputs_of(case))
+    assert made["body"]["base"]["poisson_ratio"] == 0.3
+    own = {"material.poisson_ratio": 0.3, "body.base.poisson_ratio": 0.2}
+    assert replaced(to_dict(case), own, inputs_of(case))["body"]["base"]["poisson_ratio"] == 0.2
+
+
+def test_scales_of_a_punch_follow_their_definitions():
+    law = LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
+    case = lens(
+        material=MATERIALS[1],
+        traction=law,
+        geometry=FlatPunch(1e-3),
+        body=Layer(5e-5),
+        protocol=Retraction(start=AtDepth(1e-6), speed=1e-4),
+    )
+    E_star, strength = E / 0.75, law.strength
+    a0 = math.pi * E_star * 0.15 / (2 * strength**2)
+    assert vars(case.scales()) == pytest.approx(
+        {
+            "stress": strength,
+            "length": 1.5e-6,
+            "width": a0,
+            "half_width": 1e-3,
+            "work": 0.15,
+            "time": 0.02,
+            "crack_speed": 1.5e-6 / 0.02,
+        },
+        rel=1e-13,
+    )
+    groups = case.groups()
+    assert groups.cohesion == pytest.approx(strength / E_star, rel=1e-13)
+    assert groups.geometry.half_width == pytest.approx(1e-3 / a0, rel=1e-13)
+    assert groups.fracture_length == pytest.approx(a0 / 1.5e-6, rel=1e-12)
+    for known in ({"equilibrium_gap": 1.5e-6}, {"work_of_adhesion": 0.15}):
+        units = plane.si_units(groups, E_star, None, **known)
+        assert vars(units) == pytest.approx(
+            {
+                "length": 1.5e-6,
+                "work": 0.15,
+                "force": strength,
+                "contact_radius": a0,
+                "along": a0,
+                "height": 1.5e-6,
+            },
+            rel=1e-12,
+        )
+    with pytest.raises(ValueError, match="a punch has no radius, got 0 m"):
+        plane.si_units(groups, E_star, 0.0, work_of_adhesion=0.15)

@@ -5,7 +5,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from viscotack.app.cli.commands import application
+from viscotack.app.cli import application
 from viscotack.files.quantities import read_quantities
 from viscotack.problem.case_file import read_case
 from viscotack.problem.law_table import law_from_words
@@ -265,7 +265,7 @@ def test_a_wrong_law_in_a_flag_is_refused(words, said):
 
 def simulated(*flags):
     arguments = ["simulate", "sphere", "--tabor", "1", "--material", "elastic", *flags, "--json"]
-    return CliRunner().invoke(application, arguments)
+    return CliRunner().invoke(application(), arguments)
 
 
 def test_moves_on_the_command_line():

@@ -164,3 +164,10 @@ def test_what_the_theory_of_films_does_not_know_is_refused():
         on_layer.check_disc(1.0, Layer(1e-3))
     with pytest.raises(ValueError, match="use theory.disc"):
         film.instability(shape=vt.Disc(1.0), body=Layer(1.0), **UNITS)
+
+
+def test_a_film_whose_state_without_load_is_not_found_is_an_error_of_input(monkeypatch):
+    # so it is with numbers such as 1e-99, which take seconds
+    monkeypatch.setattr(relaxed, "contact", lambda *_, **__: None)
+    with pytest.raises(vt.InputError, match="too large or too small"):
+        film.work_to_pull_off(shape=BALL, body=HalfSpace(), **UNITS)

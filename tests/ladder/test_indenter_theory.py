@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere, equivalent_radius
 from viscotack.theory import jkr, profiles
 from viscotack.theory.elastic import indenter
@@ -67,3 +68,16 @@ def test_units_change_nothing():
     in_metres = indenter.depth(1e-4, shape=shape, **SOLID)
     in_millimetres = indenter.depth(1e-1, shape=other, contact_modulus=2.0, work_of_adhesion=5e-5)
     assert in_millimetres == pytest.approx(1e3 * in_metres, rel=1e-12)
+
+
+@pytest.mark.parametrize("function", [indenter.depth, indenter.force, indenter.drawn, indenter.gap])
+def test_a_wrong_modulus_or_adhesion_is_refused(function):
+    case = {"contact_radius": 1e-4, "shape": Sphere(1e-3)}
+    if function is indenter.gap:
+        case["position"] = 2e-4
+    solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.0}
+    assert np.isfinite(function(**case, **solid))
+    with pytest.raises(InputError, match="contact_modulus must be positive"):
+        function(**case, **solid | {"contact_modulus": 0.0})
+    with pytest.raises(InputError, match="work_of_adhesion must be finite and at least 0"):
+        function(**case, **solid | {"work_of_adhesion": -0.05})

@@ -161,3 +161,21 @@ def test_only_the_passport_of_a_liquid_is_refused_where_contacts_relax():
     melt = Passport(name="melt", material=solid.material, evidence=evidence)
     with pytest.raises(InputError, match="melt has no rubbery plateau .*: no contact relaxes"):
         melt.refuse_liquid("no contact relaxes")
+
+
+def test_a_prony_form_has_a_tolerance_between_0_and_1_and_ascending_frequencies():
+    for wrong in (0.0, 1.0):
+        with pytest.raises(InputError, match="must lie between 0 and 1"):
+            prony_form(PDMS, frequencies=(1.0, 10.0), tolerance=wrong)
+    with pytest.raises(InputError, match="must ascend, got 2 and 2 rad/s"):
+        prony_form(PDMS, frequencies=(2.0, 2.0))
+    solid = StandardSolid(rubbery_modulus=E0, glassy_modulus=3 * E0, tau0=1.0, poisson_ratio=0.3)
+    form = prony_form(solid, frequencies=(1.0, 2.0))
+    assert form == PronyForm(material=relaxation_form(solid), error=0.0, frequencies=(1.0, 2.0))
+    stiff = RetardationPowerLaw(
+        rubbery_modulus=E0, glassy_modulus=E0, exponent=0.5, tau0=1.0, poisson_ratio=0.3
+    )
+    with pytest.raises(InputError, match="does not relax"):
+        prony_form(stiff, frequencies=(1.0, 2.0))
+    with pytest.raises(InputError, match="above the tolerance 1e-16"):
+        prony_form(PDMS, frequencies=(1.0, 2.0), tolerance=1e-16)

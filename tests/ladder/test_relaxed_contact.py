@@ -125,6 +125,14 @@ def test_closed_forms_have_no_start_of_a_radius_that_nothing_holds():
         assert held or not unloading.applies
 
 
+def test_a_tabor_number_of_0_is_refused():
+    for function in (contact_in_groups, radius_without_adhesion):
+        with pytest.raises(InputError, match="tabor must be positive"):
+            function(AtDepth(1.0), tabor=0.0)
+    with pytest.raises(InputError, match="exponent must be positive"):
+        radius_without_adhesion(AtDepth(1.0), tabor=1.0, exponent=0.0)
+
+
 WORN = MeasuredProfile(((0.0, 0.0), (1e-4, 0.0), (2e-4, 1e-6), (3e-4, 3e-6)))
 
 

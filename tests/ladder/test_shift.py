@@ -228,3 +228,40 @@ def test_a_reference_temperature_that_no_polymer_has_is_rejected_or_asked_about(
         cold = WLF(reference_temperature=120.0, c1=8.86, c2=10.0)
     assert cold.log10_shift(120.0) == 0.0
     WLF(reference_temperature=150.0, c1=8.86, c2=10.0)
+
+
+def test_a_table_ends_a_kelvin_beside_its_rows_and_a_law_at_its_pole():
+    table = TabulatedShift(ROOM, (273.15, ROOM), (2.0, 0.0), vertical=(-0.5, 0.0))
+    # straight lines of 0.1 per kelvin
+    assert_allclose(table.log10_shift([272.15, 294.15]), [2.1, -0.1], rtol=1e-12)
+    assert table.log10_shift(300.0 - 7.0) > 0 and table.log10_shift(ROOM) == 0
+    for outside, said in ((272.1, "-1.05 C"), (294.2, "21.05 C")):
+        with pytest.raises(ValueError, match=f"covers 273.15 K .0 C. to 293.15 K.*{said}"):
+            table.log10_shift([ROOM, outside])
+    law = WLF(reference_temperature=300.0, c1=5.0, c2=50.0)
+    assert law.pole == 250.0
+    assert law.log10_shift(275.0) == pytest.approx(5.0)
+    with pytest.raises(ValueError, match="pole at 250 K"):
+        law.log10_shift(250.0)
+    with pytest.raises(ValueError, match="must lie above the pole"):
+        law.at_reference(250.0)
+    assert law.at_reference(251.0).c2 == 1.0
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"temperature": (280.0,), "values": (0.0,)}, "two or more temperatures"),
+        ({"values": (1.0,)}, "one value for each"),
+        ({"temperature": (280.0, 280.0)}, "must ascend, each once"),
+        ({"values": (1.0, np.inf)}, "values of a table of shifts must be finite"),
+        ({"uncertainty": (0.1,)}, "uncertainty .* got 1 for 2"),
+        ({"uncertainty": (0.1, -0.1)}, "uncertainty .* not negative"),
+        ({"vertical": (0.1, np.nan)}, "vertical .* finite"),
+    ],
+)
+def test_a_wrong_table_of_shifts_is_refused(changed, said):
+    table = {"temperature": (280.0, ROOM), "values": (1.0, 0.0)}
+    assert TabulatedShift(ROOM, **table, uncertainty=(0.0, 0.1)).uncertainty == (0.0, 0.1)
+    with pytest.raises(ValueError, match=said):
+        TabulatedShift(ROOM, **table | changed)

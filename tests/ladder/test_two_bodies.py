@@ -6,6 +6,7 @@ import pytest
 import viscotack as vt
 from viscotack.geometry import effective_sphere
 from viscotack.materials import effective_solid
+from viscotack.materials.two_bodies import _merged
 
 TIMES = np.geomspace(1e-4, 1e4, 50)
 SOFT = vt.Prony(rubbery_modulus=1e6, branches=[(5e6, 1e-3), (4e6, 1.0)], poisson_ratio=0.5)
@@ -71,3 +72,9 @@ def test_other_solids_are_refused_in_words():
     )
     with pytest.raises(vt.InputError, match="prony_form approximates it"):
         effective_solid(SOFT, power)
+
+
+def test_elements_of_one_time_are_one_element_whose_compliance_is_the_sum():
+    near, far = 1.0 + 5e-13, 1.0 + 2e-12
+    assert _merged([(2.0, 1.0), (3.0, near), (4.0, 0.5)]) == ((4.0, 0.5), (5.0, 1.0))
+    assert _merged([(2.0, far), (3.0, 1.0)]) == ((3.0, 1.0), (2.0, far))

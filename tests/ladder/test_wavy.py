@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from viscotack.errors import InputError
 from viscotack.result import observables
 from viscotack.theory import jkr, wavy
 from viscotack.theory.elastic import indenter
@@ -42,6 +43,11 @@ def test_the_stiffness_of_a_contact_is_that_of_its_radius():
         for function in (wavy.force, wavy.depth)
     )
     assert force / depth == pytest.approx(2 * SOLID["contact_modulus"] * a, rel=1e-6)
+
+
+def test_more_waves_than_can_be_searched_are_refused():
+    with pytest.raises(InputError, match=r"searched for over 3e\+98 waves"):
+        wavy.pull_off(**SPHERE | WAVES | SOLID | {"amplitude": 1e91, "radius": 1.0})
 
 
 # --- 2 limit --------------------------------------------------------------------------------------

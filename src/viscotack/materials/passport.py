@@ -255,7 +255,7 @@ def _moved(
         return interval
     # an open end stays open
     down = math.hypot(math.log(tau0 / low), wider) if low > 0 else math.inf
-    up = math.hypot(math.log(high / tau0), wider) if high < math.inf else math.inf
+    up = math.hypot(math.log(high / tau0), wider)
     return name, tau0 * factor * math.exp(-down), tau0 * factor * math.exp(up)
 
 

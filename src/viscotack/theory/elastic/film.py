@@ -34,7 +34,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from viscotack.errors import InputError
+from viscotack.errors import TOO_LARGE, InputError
 from viscotack.geometry import Base, Disc, HalfSpace, Layer, Shape
 from viscotack.geometry.gauss import gauss
 from viscotack.protocol import AtForce
@@ -165,7 +165,9 @@ def work_to_pull_off(
     solid: Any = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     end = pull_off(shape=shape, body=body, **solid)
     free = relaxed.contact(AtForce(0.0), shape=shape, body=body, **solid)
-    assert free is not None, "every JKR contact has a state without load"
+    # every JKR contact has a state without load, but a number such as 1e99 hides it
+    if free is None:
+        raise InputError(TOO_LARGE)
     a = np.linspace(float(end.contact_radius), float(free.contact_radius), 200)
     depth, force = (
         scipy.interpolate.CubicSpline(a, np.asarray(of(a)))

@@ -24,12 +24,13 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.geometry import Body, HalfSpace, Layer
-from viscotack.theory._checks import Number, Values, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.elastic import on_body, on_layer
 
 from ._sneddon import Flank, angles, half_space_depth, mean_slope
 
 _HALF_SPACE = HalfSpace()
+_NO_ADHESION = "0 is no adhesion"
 
 
 def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE) -> Number:
@@ -99,9 +100,9 @@ def depth(
     Raises
     ------
     InputError
-        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
-        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
-        Poisson ratio between 0.49 and 0.5.
+        If a number is outside its range or not finite, or the contact radius exceeds 100
+        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
+        layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -112,10 +113,10 @@ def depth(
     >>> f"{depth(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
     '4.395 um'
     """
-    a, length = positive(contact_radius=contact_radius), work_of_adhesion / contact_modulus
+    a, E, w = _checked(contact_radius, contact_modulus, work_of_adhesion)
     if body != _HALF_SPACE:
-        return plain(_on(body).depth(a, shape, body, length))
-    return plain(half_space_depth(a, shape) - np.sqrt(2 * np.pi * a * length))
+        return plain(_on(body).depth(a, shape, body, w / E))
+    return plain(half_space_depth(a, shape) - np.sqrt(2 * np.pi * a * (w / E)))
 
 
 def drawn(
@@ -151,9 +152,9 @@ def drawn(
     Raises
     ------
     InputError
-        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
-        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
-        Poisson ratio between 0.49 and 0.5.
+        If a number is outside its range or not finite, or the contact radius exceeds 100
+        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
+        layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -162,10 +163,10 @@ def drawn(
     >>> f"{drawn(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
     '5.605 um'
     """
-    a, length = positive(contact_radius=contact_radius), work_of_adhesion / contact_modulus
+    a, E, w = _checked(contact_radius, contact_modulus, work_of_adhesion)
     if body == _HALF_SPACE:
-        return plain(np.sqrt(2 * np.pi * a * length))
-    return plain(_on(body).drawn(a, shape, body, length))
+        return plain(np.sqrt(2 * np.pi * a * (w / E)))
+    return plain(_on(body).drawn(a, shape, body, w / E))
 
 
 def force(
@@ -199,9 +200,9 @@ def force(
     Raises
     ------
     InputError
-        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
-        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
-        Poisson ratio between 0.49 and 0.5.
+        If a number is outside its range or not finite, or the contact radius exceeds 100
+        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
+        layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -212,11 +213,11 @@ def force(
     >>> f"{force(1e-4, shape=Sphere(1e-3), **solid) * 1e3:.3f} mN"
     '0.212 mN'
     """
-    a, E = positive(contact_radius=contact_radius), contact_modulus
+    a, E, w = _checked(contact_radius, contact_modulus, work_of_adhesion)
     if body != _HALF_SPACE:
-        return plain(E * _on(body).force(a, shape, body, work_of_adhesion / E))
+        return plain(E * _on(body).force(a, shape, body, w / E))
     bare = 2 * E * a**2 * mean_slope(shape, a, 2)
-    return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
+    return plain(bare - np.sqrt(8 * np.pi * a**3 * w * E))
 
 
 def stiffness(
@@ -300,9 +301,9 @@ def gap(
     Raises
     ------
     InputError
-        If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
-        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
-        Poisson ratio between 0.49 and 0.5.
+        If a number is outside its range or not finite, or the contact radius exceeds 100
+        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
+        layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
@@ -326,6 +327,11 @@ def gap(
     hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(angle) * weight
     lifted = deep * np.arcsin(a / r) - (hollow / np.sqrt(r[..., None] ** 2 - t**2)).sum(axis=-1)
     return np.maximum(shape.gap(r) - deep + 2 / np.pi * lifted, 0.0)
+
+
+def _checked(contact_radius: Values, contact_modulus: float, work_of_adhesion: float) -> Any:
+    a, E = positive(contact_radius=contact_radius, contact_modulus=contact_modulus)
+    return a, E, at_least(0, _NO_ADHESION, work_of_adhesion=work_of_adhesion)
 
 
 def _on(body: Body) -> Any:

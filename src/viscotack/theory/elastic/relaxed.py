@@ -249,13 +249,15 @@ def contact_in_groups(
     Raises
     ------
     InputError
-        If the contact is too wide for the theory of its layer, as in :func:`.indenter.depth`.
+        If the Tabor number is not positive and finite, or the contact is too wide for the theory of
+        its layer, as in :func:`.indenter.depth`.
 
     Examples
     --------
     >>> f"{contact_in_groups(AtDepth(10.0), tabor=3.24).contact_radius:.3f}"
     '2.682'
     """
+    positive(tabor=tabor)
     match start:
         case Apart():
             return None
@@ -283,11 +285,17 @@ def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: flo
     exponent : float
         Exponent of the profile, 2 for a sphere, positive.
 
+    Raises
+    ------
+    InputError
+        If Tabor number or exponent is not positive and finite.
+
     Examples
     --------
     >>> f"{radius_without_adhesion(AtDepth(1e6), tabor=3.24):.0f}"
     '379'
     """
+    positive(tabor=tabor, exponent=exponent)
     match start:
         case AtDepth():
             return float((max(start.depth, 0.0) / tabor) ** (1 / exponent) / np.cbrt(np.pi))

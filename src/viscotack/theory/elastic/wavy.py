@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from viscotack.errors import OutOfRange
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 from .jkr import Point
@@ -35,6 +36,8 @@ from .jkr import Point
 _LENGTH = "a contact radius is a length"
 # Number of radii per wave at which the force is evaluated in the search for its minima.
 _PER_WAVE = 32
+# Most radii of that search; they take half a minute and 200 MB.
+_MOST_RADII = 3e6
 
 
 def depth(
@@ -164,7 +167,7 @@ def pull_off(
     Raises
     ------
     InputError
-        If a value is not positive and finite.
+        If a value is not positive and finite, or the radii of the search hold 90,000 waves.
 
     Examples
     --------
@@ -185,7 +188,10 @@ def pull_off(
     # Beyond these radii half of the sphere force exceeds adhesion, and the other half the waves.
     adhesion = np.cbrt(18 * np.pi * R**2 * w / E)
     most = max(float(adhesion), float(1.5 * np.pi * 2 * np.pi / wave * A * R), float(wave))
-    a = np.linspace(0.0, most, max(int(_PER_WAVE * most / wave), 256))
+    many = _PER_WAVE * most / wave
+    if not many < _MOST_RADII:
+        raise OutOfRange(f"pull-off is searched for over {most / wave:.2g} waves; check the units")
+    a = np.linspace(0.0, most, max(int(many), 256))
     least = int(np.argmin(force(a, **case)))
     found: Any = scipy.optimize.minimize_scalar(
         lambda x: force(x, **case),
