@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscotack.protocol import AtDepth, LoadTo, Retract
-from viscotack.result import observables, opening, sensitivities
+from viscotack.result import Outcome, observables, opening, sensitivities
 
 MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)
 
@@ -253,3 +253,24 @@ def test_a_parabola_is_known_between_its_steps_and_a_bent_curve_is_not(valley):
     assert far > 0.01
     for end in (0, 4):
         assert opening.between_steps(valley(end, MOVED), None) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("last", "snaps"),
+    [(2, [(2, False)]), (3, [(2, True), (3, False)]), (4, [(2, True), (4, True)])],
+)
+def test_a_piece_snaps_at_a_jump_inside_its_cycle_or_at_the_end_of_the_run(
+    last, snaps, monkeypatch
+):
+    # the contact jumps after step 2 and at the end of the run
+    monkeypatch.setattr(opening, "moves_of", lambda _: [MOVED])
+    monkeypatch.setattr(opening, "move_numbers", lambda _: np.zeros(5, dtype=int))
+    monkeypatch.setattr(opening, "_jump", lambda *_: np.arange(4) == 2)
+    run = SimpleNamespace(
+        depth=np.array([4.0, 3.0, 2.0, 1.0, 0.0]),
+        contact_radius=np.ones(5),
+        events=[SimpleNamespace(kind="jump out")],
+        outcome=Outcome.JUMPED,
+    )
+    pieces = opening._pieces(run, SimpleNamespace(turn=0, last=last))
+    assert [(int(piece.steps[-1]), piece.snaps) for piece in pieces] == snaps

@@ -581,6 +581,8 @@ def test_of_two_elastic_contacts_the_weaker_opens(forces, opened):
         ([False, False], (0.5, 0.8), 0, 0.8),
         ([True, True], (0.8, 0.5), 1, 0.8),
         ([False, False], (0.5, 0.5001), -1, np.nan),
+        # a thousandth of the larger recession apart, and more of the smaller one
+        ([False, False], (np.exp(-0.5), np.exp(-0.50050025)), -1, np.nan),
         # the force alone moves an elastic contact
         ([False, False], (np.nan, 0.5), 1, np.nan),
         ([False, False], (0.5, np.nan), 0, np.nan),
@@ -602,3 +604,45 @@ def test_of_two_contacts_the_one_opens_that_recedes_further(gone, last, opened, 
     radii = tuple(a / 4.0 if b == b else np.nan for a, b in zip((3.0, 2.0), last, strict=True))
     assert found.radius == pytest.approx(radii, nan_ok=True)
     assert found.held == pytest.approx(held, nan_ok=True)
+
+
+@pytest.mark.parametrize("end", [0.3, 0.999999999])
+def test_the_end_of_a_move_is_found_by_halving_to_a_millionth(end):
+    tried = []
+
+    def state_after(state, drive, given, begin, dt, least):
+        tried.append(dt)
+        return SimpleNamespace(depth=dt, force=0.0, radius=0.0), False
+
+    contact, beyond = bare(Contact, tried=state_after), SimpleNamespace(depth=1.0)
+    drive = Drive("drive", 1.0, 1.0, ("depth", end))
+    dt, found = contact._to_the_end(None, drive, 0.0, 0.0, 1.0, beyond)
+    assert end <= dt == found.depth <= end * (1 + 1e-6) + 1e-9
+    assert 18 < len(tried) < 24
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "last", "detached"),
+    [
+        (0.5, 0.0, True, True),
+        (0.5, 0.4, True, False),
+        (0.0, 0.0, True, True),
+        (0.0, 0.0, False, False),
+        (0.5, 0.4, False, False),
+        (0.0, 0.4, True, False),
+    ],
+)
+def test_surfaces_are_detached_that_are_apart_at_the_end_of_the_last_drive(
+    before, after, last, detached
+):
+    empty = np.zeros(1)
+    start = history._State(0.0, 0.0, 0.0, 0.0, before, empty, empty, empty, empty, 1.0)
+    contact = bare(
+        Contact,
+        tried=lambda *_: (start._replace(time=2.0, radius=after), False),
+        longest=lambda drive: 2.0,
+        slowest=lambda drive: 1e9,
+        note=lambda *_: None,
+    )
+    end, found = contact._through(start, Drive("drive", 1.0, 2.0), 0, [], last)
+    assert (end.time, end.radius, found) == (2.0, after, detached)

@@ -181,7 +181,7 @@ def retraction(
         max_step=_LONGEST * start,
     )
     path, radii = [0.0], [start]
-    while solver.y[0] > _SMALLEST:
+    while True:
         solver.step()
         a = float(solver.y[0])
         gamma, _ = amplification(solver.t, max(a, _SMALLEST))

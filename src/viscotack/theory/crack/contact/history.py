@@ -262,7 +262,7 @@ class Contact:
                 dt /= 2
                 found, jumped = self._tried(state, drive, given, begin, dt, least)
             if drive.end is not None and _reached(found, drive):
-                dt, found = self._to_the_end(state, drive, given, begin, dt)
+                dt, found = self._to_the_end(state, drive, given, begin, dt, found)
             moved = found.radius - state.radius
             if last and found.radius < min(_LEFT, state.radius) and drive.speed < 0:
                 found = found._replace(radius=0.0, force=0.0)
@@ -302,11 +302,10 @@ class Contact:
         rows.append((now, speed, edge.one(abs(speed)), number))
 
     def _to_the_end(
-        self, state: _State, drive: Drive, given: float, begin: float, dt: float
+        self, state: _State, drive: Drive, given: float, begin: float, dt: float, found: _State
     ) -> tuple[float, _State]:
-        """Return the step that ends at the end of the drive."""
+        """Return the step that ends at the end of the drive, from one and its end beyond it."""
         low, high = 0.0, dt
-        found = state
         for _ in range(40):
             middle = (low + high) / 2
             trial, _ = self._tried(state, drive, given, begin, middle, np.inf)
@@ -317,7 +316,7 @@ class Contact:
                 low = middle
             if high - low < 1e-6 * high:
                 break
-        return high, found if found is not state else trial
+        return high, found
 
     def _tried(
         self, state: _State, drive: Drive, given: float, begin: float, dt: float, least: float
