@@ -249,13 +249,7 @@ def recorded(tmp_path, monkeypatch):
     )
 
 
-# Pages whose results are not all marked yet.
-UNMARKED = {"surrogate.md"}
-
-
-@pytest.mark.parametrize(
-    "page", [x for x in docs_check.PAGES if x.name not in UNMARKED], ids=lambda page: page.name
-)
+@pytest.mark.parametrize("page", docs_check.PAGES, ids=lambda page: page.name)
 def test_results_of_the_pages_have_a_source(page):
     found = docs_check.sourceless(page)
     assert found == [], "name their sources, or mark definitions: see benchmarks/records.py"
