@@ -195,7 +195,7 @@ def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
 
 
 def test_words_tell_what_is_at_hand(capsys):
-    thick = [*ISSUE, "--thickness", "324", "--until", "pull-off"]
+    thick = ["324" if word == "3.24" else word for word in ISSUE] + ["--until", "pull-off"]
     assert exit_status([*PUNCH, *thick]) == 0
     out = capsys.readouterr().out
     assert "pull-off stress" in out and "sigma0" in out

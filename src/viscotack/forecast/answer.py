@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ from viscotack.errors import InputError
 from viscotack.materials.conversion import slowed
 from viscotack.problem import Case
 
+from .cautions import cautions_on
 from .prediction import Prediction, depth_between
 from .question import Question
 from .tiers import EXACT, SOON, best, by_model
@@ -109,7 +111,7 @@ def predict(
         found = by_model(asked)
     else:
         found = EXACT.ask(asked) if exact else best(asked, budget)
-    found = replace(found, passport=passport)
+    found = replace(found, warn=partial(cautions_on, problem, passport=passport))
     if not shift_deviation > 0:
         return found
     decades = NormalDist().inv_cdf((1 + confidence) / 2) * shift_deviation

@@ -6,7 +6,8 @@ Force is positive in compression, depth positive into the solid. Numbers are dim
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +20,6 @@ from viscotack.result.trajectory import PRESSED
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
-    from viscotack.materials.passport import Passport
     from viscotack.surrogate.answers import Intervals
     from viscotack.surrogate.line import Curves
 
@@ -77,8 +77,8 @@ class Prediction:
         The problem of the prediction.
     joint : bool
         Whether force, work and curve are inside together with this confidence, not each alone.
-    passport : Passport or None
-        Passport of the material, at the temperature of the problem; for `cautions`.
+    warn : callable
+        Finds the `cautions`.
     """
 
     pull_off_force: float
@@ -97,7 +97,7 @@ class Prediction:
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
     joint: bool = False
-    passport: Passport | None = None
+    warn: Callable[[], tuple[str, ...]] = field(default=tuple, repr=False, compare=False)
 
     value = Renamed("pull_off_force")
 
@@ -114,11 +114,11 @@ class Prediction:
 
     @cached_property
     def cautions(self) -> tuple[str, ...]:
-        """Sentences of :func:`~viscotack.forecast.cautions_on`, found on first use."""
-        # needs the theories, up to a second for a new solid; importing it above would be a circle
-        from .cautions import cautions_on
+        """Sentences of :func:`~viscotack.forecast.cautions_on`, if :func:`viscotack.predict` asked.
 
-        return cautions_on(self.problem, passport=self.passport)
+        They are found on first use: theories take up to a second for a new solid.
+        """
+        return self.warn()
 
     def because(self, why: str) -> Prediction:
         """Prepend the reason why no better tier applies."""

@@ -58,7 +58,7 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     --------
     >>> from viscotack import AtDepth, Groups, StandardSolid, predict
     >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    >>> figure = draw_prediction(predict(Groups(2.0, solid, AtDepth(30.0), rate=100.0)))
+    >>> figure = draw_prediction(predict(Groups(2.0, solid, AtDepth(3.0), rate=100.0)))
     >>> len(figure.axes)
     1
     """
