@@ -39,6 +39,12 @@ METHODS = ["relaxation", "creep", "complex_modulus", "complex_compliance"]
 
 
 @every_class
+def test_constants_are_given_by_name(kind, numbers):
+    with pytest.raises(TypeError, match="positional"):
+        kind(*numbers.values())
+
+
+@every_class
 @pytest.mark.parametrize("wrong", [0, -1e6, math.nan, math.inf, None, "1 MPa", [1e6, 2e6]])
 def test_moduli_must_be_positive_numbers(kind, numbers, wrong):
     with pytest.raises(
