@@ -11,8 +11,8 @@ counts as far as it knows itself: its stated error is taken off. One or two seco
 `python -m benchmarks.adversary --by disagreement --labels FOLDER [--cases 40] [--seed 1]
 [--designs punches ...]`: of 4,000 drawn cases of each design of `training/fresh_cases.py`, it
 simulates those that surrogates answer and in which the second networks differ most, in half widths
-of the interval of force or work. With --write numbers of cases and the worst go into the records
-that docs/surrogate.md quotes.
+of the interval of force or work. With --write numbers of cases and the worst go into the record
+`adversary`; docs/surrogate.md has a table of the worst cases.
 """
 
 from __future__ import annotations
