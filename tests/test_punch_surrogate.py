@@ -283,8 +283,9 @@ def test_test_rows_are_predicted_within_the_documented_errors():
     found = scored(shipped(), rows)
     assert found["stress"]["median"] < 1e-3 and found["stress"]["95 %"] < 5e-3
     assert found["work"]["median"] < 3e-3
-    # levels of stress hold where it has two maxima too, those of curves between stored points too
-    for name, most in (("stress", 0.99), ("work", 0.95), ("curve", 0.97), ("travel", 0.97)):
+    # levels of stress hold where it has two maxima and under wide punches too, those of curves
+    # between stored points too: 98.04 % of these 153 stresses
+    for name, most in (("stress", 0.985), ("work", 0.95), ("curve", 0.97), ("travel", 0.95)):
         assert 0.86 < found[name]["cover"] < most, name
 
 

@@ -64,8 +64,8 @@ class Apart:
     def without_curves(self) -> "Apart":
         """Return the rows without errors of curves.
 
-        Between the points at which a data set keeps a curve errors are larger: sizes learned from
-        such rows held 69 % of curves of slow spheres of large Tabor numbers at every step.
+        Errors are larger between the points at which a data set keeps a curve. Intervals learned
+        from such rows missed the curve of one case in five in some part of the range.
         """
         error = self.error.copy()
         error[:, OF.index("curve")] = np.nan

@@ -1,12 +1,13 @@
 """Fresh cases of the surrogates with labels from simulation, drawn from a seed and kept on disk.
 
 `python -m training.fresh_cases --seed 41 --labels FOLDER [--counts "power laws=400" punches=150]`:
-power laws, other solids and punches, even in the logarithms of their ranges, the region in which a
-pull-off may have two maxima, power laws at light tension, where the sets that networks learned from
-are less accurate than their intervals are wide, power laws of large Tabor numbers, and contacts of
-engineers. Each case is simulated to its pull-off at an accuracy of 5e-4 (of 1e-4 at light tension)
-and appended to a file of the folder; a run that was stopped continues. About a third of a second a
-case, more at large Tabor numbers.
+power laws, other solids and punches, even in the logarithms of their ranges, power laws on the
+faces of their range, the region in which a pull-off may have two maxima, power laws at light
+tension, where the sets that networks learned from are less accurate than their intervals are wide,
+three sorts of punches where an adversary found errors, power laws of large Tabor numbers, and
+contacts of engineers. Each case is simulated to its pull-off at an accuracy of 5e-4 (of 1e-4 at
+light tension) and appended to a file of the folder; a run that was stopped continues. About a third
+of a second a case, more at large Tabor numbers.
 """
 
 from __future__ import annotations
@@ -146,12 +147,18 @@ def soft_punch(random: Random) -> Case:
 
 
 def shallow_punch(random: Random) -> Case:
-    """Draw a narrow punch on a thick, soft layer from a shallow start: he found works there."""
+    """Draw a narrow punch on a thick, soft layer from a shallow start.
+
+    There an adversary found errors of works.
+    """
     return _on_layer("shallow soft punches", SHALLOW_PUNCHES, random)
 
 
 def wide_punch(random: Random) -> Case:
-    """Draw a wide punch on a thin, nearly elastic layer from a deep start: here too, if fast."""
+    """Draw a wide punch on a thin, nearly elastic layer, pulled fast from a deep start.
+
+    There an adversary found errors of five half widths of earlier intervals.
+    """
     return _on_layer("wide punches", WIDE_PUNCHES, random)
 
 

@@ -70,13 +70,13 @@ def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str
     "'Dragon Skin 30 (platinum silicone of Smooth-On)' was tested at one rate"
     """
     groups = problem.groups()
+    elastic = isinstance(groups.material, Elastic)
     found = []
-    if passport is not None:
-        if isinstance(groups.material, Elastic):
-            found.append(_one_rate(passport))
-        if allowed(passport):
-            found.append(_left_out(passport.name))
-    if isinstance(groups.material, Elastic):
+    if passport is not None and elastic:
+        found.append(_one_rate(passport))
+    if passport is not None and allowed(passport):
+        found.append(_left_out(passport.name))
+    if elastic:
         return tuple(found)
     in_si = isinstance(problem, Problem)
     measured = None if passport is None else passport.frequencies

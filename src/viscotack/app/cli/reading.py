@@ -42,9 +42,10 @@ class Once(TyperCommand):
         if args and not ctx.resilient_parsing:
             given = Counter(self.make_parser(ctx).parse_args(list(args))[2])
             for option, times in given.items():
-                if isinstance(option, TyperOption) and not (option.multiple or option.is_flag):
-                    if times > 1:
-                        raise typer.BadParameter("it is given twice and has one value", ctx, option)
+                if times == 1 or not isinstance(option, TyperOption):
+                    continue
+                if not (option.multiple or option.is_flag):
+                    raise typer.BadParameter("it is given twice and has one value", ctx, option)
         return super().parse_args(ctx, args)
 
 
