@@ -11,8 +11,10 @@ counts as far as it knows itself: its stated error is taken off. One or two seco
 `python -m benchmarks.adversary --by disagreement --labels FOLDER [--cases 40] [--seed 1]
 [--designs punches ...]`: of 4,000 drawn cases of each design of `training/fresh_cases.py`, it
 simulates those that surrogates answer and in which the second networks differ most, in half widths
-of the interval of force or work. With --write numbers of cases and the worst go into the record
-`adversary`; docs/surrogate.md has a table of the worst cases.
+of the interval of force or work. `--by rows --labels FOLDER [--cases 20]`: of all rows of the sets
+of other solids, those of whose force or work the surrogate differs most, and a simulation at 2e-4
+decides whether it or the row is off. With --write numbers of cases and the worst go into the
+record `adversary`; docs/surrogate.md has a table of the worst cases.
 """
 
 from __future__ import annotations
@@ -24,6 +26,8 @@ from pathlib import Path
 import numpy as np
 
 from training import train_punch as punches
+from training import train_solids as solids
+from training.calibration import given_of as given_numbers
 from training.fresh_cases import COUNTS, Case, drawn, given_of, labelled
 from training.rows import LEARNED, Rows, joined, read
 from viscotack import Groups, solve, summary
@@ -184,13 +188,26 @@ def suspects(design: str, count: int, seed: int) -> list[Case]:
     return [case for _, case in sorted(found, key=lambda pair: -pair[0])[:count]]
 
 
-def by_disagreement(
-    labels: Path, designs: list[str], count: int, seed: int
-) -> dict[str, dict[str, float]]:
+def furthest_rows(count: int) -> list[Case]:
+    """Return the rows of other solids whose force or work differs most from that given."""
+    made, tests = store.shipped("solids"), solids.read(solids.table())
+    apart = solids.judged(made, tests)
+    given = given_numbers(made.trust, apart)[:, :2]
+    off = np.where(given, 10 ** np.abs(apart.error[:, :2]) - 1, 0.0).max(axis=1)
+    order = np.argsort(-off)[:count]
+    names = [name for name in physics.INPUTS if name != "exponent"]
+    places = [physics.INPUTS.index(name) for name in names]
+    rows = np.column_stack([tests.rows.groups[:, places], tests.number])[order]
+    inputs = [dict(zip([*names, "solid"], row, strict=True)) for row in rows.tolist()]
+    cases = [Case("rows", "solid", one | {"solid": int(one["solid"])}) for one in inputs]
+    print(f"{len(tests)} rows; furthest: {', '.join(f'{x:.1%}' for x in off[order])}")
+    return cases
+
+
+def simulated_suspects(some: dict[str, list[Case]], labels: Path) -> dict[str, dict[str, float]]:
     """Simulate the suspects of each design, print the worst, and return what to record."""
     found, said = [], {}
-    for design in designs:
-        cases = suspects(design, count, seed)
+    for design, cases in some.items():
         known = labelled(cases, labels, 2e-4)
         some = [judged(case, label) for case, label in known if "failed" not in label]
         found += some
@@ -200,11 +217,11 @@ def by_disagreement(
             f"interval; worst {off.max():.1f} half widths",
             flush=True,
         )
-        said[f"disagreement-{design.replace(' ', '-')}"] = {
+        said[f"suspects-{design.replace(' ', '-')}"] = {
             "cases": len(some),
             "worst": float(off.max()),
         }
-    for one in worst(found):
+    for one in worst(found, max(len(found) // 4, 5)):
         print(words(one))
     return said
 
@@ -216,15 +233,19 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path)
     parser.add_argument("--punch", action="store_true", help="of a punch on a layer")
-    parser.add_argument("--by", choices=("evolution", "disagreement"), default="evolution")
+    parser.add_argument("--by", choices=("evolution", "disagreement", "rows"), default="evolution")
     parser.add_argument("--labels", type=Path, help="folder of the labels of disagreement")
     parser.add_argument("--write", action="store_true", help="into the records")
     parser.add_argument("--designs", nargs="+", choices=tuple(COUNTS), default=list(COUNTS))
     given = parser.parse_args()
-    if given.by == "disagreement":
+    if given.by != "evolution":
         if given.labels is None:
-            parser.error("--by disagreement needs --labels")
-        said = by_disagreement(given.labels, given.designs, given.cases, given.seed)
+            parser.error(f"--by {given.by} needs --labels")
+        if given.by == "rows":
+            some = {"rows": furthest_rows(given.cases)}
+        else:
+            some = {name: suspects(name, given.cases, given.seed) for name in given.designs}
+        said = simulated_suspects(some, given.labels)
         if given.write:
             records.write("adversary", said)
         return
