@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside test-processors test-lowest lint types bench mutants fuzz \
-	fuzz-files farm verification history docs docs-pages docs-check follow paper lock sbom release audit clean
+	fuzz-files farm verification docs docs-pages docs-check paper lock sbom release audit clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -139,11 +139,6 @@ docs-pages: $(VENV)/.demo
 docs-check: $(VENV)/.installed
 	$(BIN)/python benchmarks/docs_check.py $(if $(WRITE),--write)
 
-# Follows the commands of the pages as a stranger does, in an environment for each extra, from the release folder
-# that `make release` writes; five minutes. EXTRA=lab follows those with one extra. out/follow keeps what is done.
-follow: $(VENV)/.installed
-	$(BIN)/python benchmarks/follow.py --work out/follow $(if $(EXTRA),--extra $(EXTRA))
-
 # The manuscript: out/paper/html, and out/paper/manuscript.pdf where latexmk and pdflatex are. One minute.
 paper: $(VENV)/.demo
 	$(INSTALL) --editable ".[docs]"
@@ -151,12 +146,6 @@ paper: $(VENV)/.demo
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py
-
-# Appends ratios and counts of instructions to benchmarks/history.jsonl, draws them, and fails where one
-# has risen by more than its share. Two minutes of processor time.
-history: $(VENV)/.installed
-	$(BIN)/python benchmarks/history.py
-	$(BIN)/python benchmarks/history.py --check --figure
 
 verification: $(VENV)/.installed
 	$(BIN)/python benchmarks/verification.py --write

@@ -35,7 +35,6 @@ from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import physics, punch_physics, store
 from viscotack.surrogate.model import Surrogate
 
-from . import records
 from .fresh_coverage import judged
 from .judging import words, worst
 
@@ -247,7 +246,7 @@ def main() -> None:
             some = {name: suspects(name, given.cases, given.seed) for name in given.designs}
         said = simulated_suspects(some, given.labels)
         if given.write:
-            records.write("adversary", said)
+            print(json.dumps(said, indent=1))
         return
     of: Of = OfPunch if given.punch else OfSphere
     random = np.random.default_rng(given.seed)
@@ -275,7 +274,7 @@ def main() -> None:
     print(f"{len(off)} simulated; {np.mean(off > 1):.0%} beyond their interval")
     if given.write:
         name = "punch" if given.punch else "sphere"
-        records.write("adversary", {name: {"cases": len(off), "worst": float(off.max())}})
+        print(json.dumps({name: {"cases": len(off), "worst": float(off.max())}}, indent=1))
     print("worst, half widths, and its case:")
     for each, row in sorted(done, reverse=True)[:5]:
         words = ", ".join(f"{n} {x:.4g}" for n, x in zip(of.inputs, row, strict=True))

@@ -1,40 +1,27 @@
-"""Compare the pages with what their commands print, and their numbers with records of benchmarks.
-
-With --write the pages are renewed; --count counts the numbers of their prose by source, and --list
-prints results without one.
+"""Compare the pages with what their commands print; with --write renew the pages.
 
 A session is a `viscotack` command behind `$ ` in a console block, and the lines below it. Numbers
 agree to one unit of their last stated digit; a line `...` stands for any lines. A command without
-lines below it is only run, by tests/test_readme.py. How a number names its source says
-`records.py`, beside this file.
+lines below it is only run, by tests/test_readme.py.
 """
 
 import argparse
-import itertools
 import os
 import re
 import shlex
 import shutil
 import sys
 import tempfile
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(Path(__file__).parent))
-import records  # noqa: E402
-
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-# Written whole by a command. Tests compare the first two, and this file the third; the last needs
-# checkouts of public repositories: `public_files.py FOLDER... --compare docs/public-files.md`.
-WHOLE = ("replication.md", "gallery.md", "verification.md", "public-files.md")
 # Half a minute each, and what needs their files.
 SLOW = ("viscotack identify rates", "viscotack forecast", "viscotack report")
 # What another processor may change, relative.
 PROCESSORS = 1e-5
-_SECONDS = re.compile(r" in \d+\.\d+ s\b")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -108,12 +95,6 @@ def _cut(shown: tuple[str, ...]) -> tuple[tuple[str, ...], bool, tuple[str, ...]
     return shown[:place], True, shown[place + 1 :]
 
 
-def apart(shown: str, found: str) -> list[tuple[str, str]]:
-    """Return the lines in which two pages differ by more than the processor time of a run."""
-    pairs = itertools.zip_longest(shown.splitlines(), found.splitlines(), fillvalue="")
-    return [pair for pair in pairs if not agrees(*(_SECONDS.sub("", line) for line in pair))]
-
-
 def stale(page: Path, slow: bool = True) -> dict[Session, list[str]]:
     """Sessions of a page that differ from what their commands print now, with these lines."""
     found = {}
@@ -135,67 +116,14 @@ def renewed(text: str, found: dict[Session, list[str]]) -> str:
     return text
 
 
-def counts(pages: list[Path]) -> str:
-    """Return a table of the numbers in the prose of pages, by what they come from."""
-    lines, total = [], Counter[str]()
-    for page in pages:
-        found = Counter(records.count(page.read_text("utf-8")))
-        if page.name in WHOLE:
-            found = Counter(written=found.total())
-        found["all"] = found.total()
-        total += found
-        lines.append(_row(page.name, found))
-    head = f"{'page':24s}" + "".join(f"{x:>10s}" for x in _KINDS)
-    return "\n".join([head, *lines, _row("all pages", total)])
-
-
-def sourceless(page: Path) -> list[str]:
-    """Return the results of a page that name no source, with their lines."""
-    if page.name in WHOLE:
-        return []
-    found = records.kinds(page.read_text("utf-8"))
-    return [f"{page.name}:{line}: {x}" for line, x, kind in found if kind == "no source"]
-
-
-_KINDS = ("all", records.GIVEN, "written", "measured", "as stated", "no source")
-
-
-def _row(name: str, found: Counter[str]) -> str:
-    return f"{name:24s}" + "".join(f"{found[x]:10d}" for x in _KINDS)
-
-
 def main() -> int:
     """Check, or renew, the sessions of all pages or of those named."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("pages", nargs="*", type=Path, help="pages; all by default")
     parser.add_argument("--write", action="store_true", help="renew the pages")
-    parser.add_argument("--count", action="store_true", help="count the numbers of the prose")
-    parser.add_argument("--list", action="store_true", help="print results that name no source")
-    parser.add_argument(
-        "--quote",
-        action="store_true",
-        help="record marked blocks that no record has, as stated",
-    )
     given = parser.parse_args()
-    pages = [path.resolve() for path in given.pages] or PAGES
-    if given.count:
-        print(counts(pages))
-        return 0
-    if given.list:
-        print("\n".join(line for page in pages for line in sourceless(page)))
-        return 0
-    if given.quote:
-        print("\n".join(source for page in pages for source in records.quoted(page)))
-        return 0
     wrong = 0
-    for page in pages:
-        text = page.read_text("utf-8")
-        for quote in records.quotes(text):
-            if not quote.agrees:
-                wrong += 1
-                print(f"{page.name}: {quote.source}\n  {quote.difference}", flush=True)
-        if given.write:
-            page.write_text(records.renewed(text), "utf-8")
+    for page in [path.resolve() for path in given.pages] or PAGES:
         with tempfile.TemporaryDirectory() as folder:
             stage(Path(folder))
             os.chdir(folder)
@@ -204,19 +132,9 @@ def main() -> int:
         wrong += len(found)
         for session, lines in found.items():
             print(f"{page.name}: {session.command}\n  {difference(session, lines)}", flush=True)
-        if page.name == "verification.md":
-            from cases import SAMPLE
-            from verification import ROWS, measured_page
-
-            measured = measured_page(SAMPLE, ROWS)
-            lines = apart(page.read_text("utf-8"), measured)
-            wrong += len(lines)
-            print("\n".join(f"{page.name}:\n  {a}\n  {b}" for a, b in lines))
-            if given.write and lines:
-                page.write_text(measured, "utf-8")
         if given.write and found:
             page.write_text(renewed(page.read_text("utf-8"), found), "utf-8")
-    print(f"{wrong} stale sessions and numbers")
+    print(f"{wrong} stale sessions")
     return 1 if wrong and not given.write else 0
 
 

@@ -12,10 +12,10 @@ continuous. `--write` puts the largest jumps into the records that docs/surrogat
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Iterator
 
 import numpy as np
-import records
 
 from viscotack import OutOfRange, predict, pull_off_force, solve
 from viscotack.campaign.columns import KINDS
@@ -127,7 +127,11 @@ def main() -> None:
     print("\n".join(words for words, _ in found))
     if given.write:
         head = "| end | answered inside, on both sides | largest jump: force | work |"
-        records.write("seam", {"table": [head, "|---|---|---:|---:|", *(row for _, row in found)]})
+        print(
+            json.dumps(
+                {"table": [head, "|---|---|---:|---:|", *(row for _, row in found)]}, indent=1
+            )
+        )
     if given.judged:
         print(errors(given.judged, given.seed))
 

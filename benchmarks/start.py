@@ -7,6 +7,7 @@ viscotack --help` lists the modules.
 """
 
 import argparse
+import json
 import os
 import resource
 import subprocess
@@ -14,7 +15,6 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
-import records  # noqa: E402
 
 _PROBLEM = "sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 1 --rate 10"
 _COMMANDS = (
@@ -61,7 +61,7 @@ def main() -> None:
             if name != "import numpy"
         ]
         head = ["| program | beside an import of NumPy |", "|---|---:|"]
-        records.write("start", {"table": head + rows})
+        print(json.dumps({"table": head + rows}, indent=1))
     print("| program | processor time | beside numpy |\n|---|---:|---:|")
     for name, time in least.items():
         print(f"| `{name}` | {time:.3f} s | {time / least['import numpy']:.1f} |")

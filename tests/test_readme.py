@@ -12,7 +12,6 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks import docs_check
-from benchmarks.docs_check import records
 from viscotack import datasets
 
 ROOT = Path(__file__).parents[1]
@@ -206,13 +205,6 @@ def test_lines_agree_to_the_last_digit_shown(shown, printed, same):
     assert docs_check.agrees(shown, printed) is same
 
 
-def test_lines_of_a_page_are_compared_but_for_seconds():
-    page = "| A | 7.3290 (-0.011 %) in 0.15 s |\n| B | 2.1 |\n"
-    assert docs_check.apart(page, page.replace("0.15 s", "0.27 s")) == []
-    assert len(docs_check.apart(page, page.replace("7.3290", "7.3320"))) == 1
-    assert len(docs_check.apart(page, page + "| C | 1 |")) == 1
-
-
 def test_a_stale_session_is_found_and_renewed(monkeypatch):
     page = "Text 1.0\n```console\n$ viscotack x\na 1.2\n...\nz 3\n$ viscotack y\n```\n"
     (session,) = docs_check.sessions(page)
@@ -221,146 +213,6 @@ def test_a_stale_session_is_found_and_renewed(monkeypatch):
     assert "lines" in docs_check.difference(session, ["a 1.2"])
     fresh = docs_check.renewed(page, {session: ["a 1.5", "b", "z 4"]})
     assert fresh == page.replace("1.2", "1.5").replace("z 3", "z 4")
-
-
-def test_numbers_of_the_pages_are_those_of_their_sources():
-    quotes = [(page.name, q) for page in docs_check.PAGES for q in records.quotes(page.read_text())]
-    wrong = [(page, q.source, q.difference) for page, q in quotes if not q.agrees]
-    assert wrong == [], "run: python benchmarks/docs_check.py --write"
-
-
-def test_stated_records_have_only_what_pages_quote():
-    text = "".join(page.read_text("utf-8") for page in docs_check.PAGES)
-    for path in sorted((records.FOLDER / "stated").glob("*.json")):
-        unused = [x for x in records._values(path) if f"<!-- = {path.stem}.{x} -->" not in text]
-        assert unused == [], path.name
-
-
-@pytest.fixture
-def recorded(tmp_path, monkeypatch):
-    """Return a page that quotes a record of its own."""
-    monkeypatch.setattr(records, "FOLDER", tmp_path)
-    values = {"times": 134.2, "share": 0.00143, "rows": 9005, "low": -0.5, "table": ["| 3 | 4 |"]}
-    records.write("speed", values)
-    return (
-        "After 7 s 134<!-- = speed.times --> times, **0.14 %**<!-- = speed.share -->, "
-        "9,005<!-- = speed.rows -->, −0.50<!-- = speed.low --> and `2` 134200"
-        "<!-- = speed.times * 1e3 -->.\n\n<!-- = speed.table -->\n| 3 | 4 |\n"
-    )
-
-
-@pytest.mark.parametrize("page", docs_check.PAGES, ids=lambda page: page.name)
-def test_results_of_the_pages_have_a_source(page):
-    found = docs_check.sourceless(page)
-    assert found == [], "name their sources, or mark definitions: see benchmarks/records.py"
-
-
-def test_numbers_are_counted_by_their_source(recorded):
-    assert [quote.difference for quote in records.quotes(recorded)] == [""] * 6
-    # 7 s and the number of the last sentence name none
-    assert records.count(recorded) == {"measured": 7, "no source": 1}
-
-
-@pytest.mark.parametrize(
-    "page",
-    [
-        "By Eq. 4.24, Fig. 3.6 and Tables 5.1 to 5.4 of Maghami (2025) and Love 1929.\n",
-        "At mu 3.24, k = 0.1, n 0.8, a Tabor number of 10 and rates of 0.1, 1 and 10.\n",
-        "On 64 x 64 pixels; 1.5 pi R dg0, 4/3 and 1/k of R^2; the 90 % interval; at 10 um/s.\n",
-        "1. One.\n2. Two.\n",
-        "| 1 | 2 |\n|---|---|\n| 3 | four |\n",
-        "An example has 7<!-- = given --> pads.\n",
-        "<!-- = given -->\nSeven of\n7 pads.\n",
-        "<!-- = given -->\n## Inputs\n\nThe 7 pads.\n\n### More\n\n7 of 9.\n\n## Results\n",
-        "    F = 7 P\n\n```\n9\n```\n",
-    ],
-)
-def test_definitions_need_no_source(page):
-    assert set(records.count(page)) <= {"given"}
-
-
-@pytest.mark.parametrize(
-    "page",
-    [
-        "It takes 7 s.\n",
-        "| case |\n|---|\n| a | 7 % |\n",
-        "<!-- = given -->\nOf 9 pads\n\n7 hold.\n",
-        "<!-- = given -->\n## Inputs\n\n9 pads.\n\n## Results\n\n7 hold.\n",
-    ],
-)
-def test_a_result_without_a_source_is_found(page):
-    assert records.count(page)["no source"] == 1
-
-
-def test_numbers_that_repeat_a_code_block_are_compared():
-    page = "```console\n$ viscotack\nforce 4.665 mN of 1,200\n```\n\n"
-    for shown, wrong in (("4.67", ""), ("1200", ""), ("4.66", "1 numbers shown, 0 recorded")):
-        (quote,) = records.quotes(f"{page}A force of {shown}<!-- = above --> mN.\n")
-        assert quote.difference == wrong
-
-
-@pytest.mark.parametrize(
-    ("shown", "wrong"),
-    [("134<", "135<"), ("0.14", "0.15"), ("9,005", "9,006"), ("−0.50", "0.50"), ("| 4", "| 5")],
-)
-def test_a_changed_digit_is_found_and_renewed(recorded, shown, wrong):
-    changed = recorded.replace(shown, wrong)
-    assert changed != recorded
-    found = [quote.difference for quote in records.quotes(changed) if not quote.agrees]
-    # a number without a sign may be that of a negative value
-    assert len(found) == (shown != "−0.50")
-    assert records.renewed(changed) == (recorded if found else changed)
-
-
-@pytest.mark.parametrize(
-    ("page", "source"),
-    [
-        ("docs/punch.md", "punch.largest_error"),
-        ("docs/punch.md", "punch.work"),
-        ("docs/control.md", "control.changed"),
-        ("README.md", "computed.verification.median"),
-        ("docs/choose.md", "computed.elastic_pull_off"),
-        ("docs/scope.md", "viscotack.methods.crack_band.SIMULATED"),
-        ("docs/first_hour.md", "above"),
-    ],
-)
-def test_a_changed_digit_of_a_page_is_found(page, source):
-    text = (ROOT / page).read_text("utf-8")
-    quote = next(x for x in records.quotes(text) if x.source == source)
-    begin, end = quote.place
-    digit = max(i for i in range(begin, end) if text[i].isdigit())
-    changed = f"{text[:digit]}{(int(text[digit]) + 1) % 10}{text[digit + 1 :]}"
-    assert quote.agrees
-    assert [x.source for x in records.quotes(changed) if not x.agrees] == [source]
-
-
-def test_a_source_that_is_not_there_is_named(recorded):
-    for page, words in (
-        ("7<!-- = speed.nothing -->", "speed.nothing: its source has no 'nothing'"),
-        ("7<!-- = haste.times -->", "there is no record"),
-        ("seven<!-- = speed.times -->", "no number stands before"),
-        ("<!-- = speed.times -->\n7\n", "a block needs lines of text"),
-        ("7<!-- = computed.nothing -->", "computed.nothing: computed.py has"),
-        ("7<!-- = viscotack.bem.NOTHING -->", "NOTHING"),
-    ):
-        with pytest.raises(LookupError, match=words):
-            list(records.quotes(page))
-
-
-def test_what_no_benchmark_measured_is_recorded_as_stated(tmp_path, monkeypatch):
-    monkeypatch.setattr(records, "FOLDER", tmp_path)
-    monkeypatch.setattr(records, "ROOT", tmp_path)
-    page = tmp_path / "page.md"
-    page.write_text("<!-- = long.held -->\n93 of 95 held.\n")
-    assert records.quoted(page) == ["long.held"] and records.quoted(page) == []
-    assert (tmp_path / "stated/long.json").is_file()
-    assert records.count(page.read_text()) == {"as stated": 2}
-    (quote,) = records.quotes("<!-- = long.held -->\n94 of 95 held.\n")
-    assert quote.difference == "shown: 94, recorded: 93"
-    # what a benchmark measures later comes before
-    records.write("long", {"held": ["94 of 95"]})
-    (quote,) = records.quotes("<!-- = long.held -->\n94 of 95 held.\n")
-    assert quote.agrees and not quote.as_stated
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
