@@ -6,20 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
 from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
-from viscotack.app.cli import application
-from viscotack.app.engine.overview import quick
 from viscotack.campaign import Store, read_plan, run
 from viscotack.check.tiers import problems
 from viscotack.files.toml import read_toml
 from viscotack.forecast.simulation import SIMULATION
 from viscotack.forecast.tiers import TIERS
-from viscotack.operations.declare.state import State
 from viscotack.problem.nouns import own_nouns
-from viscotack.problem.schema import schema
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 FILE, CASE = OWN / "foundation.py", OWN / "foundation.toml"
@@ -116,20 +111,6 @@ def test_every_door_gives_the_same_answer(send, tmp_path, monkeypatch):
         http.close()
 
 
-def test_without_its_file_each_entry_point_names_possible_sources():
-    done = CliRunner().invoke(application(), ["simulate", "case", str(CASE)])
-    assert done.exit_code == 2 and "unknown table 'foundation'" in done.stderr
-
-
-def test_schema_and_page_know_it(problem):
-    assert "Foundation" in schema((FOUNDATION,))["$defs"]
-    found = quick(State(read_toml(CASE), (FOUNDATION,)))
-    curve = found["curves"]["elastic"]
-    # JKR on springs: 2 pi R dg at least
-    assert min(curve["force"]) == pytest.approx(-2 * np.pi * 5e-3 * 0.1, rel=0.01)
-    assert any("body is Foundation" in note for note in found["notes"])
-
-
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
 def test_a_tier_accepts_the_bodies_on_its_list_alone(tier, body):
@@ -179,12 +160,6 @@ def test_beyond_the_simulation_only_verified_contacts_are_answered(body):
             vt.solve(case)
 
 
-@pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
-def test_what_theories_answer_is_refused_for_it_in_words(problem, ask):
-    with pytest.raises(vt.InputError, match="foundation|Foundation"):
-        ask(problem)
-
-
 def test_a_large_tabor_number_is_not_answered_as_on_a_half_space():
     solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     groups = vt.Groups(300.0, solid, vt.AtForce(1.0), 1.0)
@@ -208,21 +183,6 @@ def test_the_energy_at_an_edge_is_read_on_a_half_space_alone(result):
 
 
 # --- punches were a class of their own ------------------------------------------------------------
-
-
-def test_the_older_name_of_a_punch_makes_the_same_groups():
-    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    parts = dict(material=solid, start=vt.AtDepth(1.0), rate=1.0)
-    new = vt.Groups(
-        tabor=None, geometry=vt.FlatPunch(8.0), body=vt.Layer(0.3), cohesion=0.5, **parts
-    )
-    with pytest.warns(DeprecationWarning, match="is Groups"):
-        old = vt.PunchGroups(8.0, 0.3, 0.5, **parts)
-    assert old == new
-    record = {"type": "PunchGroups", "size": 8.0, "thickness": 0.3, "cohesion": 0.5}
-    parts = {name: vt.to_dict(part) for name, part in parts.items() if name != "rate"}
-    assert vt.from_dict(record | parts | {"rate": 1.0}) == new
-    assert vt.from_dict(vt.to_dict(new)) == new
 
 
 @pytest.mark.parametrize(
