@@ -9,7 +9,6 @@ from front_ends import Http, Question, through_all
 from test_rough_file import BUMPS, MAP, SMALL
 from viscotack.campaign import CaseSettings, Store, inputs_of, measure, read_plan, run
 from viscotack.errors import InputError
-from viscotack.problem import StatedSurface
 from viscotack.problem.record import from_dict, to_dict
 from viscotack.rough import pull, read_rough, read_rough_case
 
@@ -67,37 +66,6 @@ def test_a_map_that_has_changed_since_is_refused(folder):
     np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
     with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):
         measure(case, CaseSettings())
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("surface.scatter", "surface.hurst", "no number 'surface.hurst'"),
-        ('"1 um"]', '"-1 um"]', "scatter must be at least 0"),
-        ("problem =", 'temperature = "0 degC"\nproblem =', "temperature of its material"),
-        ('surface.scatter = ["0 um", "1 um"]', "surface.seed = [1.5]", "seed must be a whole"),
-        ("bumps.toml", "measured.toml", "scatter"),
-    ],
-)
-def test_a_wrong_plan_is_refused(folder, old, new, words):
-    assert old in PLAN
-    Path("plan.toml").write_text(PLAN.replace(old, new))
-    with pytest.raises(InputError, match=words):
-        read_plan("plan.toml")
-
-
-@pytest.mark.parametrize(
-    ("numbers", "words"),
-    [
-        ({"kind": ("cones",)}, "kind must be one of"),
-        ({}, "either a kind"),
-        ({"kind": ("sphere",), "pixels": 16, "pixel": 1e-6}, "needs radius"),
-        ({"file": "a.npy", "kind": ("sphere",)}, "either a kind"),
-    ],
-)
-def test_a_surface_that_is_not_stated_is_refused(numbers, words):
-    with pytest.raises(InputError, match=words):
-        StatedSurface(**numbers)
 
 
 @pytest.mark.slow
