@@ -10,7 +10,6 @@ import pytest
 
 import viscotack as vt
 from viscotack import check
-from viscotack.check import simulated
 from viscotack.forecast import theories
 from viscotack.forecast.learned import SOLIDS
 from viscotack.forecast.prediction import MEASURED
@@ -148,11 +147,6 @@ def test_observables_pass(observable):
     check.check_observable(observable).raise_if_failed()
 
 
-def solved(problem):
-    """Simulate roughly, to the pull-off."""
-    return simulated.run(problem, accuracy=2e-2)
-
-
 # --- a tier by the interface of tiers ------------------------------------------------------------
 
 
@@ -236,35 +230,6 @@ def test_the_tiers_of_the_package_pass(tier, monkeypatch):
 
 
 # --- every pair of nouns meets ------------------------------------------------------------------
-
-LOAD = vt.AtForce(1e-4)
-FACTORS: dict[str, dict[str, Any]] = {
-    "material": MATERIALS,
-    # relaxed contacts of a growth without an end are refused: test_ageing_interface.py
-    "law": {word: law for word, law in LAWS_CHECKED.items() if word != "logarithmic-ageing"},
-    "shape": SHAPES_CHECKED,
-    "body": {"half-space": vt.HalfSpace(), "foundation": FOUNDATION(2e-5)},
-    "protocol": {
-        "load": vt.Retraction(LOAD, 1e-4),
-        "depth": vt.Retraction(vt.AtDepth(1e-6), 1e-5),
-        "spring": vt.Retraction(LOAD, 1e-4, stiffness=100.0),
-        "dwell": vt.Retraction(LOAD, 1e-4, (vt.Dwell(0.01),)),
-        "approach": vt.Retraction(vt.Apart(5e-6), 1e-4, (vt.Approach(1e-4, LOAD),)),
-    },
-    "tier": {
-        "solve": solved,
-        "predict": vt.predict,
-        "advise": vt.advise,
-        "crack contact": vt.crack_contact,
-    },
-    "observable": {
-        "force": vt.pull_off_force,
-        "depth": vt.depth_at_pull_off,
-        "work": vt.work_to_pull_off,
-        "radius": observables.contact_radius_at_pull_off,
-        "own": LARGEST.function,
-    },
-}
 
 
 # --- twenty broken nouns -------------------------------------------------------------------------
