@@ -267,7 +267,7 @@ def test_no_module_imports_the_export_of_surrogates():
 
 def test_the_package_imports_no_folder_of_the_checkout():
     outside = {path.name for path in PACKAGE.parents[1].iterdir() if path.is_dir()} - {"src"}
-    assert {"training", "benchmarks", "replication"} <= outside
+    assert {"research"} <= outside
     for name, path in modules(PACKAGE).items():
         nodes = list(ast.walk(ast.parse(path.read_text())))
         found = [alias.name for n in nodes if isinstance(n, ast.Import) for alias in n.names]

@@ -17,7 +17,7 @@ from viscotack.operations import ask, operations
 from viscotack.operations.declare.options import options
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / "benchmarks"))
+sys.path.append(str(ROOT / "docs"))
 
 import operations_page  # noqa: E402
 
@@ -67,7 +67,7 @@ def post(http, path, *body):
 
 def test_the_table_and_the_reference_are_current():
     text = PAGE.read_text(encoding="utf-8")
-    assert text == operations_page.page(), "python benchmarks/operations_page.py --write"
+    assert text == operations_page.page(), "python docs/operations_page.py --write"
 
 
 def test_the_page_has_every_refusal_operation_and_option():

@@ -59,7 +59,7 @@ def test_the_wheel_has_no_data_sets_no_training_and_no_benchmarks():
     names = contents(PACKAGE)
     assert not [name for name in names if name.endswith((".parquet", ".csv"))]
     rooms = {part for name in names for part in Path(name).parts[:-1]}
-    assert not rooms & {"training", "benchmarks", "replication", "tests"}
+    assert not rooms & {"research", "tests"}
 
 
 def test_the_data_have_the_version_of_the_package():

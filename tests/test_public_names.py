@@ -11,7 +11,7 @@ import pytest
 import viscotack
 from viscotack.lab.tack.cycle import Cycle
 
-REPLICATION = Path(__file__).parents[1] / "replication"
+REPLICATION = Path(__file__).parents[1] / "research/replication"
 HEAVY = ("numpy", "scipy", "pint", "matplotlib", "rich", "typer")
 
 

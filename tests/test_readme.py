@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks import docs_check
+from docs import sessions as docs_check
 from viscotack import datasets
 
 ROOT = Path(__file__).parents[1]
-REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
+REPLICATION = sorted((ROOT / "research/replication").rglob("*.md"))
 PAGES = [
     ROOT / "README.md",
     *(ROOT / f"{word}.md" for word in ("CONTRIBUTING", "CODE_OF_CONDUCT", "SECURITY")),
@@ -159,7 +159,7 @@ def compare(lines, shown):
         if line not in shown:
             run([line])
         elif wrong := docs_check.difference(shown[line], docs_check.printed(line)):
-            pytest.fail(f"{line}\n  {wrong}\nrun: python benchmarks/docs_check.py --write")
+            pytest.fail(f"{line}\n  {wrong}\nrun: python docs/sessions.py --write")
 
 
 @pytest.mark.parametrize("page", short())
@@ -273,7 +273,7 @@ def test_picture_of_the_readme_is_small():
 
 def test_no_page_holds_what_a_merge_left():
     root = Path(__file__).resolve().parents[1]
-    kept = [*root.glob("*.md"), *root.glob("docs/*.md"), *root.glob("replication/**/*.md")]
+    kept = [*root.glob("*.md"), *root.glob("docs/*.md"), *root.glob("research/**/*.md")]
     assert kept
     marks = ("<" * 7 + " ", ">" * 7 + " ")
     left = [page.name for page in kept if any(f"\n{m}" in page.read_text() for m in marks)]
