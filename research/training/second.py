@@ -3,8 +3,8 @@
 ``python -m research.training.second CONTACT --out DIR --labels DIR`` fits those of `sphere`,
 `solids` or `punch`, adds them to the file of the package, measures its intervals and writes it
 into the folder. They know other inputs, have another form, and learn from further rows: where the
-force has two maxima of about the same height (`deep`, `sharp`, and soft punches of a seed of their own), and
-where an adversary found errors (`hard`, `steep`, `punch_faces`). Rows that measure intervals or
+force has two maxima of about the same height (`deep`, `sharp`, and soft punches), and where an
+adversary found errors (`hard`, `steep`, `punch_faces`). Rows that measure intervals or
 judge are left out. Intervals hold the rows of the sets that measure, and fresh cases of another
 seed (`fresh_cases`), of which curves are known at all steps of the simulations.
 Levels of other solids come from fresh cases of another
