@@ -304,7 +304,7 @@ def test_the_plan_of_the_benchmark_has_the_statistics_of_the_thesis():
         "modulus_ratio": (-0.9189, -1, 0.219),
         "exponent": (0.8471, 0.6, 0.5635),
     }
-    plan = read_plan(Path(__file__).parents[1] / "benchmarks/plans/thesis_like.toml")
+    plan = read_plan(Path(__file__).parents[1] / "data/viscotack_data/plans/thesis.toml")
     assert len(plan.cases) == 1000
     for name, table in wanted.items():
         values = columns(plan.cases, name)

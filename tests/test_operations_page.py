@@ -16,7 +16,7 @@ from front_ends import Http, run
 from viscotack.operations import ask
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / "benchmarks"))
+sys.path.append(str(ROOT / "docs"))
 
 import operations_page  # noqa: E402
 
@@ -66,7 +66,7 @@ def post(http, path, *body):
 
 def test_the_table_and_the_reference_are_current():
     text = PAGE.read_text(encoding="utf-8")
-    assert text == operations_page.page(), "python benchmarks/operations_page.py --write"
+    assert text == operations_page.page(), "python docs/operations_page.py --write"
 
 
 def test_the_example_has_one_answer_in_all_interfaces(anywhere):

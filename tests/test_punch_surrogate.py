@@ -187,7 +187,7 @@ def test_thin_and_thick_elastic_layers_are_those_of_theory():
 
 def test_both_limits_are_those_that_were_simulated():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.train_punch import LIMITS, read
+    from research.training.train_punch import LIMITS, read
 
     rows = read(LIMITS)
     tests = shipped().tests(rows.groups)
@@ -267,8 +267,8 @@ def test_a_simulation_lies_in_the_intervals(case):
 
 def test_test_rows_are_predicted_within_the_documented_errors():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.rows import joined
-    from training.train_punch import LEARNED, parts, read, scored
+    from research.training.rows import joined
+    from research.training.train_punch import LEARNED, parts, read, scored
 
     rows = joined([one.chosen(parts(len(one))[1]) for one in map(read, LEARNED)])
     found = scored(shipped(), rows)

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks import docs_check
+from docs import sessions as docs_check
 from viscotack import datasets
 
 ROOT = Path(__file__).parents[1]
-REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
+REPLICATION = sorted((ROOT / "research/replication").rglob("*.md"))
 PAGES = [
     ROOT / "README.md",
     *(ROOT / f"{word}.md" for word in ("CONTRIBUTING", "CODE_OF_CONDUCT", "SECURITY")),
@@ -153,7 +153,7 @@ def compare(lines, shown):
         if line not in shown:
             run([line])
         elif wrong := docs_check.difference(shown[line], docs_check.printed(line)):
-            pytest.fail(f"{line}\n  {wrong}\nrun: python benchmarks/docs_check.py --write")
+            pytest.fail(f"{line}\n  {wrong}\nrun: python docs/sessions.py --write")
 
 
 @pytest.mark.parametrize("page", short())

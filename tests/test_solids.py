@@ -84,7 +84,7 @@ def test_a_power_law_has_the_same_answer_through_either_door():
 
 def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.train_solids import CHOSEN, parts, read
+    from research.training.train_solids import CHOSEN, parts, read
     from viscotack import datasets
 
     tests = read(datasets.load("solids"))
@@ -106,7 +106,7 @@ def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
 
 def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
     pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
-    from training import likeness
+    from research.training import likeness
 
     tests, creep = likeness.made_up(150, 50)
     found = linear_solids.like(store.shipped("solids"), *tests, creep)

@@ -324,9 +324,9 @@ def test_the_shipped_surrogate_meets_its_required_accuracy():
 
 def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training import drawing
-    from training.calibration import judged
-    from training.rows import certain, read
+    from research.training import drawing
+    from research.training.calibration import judged
+    from research.training.rows import certain, read
 
     rows = read("unseen")
     designs, new = np.array(drawing.designs_of("unseen", rows.groups)), certain("unseen")
@@ -381,8 +381,8 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_errors_on_test_rows_equal_those_in_the_file():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.calibration import given_of, judged
-    from training.train_sphere import parted
+    from research.training.calibration import given_of, judged
+    from research.training.train_sphere import parted
 
     apart = judged(shipped(), parted()[1])
     given = given_of(shipped().trust, apart)
