@@ -1,4 +1,4 @@
-"""The page docs/operations.md: generated from the declarations; its examples give one answer."""
+"""The examples of docs/operations.md and docs/api.md give one answer through every interface."""
 
 import json
 import os
@@ -16,10 +16,6 @@ from front_ends import Http, run
 from viscotack.operations import ask
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / "docs"))
-
-import operations_page  # noqa: E402
-
 PAGE, API = (ROOT / "docs" / name for name in ("operations.md", "api.md"))
 
 
@@ -62,11 +58,6 @@ def post(http, path, *body):
         else:
             data.setdefault(name, []).append(value)
     return http(path, data=data, files=files)
-
-
-def test_the_table_and_the_reference_are_current():
-    text = PAGE.read_text(encoding="utf-8")
-    assert text == operations_page.page(), "python docs/operations_page.py --write"
 
 
 def test_the_example_has_one_answer_in_all_interfaces(anywhere):
