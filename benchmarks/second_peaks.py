@@ -24,7 +24,6 @@ from viscotack.campaign.columns import KINDS
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.datasets.columns import KEPT
 from viscotack.datasets.files import checksum
-from viscotack.problem.older import upgraded_output
 
 SPHERES = ("broad", "thesis", "chosen", "steep", "fresh", "unseen", "hard", "deep")
 SOLIDS = ("solids", "rough", "sharp")
@@ -69,9 +68,9 @@ def corrected(name: str, index: int) -> str:
     row = measure(kind.problem(inputs), CaseSettings(accuracy=old["accuracy"], until="pull-off"))
     row |= inputs | {"accuracy": old["accuracy"]}
     values = {column.name: column.value(row) for column in KEPT[kind.name]}
-    new = pa.table(
-        {n: pa.array([values[upgraded_output(n)]], table.schema.field(n).type) for n in old}
-    ).cast(table.schema)
+    new = pa.table({n: pa.array([values[n]], table.schema.field(n).type) for n in old}).cast(
+        table.schema
+    )
     parts = table.slice(0, index), new, table.slice(index + 1)
     whole = pa.concat_tables(parts).combine_chunks().replace_schema_metadata(table.schema.metadata)
     pq.write_table(whole, path, compression="zstd", compression_level=19)

@@ -387,24 +387,6 @@ def test_the_plan_of_the_benchmark_has_the_statistics_of_the_thesis():
         assert (x.mean(), np.median(x), x.std()) == pytest.approx(table, abs=0.16 * table[2])
 
 
-def test_numbers_by_the_names_of_version_0_1_are_those_of_today(tmp_path):
-    base = Path(__file__).parent / "data/saved_by_0_1/punch.toml"
-    text = f'problem = "{base}"\n[[grid]]\n'
-    names = []
-    for number, key in enumerate(("punch.half_width", "geometry.half_width")):
-        plan = tmp_path / f"{number}.toml"
-        plan.write_text(f"{text}{key} = 4e-4\n")
-        (case,) = read_plan(plan).cases
-        assert case.inputs == {"geometry.half_width": 4e-4}
-        names.append(case.name)
-    assert names[0] == names[1]
-    (tmp_path / "both.toml").write_text(
-        f"{text}punch.half_width = 4e-4\ngeometry.half_width = 5e-4\n"
-    )
-    with pytest.raises(ValueError, match="geometry.half_width is given twice"):
-        read_plan(tmp_path / "both.toml")
-
-
 @pytest.mark.parametrize(
     "name, word",
     [

@@ -16,7 +16,7 @@ from campaign_work import finished, plan_of
 from processes import POSIX
 from viscotack.campaign import CaseSettings, Store, export
 from viscotack.campaign.cases import Case, Cases
-from viscotack.campaign.parts import Ledger, Part, Parts, adopted, parquet, table_of
+from viscotack.campaign.parts import Ledger, Part, Parts, parquet, table_of
 from viscotack.files.lock import FolderInUse, locked
 from viscotack.files.parquet import read_parquet
 
@@ -291,23 +291,6 @@ def test_many_cases_are_kept_in_several_blocks(tmp_path, monkeypatch):
         assert cases != Cases.of(other)
     plan = replace(plan_of(tmp_path / "p"), cases=cases)
     assert Store.create(tmp_path, plan).plan().cases == cases
-
-
-def test_parts_of_version_0_1_are_known_by_their_names(tmp_path):
-    for span in ((1, 1), (2, 2), (3, 4), (3, 3), (4, 4), (5, 7), (6, 6), (9, 9)):
-        rows = [{"name": f"of {span[0]}"}] * (span[1] - span[0] + 1)
-        path = tmp_path / f"{span[0]:06d}-{span[1]:06d}.parquet"
-        path.write_bytes(parquet(lambda rows=rows: iter([table_of(rows)])))
-    for name in ("000008-000007.parquet", "000010-000010 (copy).parquet", "notes.txt"):
-        (tmp_path / name).write_text("of somebody")
-    ledger = adopted(tmp_path)
-    # what was merged into a larger part lies within it, and does not count twice
-    assert [part.span for part in ledger.kept] == [(1, 1), (2, 2), (3, 4), (5, 7), (9, 9)]
-    assert [part.rows for part in ledger.kept] == [1, 1, 2, 3, 1]
-    assert adopted(tmp_path / "nowhere") == Ledger()
-    (tmp_path / "000006-000008.parquet").write_bytes(b"")
-    with pytest.raises(ValueError, match="000006-000008.*000005-000007.*overlap, which no run"):
-        adopted(tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,6 @@ ROOMS = (
     "arrays",
     "threads",
     "clock",
-    "renamed",
     "errors",
     "system",
     "units",
@@ -57,8 +56,6 @@ ROOMS = (
 )
 # The same inside the theories: what all of them share, then the wings.
 WINGS = ("_checks", "_roots", "_scales", "elastic", "crack", "sphere", "punch")
-# Rooms in which names are found for a release that moved to a later one (docs/migration.md).
-MOVED = {("bem", "methods")}
 # Properties that call the functions of the same name, which take what has the properties.
 SHORT = {("result.result", "result.observables")}
 # A string, or a quoted one in it, that names a module; what comes after `-m`; no words that tell
@@ -132,7 +129,7 @@ def graph(package):
 def kept(links):
     """Drop the links of names that moved, and of properties that are functions elsewhere."""
     return {
-        name: {target for target in targets if (name, target) not in MOVED | SHORT}
+        name: {target for target in targets if (name, target) not in SHORT}
         for name, targets in links.items()
     }
 
@@ -207,7 +204,7 @@ def test_every_room_has_a_place():
 
 def test_no_module_imports_from_a_later_room():
     assert upward(kept(graph(PACKAGE))) == []
-    assert MOVED | SHORT <= {(name, x) for name, targets in graph(PACKAGE).items() for x in targets}
+    assert SHORT <= {(name, x) for name, targets in graph(PACKAGE).items() for x in targets}
 
 
 def test_every_theory_has_a_wing():

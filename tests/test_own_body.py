@@ -207,24 +207,6 @@ def test_the_energy_at_an_edge_is_read_on_a_half_space_alone(result):
         vt.edge_energy(result)
 
 
-# --- punches were a class of their own ------------------------------------------------------------
-
-
-def test_the_older_name_of_a_punch_makes_the_same_groups():
-    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    parts = dict(material=solid, start=vt.AtDepth(1.0), rate=1.0)
-    new = vt.Groups(
-        tabor=None, geometry=vt.FlatPunch(8.0), body=vt.Layer(0.3), cohesion=0.5, **parts
-    )
-    with pytest.warns(DeprecationWarning, match="is Groups"):
-        old = vt.PunchGroups(8.0, 0.3, 0.5, **parts)
-    assert old == new
-    record = {"type": "PunchGroups", "size": 8.0, "thickness": 0.3, "cohesion": 0.5}
-    parts = {name: vt.to_dict(part) for name, part in parts.items() if name != "rate"}
-    assert vt.from_dict(record | parts | {"rate": 1.0}) == new
-    assert vt.from_dict(vt.to_dict(new)) == new
-
-
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [

@@ -1,15 +1,12 @@
 import ast
-import importlib
 import inspect
 import subprocess
 import sys
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 import viscotack
-from viscotack.lab.tack.cycle import Cycle
 
 REPLICATION = Path(__file__).parents[1] / "replication"
 HEAVY = ("numpy", "scipy", "pint", "matplotlib", "rich", "typer")
@@ -60,50 +57,6 @@ def test_every_public_function_and_class_says_what_it_is():
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="no attribute 'pull_of'"):
         viscotack.pull_of  # noqa: B018
-
-
-@pytest.mark.parametrize("name", ["CrackContact", "crack_contact", "has_start", "solve"])
-def test_a_name_that_moved_is_found_in_its_old_room_with_a_warning(name):
-    with pytest.warns(DeprecationWarning, match=f"bem.{name} is viscotack.methods.{name} now"):
-        assert getattr(viscotack.bem, name) is getattr(viscotack.methods, name)  # type: ignore
-
-
-@pytest.mark.parametrize(
-    "old",
-    [
-        "pull_off_depth",
-        "result.observables.pull_off_depth",
-        "result.observables.other_peak_depth",
-        "theory.punch.thin_layer_pull_off_depth",
-        "theory.punch.laws.thin_layer_pull_off_depth",
-        "theory.punch.crossover.pull_off_depth",
-    ],
-)
-def test_a_renamed_function_is_found_by_its_earlier_name_with_a_warning(old):
-    home, _, name = f"viscotack.{old}".rpartition(".")
-    with pytest.warns(DeprecationWarning, match=f"{home}.{name} is viscotack[a-z_.]+ now") as given:
-        found = getattr(importlib.import_module(home), name)
-    assert str(given[0].message) == f"{home}.{name} is {found.__module__}.{found.__name__} now"
-    assert given[0].filename == __file__
-
-
-@pytest.mark.parametrize(
-    ("of", "old", "new"),
-    [
-        (viscotack.Prediction, "value", "pull_off_force"),
-        (viscotack.Advice, "crack_speed_m_per_s", "crack_speed_at_pull_off_m_per_s"),
-        (viscotack.CrackContact, "pull_off_depth", "depth_at_pull_off"),
-        (viscotack.CrackContact, "pull_off_time", "time_at_pull_off"),
-        (viscotack.Cycle, "pull_off_depth", "depth_at_pull_off"),
-        (Cycle, "pull_off_depth", "depth_at_pull_off"),
-    ],
-)
-def test_a_renamed_attribute_is_found_by_its_earlier_name_with_a_warning(of, old, new):
-    assert new in {field.name for field in fields(of)}
-    one = object.__new__(of)
-    object.__setattr__(one, new, 3.5)
-    with pytest.warns(DeprecationWarning, match=f"{of.__name__}.{old} is {of.__name__}.{new} now"):
-        assert getattr(one, old) == 3.5
 
 
 def taken(path):

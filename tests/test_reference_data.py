@@ -43,19 +43,14 @@ def test_data_of_others_lie_beside_their_licence():
         "dma_published": "Copyright (c) 2022 Alliance for Sustainable Energy, LLC",
         "sphere_bem_published": "Copyright (c) 2025 Ali Maghami",
     }
-    # what this package itself wrote has its licence
-    ours = {"saved_by_0_1"}
-    assert {path.name for path in DATA.iterdir() if path.is_dir()} == set(holders) | ours
+    assert {path.name for path in DATA.iterdir() if path.is_dir()} == set(holders)
     for folder, holder in holders.items():
         assert holder in (DATA / folder / "LICENSE").read_text()
 
 
 def test_every_file_of_data_is_described():
     text = (DATA / "README.md").read_text()
-    files = {
-        path.name for path in DATA.rglob("*") if path.is_file() and "saved_by_0_1" not in path.parts
-    }
-    assert "saved_by_0_1" in text
+    files = {path.name for path in DATA.rglob("*") if path.is_file()}
     assert [name for name in files - {"README.md", "LICENSE"} if f"{name}`" not in text] == []
 
 

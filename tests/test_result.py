@@ -10,7 +10,6 @@ from viscotack import __version__
 from viscotack.problem import Groups
 from viscotack.protocol import AtForce, Dwell, LoadTo
 from viscotack.result import (
-    Energies,
     Event,
     Outcome,
     Result,
@@ -315,16 +314,6 @@ def test_an_event_needs_numbers():
 def test_groups_and_problem_are_kept_as_given():
     assert jkr_result().problem is GROUPS
     assert jkr_result(problem=SI).problem is SI
-
-
-def test_books_of_one_step_keep_what_is_known_and_add_what_older_results_lack():
-    kept = energies(drive=np.array([3.0]), interface_heat=np.array([5.0]))
-    assert kept.interface_heat.tolist() == [5.0]
-    books = {name: getattr(kept, name) for name in vars(kept)} | {"drive": np.arange(3.0)}
-    del books["interface_heat"], books["mode_weight"]
-    older = Energies(**books | {"mode_time": np.ones(2)})
-    assert older.interface_heat.tolist() == [0.0, 0.0, 0.0]
-    assert np.isnan(older.mode_weight).tolist() == [True, True]
 
 
 def test_without_the_record_of_moves_a_hold_begins_where_the_force_is_that_of_the_end():
