@@ -28,7 +28,6 @@ import psutil
 VERIFY = "campaign verify c"
 GROUPS = "--tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 50 --rate 100"
 CRACK = "--modulus-ratio 0.1 --exponent 0.6 --speed 1"
-STAMP = "--length 300um --width 100um --contact-modulus 1MPa --work-of-adhesion 50mJ/m^2"
 JKR = "--radius 1mm --contact-modulus 1MPa --work-of-adhesion 50mJ/m^2"
 LENS = "lens_1_um_s.csv lens_1000_um_s.csv"
 COMMANDS = {
@@ -47,7 +46,6 @@ COMMANDS = {
     "simulate sphere --tabor -1": 2,
     "show lens.npz": 0,
     "show missing.npz": 2,
-    "edge-energy lens.npz": 0,
     f"advise {GROUPS}": 0,
     "sweep lens.toml cases.csv --accuracy 0.02": 0,
     "study predict.toml": 0,
@@ -67,7 +65,6 @@ COMMANDS = {
     "theory maugis --tabor 1": 0,
     f"theory persson-brener {CRACK}": 0,
     "theory punch pad.toml --stress 60kPa": 0,
-    f"theory rectangle {STAMP}": 0,
     f"theory steady-crack {CRACK}": 0,
     "identify slow lens_slow.csv --radius 5.19mm --model jkr": 0,
     "window window.toml": 0,

@@ -132,7 +132,6 @@ def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, mon
                 "bulk_modulus": "2 GPa",
             },
         ),
-        ("edge-energy", {"file": "lens.npz"}),
         ("schema", {"words": True}),
     ],
 )
