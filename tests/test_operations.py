@@ -8,10 +8,8 @@ from pathlib import Path
 import pytest
 
 import tack_files
-import viscotack.operations
 from front_ends import OF_THE_SHELL, Http, Question, by_python, run, through_all
 from stated import PUNCH, SPHERE
-from viscotack.app import cli
 from viscotack.errors import InputError
 from viscotack.operations import operation, operations
 from viscotack.operations.declare.cards import (
@@ -45,8 +43,6 @@ RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
 DMA = {"files": ["pdms_dma.csv"], "poisson_ratio": 0.5, "model": "sls"}
 SHIFTED = {"reference_temperature": "20 degC", "glass_transition": "-115 degC"}
 JKR = {"radius": "1 mm", "contact_modulus": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
-STAMP = {name: value for name, value in JKR.items() if name != "radius"}
-STAMP |= {"length": "300 um", "width": "100 um"}
 CRACK = {"modulus_ratio": 0.1, "exponent": 0.6, "speed": [1.0, 10.0]}
 # Questions of each operation, from which others are drawn.
 ASKED = {
@@ -70,7 +66,6 @@ ASKED = {
     "theory maugis": [JKR | {"strength": "0.1 MPa"}],
     "theory persson-brener": [CRACK],
     "theory punch": [{"case": "pad.toml", "stress": "30 kPa"}],
-    "theory rectangle": [STAMP | {"modulus_ratio": 0.1}, STAMP | {"thickness": "20 um"}],
     "theory steady-crack": [CRACK | {"law": "exponential:0.25"}],
 }
 # Drawn more seldom: half a second each, through every door.
@@ -82,7 +77,6 @@ NOT_DRAWN = {
     "campaign run": [{"plan": "plan.toml", "out": "study", "workers": 2}],
     "campaign status": [{"folder": "study"}],
     "campaign verify": [{"folder": "study"}],
-    "edge-energy": [{"file": "lens.npz"}],
     "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
     "identify dwell": [RATES],
     "identify rates": [RATES, RATES | {"thickness": "300 um", "bonded": 0.49}],
@@ -308,73 +302,3 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
 
 def test_every_operation_has_a_question_here():
     assert (ASKED | NOT_DRAWN).keys() == operations().keys()
-
-
-OWN = '''
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated, ClassVar
-
-from viscotack.operations.declare.answer import Answer, csv_file
-from viscotack.operations.declare.cards import Choice, File, Number
-from viscotack.operations.declare.options import Operation
-
-
-@dataclass(frozen=True, kw_only=True)
-class Longest(Operation):
-    """Find the longest line of files, in units of a length.
-
-    Example: viscotack lines longest a.csv --unit-length "1 mm"
-    """
-
-    word: ClassVar = "lines longest"
-    outputs: ClassVar = (csv_file(),)
-
-    files: Annotated[tuple[Path, ...], File("Texts.", metavar="FILE...", argument=True)]
-    unit_length: Annotated[float, Number("Of a letter.", unit="m", above=0)] = 1.0
-    by: Annotated[str, Choice("What is counted.", choices=("letters", "words"))] = "letters"
-
-    def answer(self, caller):
-        lines = [line for file in self.files for line in file.read_text().splitlines()]
-        count = {"letters": len, "words": lambda line: len(line.split())}[self.by]
-        found = max(map(count, lines)) * self.unit_length
-        return Answer(
-            found,
-            record=lambda: {"longest_m": found},
-            words=lambda: f"{found:.4g} m",
-            files={"csv": lambda target: target.write(b"1")},
-        )
-'''
-
-
-def test_an_operation_in_a_file_of_its_own_is_known_to_every_door(folder, tmp_path, monkeypatch):
-    mine = tmp_path / "mine"
-    mine.mkdir()
-    (mine / "longest.py").write_text(OWN)
-    monkeypatch.setattr(
-        viscotack.operations, "__path__", [*viscotack.operations.__path__, str(mine)]
-    )
-    caches = (viscotack.operations.declared, cli.application, cli.command)
-    for each in caches:
-        each.cache_clear()
-    try:
-        http = Http()
-        for given, expected in (
-            ({"files": ["lens_1_um_s.csv"]}, 58.0),
-            ({"files": LENS, "unit_length": "2 mm", "by": "words"}, 0.016),
-        ):
-            found = through_all(Question("lines longest", given), http)
-            agree(given, found)
-            assert len(found) == 5
-            assert found["Python"].record["longest_m"] == pytest.approx(expected, rel=0.5)
-        wrong = Question("lines longest", {"files": ["lens_1_um_s.csv"], "unit_length": "-1 mm"})
-        found = through_all(wrong, http)
-        agree(wrong, found)
-        assert "unit_length" in found["Python"].refused
-        known = http.get("/api/operations").json()["operations"]
-        assert "lines longest" in [one["word"] for one in known]
-        http.close()
-    finally:
-        monkeypatch.undo()
-        for each in caches:
-            each.cache_clear()

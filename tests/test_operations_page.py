@@ -1,12 +1,9 @@
 """The examples of docs/operations.md and docs/api.md give one answer through every interface."""
 
 import json
-import os
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
@@ -87,21 +84,3 @@ def test_requests_of_the_pages_are_answered(page, anywhere):
         response = post(http, path, *body)
         assert response.status_code == 200, response.text
     http.close()
-
-
-def test_an_operation_of_ones_own_is_run_as_the_page_says(anywhere):
-    text = (ROOT / "docs/own.md").read_text(encoding="utf-8")
-    (line,) = re.findall(r"^VISCOTACK_OPERATIONS=(.*)$", text, re.M)
-    folder, command, *rest = shlex.split(line)
-    assert command == "viscotack"
-    environment = os.environ | {"VISCOTACK_OPERATIONS": folder}
-    told = subprocess.run(
-        [sys.executable, "-m", "viscotack", *rest],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    source = Path("examples/own/operations/lift.py").read_text(encoding="utf-8")
-    assert source.partition("@dataclass")[2] in text
-    assert f"answers `{told.stdout.strip()}`" in text

@@ -182,9 +182,6 @@ def test_the_energy_at_an_edge_is_read_on_a_half_space_alone(result):
         vt.edge_energy(result)
 
 
-# --- punches were a class of their own ------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [

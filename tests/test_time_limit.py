@@ -1,4 +1,4 @@
-"""How long a simulation may take, and what it says of how long it will."""
+"""How long a simulation may take."""
 
 import io
 import json
@@ -14,7 +14,7 @@ from viscotack import clock
 from viscotack.bem import SimulationError, solver
 from viscotack.errors import InputError
 from viscotack.materials import StandardSolid
-from viscotack.methods import cost, solve
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell
 from viscotack.result import Outcome, load
@@ -208,111 +208,3 @@ def test_the_progress_line_forecasts_how_long_it_will_take(monkeypatch):
     shown = re.sub(r"\x1b\[[^A-Za-z]*[A-Za-z]", "", screen.getvalue())
     # a hundredth in a tenth of a second
     assert "0:00:00 gone, about 0:00:10 to go" in shown
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        ("sphere --tabor 60 --modulus-ratio 1 --exponent 1 --preload 1 --rate 1",
-         r"\d+ % of the motion is simulated: the cohesive zone is small beside the contact "
-         r"\(range-corrected Tabor number 60\), .* Cheaper: --accuracy 0.02, --until pull-off, "),
-        ("punch --size 100 --thickness 3 --cohesion 0.05 --modulus-ratio 1 --preload 1 --rate 10"
-         " --accuracy 0.001",
-         r"the punch is 100 a0 wide.*; the accuracy is 0.001\. Cheaper: --accuracy 0.02"),
-        ("sphere --tabor 1 --modulus-ratio 1 --exponent 1 --preload 1 --rate 1 --accuracy 0.02"
-         " --until pull-off",
-         r"simulated\. Cheaper: `viscotack predict`"),
-    ],
-)  # fmt: skip
-def test_a_simulation_that_takes_long_says_why_and_what_is_cheaper_once(
-    flags, words, monkeypatch, capsys
-):
-    from viscotack import methods
-    from viscotack.operations.parts import running
-
-    monkeypatch.setattr(cost, "processor_time", lambda *_, **__: None)
-    clocks = iter([0.0, *(5.0 * i for i in range(1, 100))])
-    monkeypatch.setattr(running, "process_time", lambda: next(clocks))
-    monkeypatch.setattr(running, "_EVERY", 0.0)
-
-    def slowly(problem, *, progress, **options):
-        for share in range(20):
-            progress(share / 20)
-        raise InputError("that is enough")
-
-    monkeypatch.setattr(methods, "solve", slowly)
-    assert exit_status(["simulate", *flags.split()]) == 2
-    said = capsys.readouterr().err
-    assert said.count("30 s of processor time so far") == 1
-    assert re.search(words, said), said
-
-
-@pytest.fixture
-def processor(monkeypatch):
-    """Return the clock that forecasts are read on."""
-    made = Clock()
-    monkeypatch.setattr(cost, "process_time", made)
-    return made
-
-
-def test_a_forecast_scales_with_its_coarse_run_and_with_accuracy(monkeypatch, processor):
-    run, settings = cost.solve, []
-
-    def coarse(problem, **options):
-        settings.append(options["settings"].accuracy)
-        processor.now += 0.5
-        return run(problem, **options)
-
-    monkeypatch.setattr(cost, "solve", coarse)
-    rough, default, fine = (
-        cost.processor_time(SPHERE, accuracy=accuracy) for accuracy in (0.02, 2e-3, 2e-4)
-    )
-    assert settings == [pytest.approx(0.08)] * 3
-    # more nodes, and more steps
-    assert rough * 10**0.25 < default < 0.5 * fine
-    assert default == pytest.approx(0.5 * 0.62 * 150**0.36, rel=0.2)
-
-
-def test_a_coarse_run_ends_in_its_time_and_counts_by_its_share(monkeypatch, processor):
-    def slow(share):
-        def run(problem, *, progress, **options):
-            processor.now += 2.0
-            progress(share)
-
-        return run
-
-    found = []
-    for share in (0.01, 0.05, 0.5):
-        monkeypatch.setattr(cost, "solve", slow(share))
-        found.append(cost.processor_time(SPHERE))
-    assert found[0] == found[1] > found[2] > 2.0
-
-
-def test_what_is_not_simulated_has_no_forecast():
-    for groups in (replace(SPHERE, tabor=1e4), replace(SPHERE, start=AtDepth(-50.0))):
-        assert cost.processor_time(groups) is None
-
-
-@pytest.mark.parametrize(
-    ("seconds", "words"),
-    [(38.0, "about 40 s of processor time expected"), (2.0, ""), (None, "")],
-)
-def test_a_simulation_tells_a_long_time_expected_and_has_the_same_numbers(
-    seconds, words, monkeypatch
-):
-    from viscotack.operations.parts import running
-
-    def forecast(problem, **options):
-        assert options == {"accuracy": 0.02, "until": "pull-off"}
-        solve(problem, **options)
-        return seconds
-
-    monkeypatch.setattr(running, "_EVERY", 0.0)
-    monkeypatch.setattr(running, "_LOOK", -1.0)
-    monkeypatch.setattr(cost, "processor_time", forecast)
-    told = []
-    options = {"accuracy": 0.02, "until": "pull-off"}
-    result = running.run(SPHERE, told.append, points=False, profiles=False, **options)
-    said = [each["notice"] for each in told if "notice" in each]
-    assert [each.partition(",")[0] for each in said] == [words] * bool(words)
-    assert result.force.tolist() == solve(SPHERE, **options).force.tolist()

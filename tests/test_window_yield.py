@@ -38,7 +38,7 @@ from viscotack.series import (
 )
 from viscotack.traction import SaturatingAgeing
 
-PASSPORT = Path(__file__).parent / "data" / "saved_by_0_1" / "passport_pdms.toml"
+PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
 
 
 @pytest.mark.parametrize("first, second", [(0.1, 0.0), (0.0, 0.1), (0.1, 0.2)])

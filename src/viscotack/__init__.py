@@ -7,7 +7,6 @@ The public names are listed in the order in which data flow. Each is imported on
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .renamed import earlier_names
 from .version import __version__
 
 if TYPE_CHECKING:
@@ -79,7 +78,6 @@ if TYPE_CHECKING:
     from .pictures.plot import save_figure as save_figure
     from .problem import Groups as Groups
     from .problem import Problem as Problem
-    from .problem import PunchGroups as PunchGroups
     from .problem import PunchScales as PunchScales
     from .problem import Scales as Scales
     from .problem.case_file import read_case as read_case
@@ -190,7 +188,7 @@ _NAMES = {
         "RetardationPowerLaw",
         "RelaxationPowerLaw",
     ),
-    "problem": ("Problem", "Groups", "PunchGroups", "Scales", "PunchScales"),
+    "problem": ("Problem", "Groups", "Scales", "PunchScales"),
     "problem.record": ("to_dict", "from_dict", "run_id"),
     "problem.case_file": ("read_case",),
     "bem": ("SimulationError",),
@@ -275,17 +273,12 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]
 
 
-def _named(name: str) -> Any:
+def __getattr__(name: str) -> Any:
     if name in _HOMES:
         return getattr(import_module(f".{_HOMES[name]}", __name__), name)
     if name in _ROOMS:
         return import_module(f".{name}", __name__)
     raise AttributeError(f"module 'viscotack' has no attribute {name!r}")
-
-
-__getattr__ = earlier_names(
-    __name__, {"pull_off_depth": "viscotack.result.observables.depth_at_pull_off"}, _named
-)
 
 
 def __dir__() -> list[str]:

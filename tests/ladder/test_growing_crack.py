@@ -199,19 +199,6 @@ def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed
     assert found.strain > 0.1 and any("a linear solid is doubtful" in word for word in found.words)
     fitted = 1 + (found.speed / found.reference_speed) ** found.exponent
     np.testing.assert_allclose(fitted, found.amplification, rtol=0.1)
-    saved, drawn = tmp_path / "run.npz", tmp_path / "edge.png"
-    vt.save(result, saved)
-    command = ["edge-energy", str(saved)]
-    said = CliRunner().invoke(application(), [*command, "--plot", str(drawn), "--json"])
-    answer = json.loads(said.stdout)
-    assert answer["amplification"] == found.amplification.tolist()
-    assert answer["words"] == list(found.words) and drawn.stat().st_size > 1000
-    words = CliRunner().invoke(application(), command).stdout.splitlines()
-    assert words[0] == "speed of the edge in m/s, energies in works of adhesion"
-    assert words[2].split()[0] == f"{found.speed.min():.4g}"
-    assert f"n {found.exponent:.3f}" in words[-len(found.words) - 1]
-    folder = CliRunner().invoke(application(), ["edge-energy", str(tmp_path)])
-    assert folder.exit_code == 2 and "is a folder" in folder.stderr
 
 
 def test_the_command_splits_the_energy_of_a_crack():

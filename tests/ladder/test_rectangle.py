@@ -1,26 +1,16 @@
 """Tests of rectangular stamps: bounds on a half-space, estimate on a thin layer."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Frictionless
-from viscotack.operations import ask
 from viscotack.theory.elastic import disc
 from viscotack.theory.punch import laws
 from viscotack.theory.punch.rectangle import bounds, on_layer
 
 BONDED = Bonded(poisson_ratio=0.45)
 SOLID = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
-STAMP = {
-    "length": "300 um",
-    "width": "100 um",
-    "contact_modulus": "1 MPa",
-    "work_of_adhesion": "50 mJ/m^2",
-}
 
 
 def test_a_square_holds_at_least_its_inscribed_disc_and_at_most_the_disc_around_it():
@@ -49,21 +39,57 @@ def test_a_stiffness_of_the_square_from_the_literature_lies_within_that_of_its_e
     assert low < sharper < high
 
 
-@pytest.mark.parametrize("ratio", [1, 2])
-def test_contacts_that_open_cell_by_cell_lie_between_the_bounds(ratio, monkeypatch):
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    sys.modules.pop("rectangle", None)
-    import rectangle
+def compliance(x, y):
+    """Return the displacements of square cells of side 1 by unit forces, E* = 1 (Love 1929)."""
+    dx, dy = x[:, None] - x[None], y[:, None] - y[None]
+    total = 0.0
+    for sx in (-1, 1):
+        for sy in (-1, 1):
+            u, v = dx + sx / 2, dy + sy / 2
+            total = total + sx * sy * (
+                u * np.arcsinh(v / np.abs(u)) + v * np.arcsinh(u / np.abs(v))
+            )
+    return total / np.pi
 
+
+def pulled(x, y):
+    """Return the largest tension of cells of even pressure, E* = work of adhesion = 1.
+
+    At a depth the cell that releases most energy opens as soon as this exceeds its work of
+    adhesion, and the depth grows until another one does.
+    """
+    M, live = np.linalg.inv(compliance(x, y)), np.ones(x.size, dtype=bool)
+    most, depth = 0.0, 0.0
+    while live.any():
+        own, even = np.diag(M)[live], M.sum(axis=1)[live]
+        critical = np.sqrt(2 * own) / np.abs(even)
+        depth = max(depth, critical.min())
+        most = max(most, depth * even.sum())
+        i = np.flatnonzero(live)[np.argmin(critical)]
+        M = M - np.outer(M[:, i], M[i]) / M[i, i]
+        live[i] = False
+        M[i], M[:, i] = 0.0, 0.0
+    return most
+
+
+def cells(wide, long):
+    """Return the places of cells of side 1 in a rectangle centred at 0."""
+    x, y = np.meshgrid(np.arange(long) - (long - 1) / 2, np.arange(wide) - (wide - 1) / 2)
+    return x.ravel(), y.ravel()
+
+
+@pytest.mark.parametrize("ratio", [1, 2])
+def test_contacts_that_open_cell_by_cell_lie_between_the_bounds(ratio):
     n, unit = 12, {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
-    x, y = rectangle.cells(n, n)
+    x, y = cells(n, n)
     inside = np.hypot(x, y) < n / 2
     radius = np.sqrt(inside.sum() / np.pi)
     kendall = disc.pull_off_force(contact_radius=radius, **unit)
-    scale = rectangle.pulled(x[inside], y[inside], 1.0) / kendall
+    # cells overestimate the work of an edge by a factor that a disc of as many shows
+    scale = pulled(x[inside], y[inside]) / kendall
     assert scale == pytest.approx(1, abs=0.1)
     low, high = bounds(ratio * n / 2, half_width=n / 2, **unit)
-    found = rectangle.pulled(*rectangle.cells(n, ratio * n), 1.0) / scale
+    found = pulled(*cells(n, ratio * n)) / scale
     assert 1.03 * low < found < high / 1.03
 
 
@@ -79,28 +105,6 @@ def test_on_a_bonded_layer_the_estimate_ranges_from_strip_to_disc():
     assert 1 < high / low < 1.5
 
 
-@pytest.mark.parametrize(
-    "given, words",
-    [
-        ({"thickness": "60 um"}, "thicker than half the width"),
-        ({"strength": "50 kPa"}, "zone of attraction at an edge is 15.71 um"),
-        ({"bonded": 0.3}, "bonded needs a layer"),
-        ({"modulus_ratio": 2}, "modulus_ratio must lie in"),
-    ],
-)
-def test_what_has_no_bound_is_refused_with_the_reason(given, words):
-    with pytest.raises(InputError, match=words):
-        ask("theory rectangle", **STAMP, **given)
-
-
-def test_the_operation_states_bounds_slow_and_fast():
-    record = ask("theory rectangle", **STAMP, modulus_ratio=0.04).record()
-    low, high = bounds(150e-6, half_width=50e-6, **SOLID)
-    assert record["kind"] == "bounds"
-    assert record["least_pull_off_force_N"] == pytest.approx(low)
-    assert record["most_pull_off_force_N"] == pytest.approx(high)
-    assert record["fastest_most_pull_off_force_N"] == pytest.approx(5 * high)
-    film = ask("theory rectangle", **STAMP, thickness="20 um").record()
-    assert film["kind"] == "estimate"
-    strong = ask("theory rectangle", **STAMP, strength="0.5 MPa", modulus_ratio=1e-4).record()
-    assert strong["fastest_most_pull_off_force_N"] == pytest.approx(3e-8 * 0.5e6)
+def test_a_layer_thicker_than_half_the_width_is_refused():
+    with pytest.raises(InputError, match="thick"):
+        on_layer(150e-6, half_width=50e-6, **SOLID, thickness=60e-6, base=BONDED)

@@ -16,9 +16,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import BODIES, SHAPES
 from viscotack.materials.words import MODELS
 from viscotack.problem.inputs import Input, check_exponent, inputs_of
-from viscotack.problem.older import upgraded_paths
 from viscotack.problem.problem import Problem
-from viscotack.problem.record import to_dict
 from viscotack.problem.rough_case import RoughCase
 from viscotack.protocol import Retraction
 from viscotack.traction import LAWS
@@ -184,16 +182,15 @@ def changes_of(problem: Any, headings: Iterable[str]) -> Changes:
     ('sample',)
     """
     known, names = inputs_of(problem), _names(problem)
-    record, in_si = to_dict(problem), isinstance(problem, Problem | RoughCase)
+    in_si = isinstance(problem, Problem | RoughCase)
     keys, shown = _keys() if in_si else set[str](), _shown(names, known)
     tables = {name.partition(".")[0] for name in names if "." in name}
     columns: list[Column] = []
     carried: list[str] = []
     for heading in map(str, headings):
         name, unit = _split(heading, names, known)
-        path = upgraded_paths([name], record)[0]
         near = difflib.get_close_matches(plain_heading(name), names, 1, _ALIKE)
-        paths = names.get(plain_heading(name)) or ({path} if path in known else set())
+        paths = names.get(plain_heading(name)) or {name} & known.keys()
         if len(paths) > 1:
             raise InputError(f"{heading!r} may be {' or '.join(sorted(paths))}; write one of these")
         if paths:

@@ -2,14 +2,12 @@
 
 import csv
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from itertools import chain, repeat
 from pathlib import Path
-from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.files.text import read_text
-from viscotack.problem.older import upgraded_path
 
 # Of a text as read_text returns it; as a file in memory it would be four times as large.
 _LINE = re.compile(r"[^\n]*\n|[^\n]+")
@@ -135,7 +133,7 @@ class Listed:
 
     def __init__(self, path: Path, text: str) -> None:
         self.path, self._text = path, text
-        self.names = list(renamed(dict.fromkeys(read_words(path, text)[0])))
+        self.names = read_words(path, text)[0]
 
     def __iter__(self) -> Iterator[tuple[int, dict[str, float]]]:
         for line, row in read_words(self.path, self._text)[1]:
@@ -143,14 +141,3 @@ class Listed:
                 yield line, {n: float(v) for n, v in zip(self.names, row, strict=True)}
             except ValueError as error:
                 raise InputError(f"{self.path}, line {line}: {error}; inputs are numbers") from None
-
-
-def renamed(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values by the paths that numbers have now; one that is stated twice is refused."""
-    found: dict[str, Any] = {}
-    for name, value in values.items():
-        new = upgraded_path(name)
-        if new in found:
-            raise InputError(f"{new} is given twice, also as {name}; remove one")
-        found[new] = value
-    return found

@@ -27,12 +27,10 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.files.arrow import arrow
-from viscotack.files.bounded import LARGEST_PART
 from viscotack.files.parquet import read_parquet
 from viscotack.files.whole import is_draft, remove_drafts, write_new
 
 from .apart import check_apart, trust
-from .identity import digest
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
@@ -249,36 +247,6 @@ class Parts:
         path = self.folder / part.name
         if path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest() == part.sha256:
             path.unlink()
-
-
-def adopted(folder: Path) -> Ledger:
-    """Return the ledger of a directory of version 0.1, which kept none: by the names of its files.
-
-    Raises
-    ------
-    ValueError
-        If two parts overlap and none holds the other: not what that version wrote.
-    """
-    spans = {path: span for path in folder.glob("*.parquet") if (span := _span(path.name))}
-    kept: list[Path] = []
-    # of two with one beginning the longer comes first; what lies within one was merged into it
-    for path, (first, last) in sorted(spans.items(), key=lambda item: (item[1][0], -item[1][1])):
-        if not kept or first > spans[kept[-1]][1]:
-            kept.append(path)
-        elif last > spans[kept[-1]][1]:
-            raise InputError(
-                f"{path} and {kept[-1].name} overlap, which no run of viscotack leaves; move "
-                "away the one that is not of this campaign"
-            )
-    files = [(path, digest(path, LARGEST_PART)) for path in kept]
-    for file in files:
-        check_apart(*file, lambda: files)
-    return Ledger(
-        tuple(
-            Part(path.name, sha256, read_parquet(path, sha256, ["name"]).num_rows)
-            for path, sha256 in files
-        )
-    )
 
 
 def parquet(tables: Callable[[], Iterable[Any]]) -> Any:

@@ -24,7 +24,7 @@ from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
 from .identity import digest
-from .listed import Listed, renamed
+from .listed import Listed
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
 # Tables and blocks of a file.
@@ -410,7 +410,7 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             found |= _flat(value, f"{prefix}{key}.")
         else:
             found[f"{prefix}{key}"] = value
-    return found if prefix else renamed(found)
+    return found
 
 
 def _stated(where: str, kind: Kind, blocks: list[tuple[str, Any]], tally: Tally) -> Iterator[Case]:

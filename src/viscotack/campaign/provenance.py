@@ -37,13 +37,13 @@ def read_provenance(folder: Path) -> dict[str, Any]:
             raise InputError("it is of another kind")
         version = found["format_version"]
         is_newer = version > FORMAT_VERSION
-        if version not in (1, FORMAT_VERSION) and not is_newer:
+        if version != FORMAT_VERSION and not is_newer:
             raise InputError(f"there is no version {version!r}")
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"{path} is damaged: {error}") from None
     if is_newer:
         raise InputError(f"{folder} was written by a newer version of viscotack; update viscotack")
-    if (version > 1 or "seal" in found) and found.pop("seal", None) != seal(found):
+    if found.pop("seal", None) != seal(found):
         raise InputError(
             f"{path} was edited or damaged since viscotack wrote it: its seal does not fit. What "
             "is in it is not changed by hand: put it back as it was, or give another --out"

@@ -32,7 +32,6 @@ from viscotack.files.bounded import LARGEST_PART
 from viscotack.files.lock import Hold
 from viscotack.files.parquet import read_parquet
 from viscotack.files.whole import remove_drafts, write_whole
-from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
 from viscotack.version import __version__
 
 from .apart import check_apart, trust
@@ -40,7 +39,7 @@ from .case import CaseSettings
 from .cases import Cases, Names, Standing
 from .identity import digest, identity, permitted
 from .ordering import Ordered, in_order, names_of
-from .parts import Ledger, Parts, adopted, parquet
+from .parts import Ledger, Parts, parquet
 from .plan import Plan, restored_kind
 from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
 
@@ -137,7 +136,6 @@ class Store:
         if (folder / "provenance.json").exists():
             old = read_provenance(folder)
             _check_same(folder, old, header)
-            old = _of_today(folder, old)
             header |= {name: old[name] for name in ("runs", "parts", "lost")}
         files = {"cases.parquet": parquet(lambda: _tables_of_cases(cases)), **sources}
         hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
@@ -306,10 +304,7 @@ class Store:
     def _in_order(
         self, table: str, cases: Cases, names: Names, counts: Any
     ) -> AbstractContextManager[Ordered]:
-        def tables() -> Iterator[Any]:
-            return map(_with_names_of_today, self._parts[table].tables())
-
-        return in_order(tables, names, cases, counts)
+        return in_order(self._parts[table].tables, names, cases, counts)
 
     def parts(self) -> dict[str, Parts]:
         """Return the tables by the names of their directories."""
@@ -341,7 +336,7 @@ class Store:
         # in slices: a million words of Python's would be 150 MB
         names = names_of(table.to_batches(max_chunksize=_SLICE))
         inputs = {
-            upgraded_path(name): table.column(name).to_numpy(zero_copy_only=False)
+            name: table.column(name).to_numpy(zero_copy_only=False)
             for name in table.column_names
             if name != "name"
         }
@@ -354,8 +349,6 @@ class Store:
         """Return the ledger of a table: of who writes the one it has, else that on the disk."""
         if self._hold is None:
             self._provenance = read_provenance(self.folder)
-        if "parts" not in self._provenance:
-            return adopted(self.folder / name)
         try:
             return Ledger.of(self._provenance["parts"][name])
         except (KeyError, TypeError) as error:
@@ -366,7 +359,7 @@ class Store:
 
     def _write(self, **changed: Any) -> None:
         self.confirm()
-        self._provenance = {**_of_today(self.folder, self._provenance), **changed}
+        self._provenance = {**self._provenance, **changed}
         write_provenance(self.folder, self._provenance)
 
 
@@ -400,38 +393,9 @@ def hash_of(path: Path) -> str | None:
     return digest(path, LARGEST_PART) if path.exists() else None
 
 
-def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a provenance with the ledgers that version 0.1 did not keep."""
-    if provenance["format_version"] == FORMAT_VERSION:
-        return dict(provenance)
-    hashes = {name: hash_of(folder / name) for name in _FILES}
-    return {
-        **provenance,
-        "format_version": FORMAT_VERSION,
-        "parts": {name: adopted(folder / name).record() for name in _TABLES},
-        "lost": [],
-        "files": {name: [found] for name, found in hashes.items() if found},
-    }
-
-
-def _with_names_of_today(table: Any) -> Any:
-    """Return a table of an older version with the names that inputs and outputs have now."""
-    for name in table.column_names:
-        new, values = upgraded_output(upgraded_path(name)), table.column(name)
-        if new == name:
-            continue
-        if new in table.column_names:
-            merged = arrow().compute.coalesce(table.column(new), values)
-            table = table.set_column(table.column_names.index(new), new, merged).drop_columns(name)
-        else:
-            names = [new if given == name else given for given in table.column_names]
-            table = table.rename_columns(names)
-    return table
-
-
 def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
     for what in ("kind", "problem"):
-        if upgraded(old[what]) != new[what]:
+        if old[what] != new[what]:
             raise InputError(
                 f"{folder} holds cases of another {what} ({old['kind']}); give another --out"
             )

@@ -8,7 +8,6 @@ from typing import Any
 
 from viscotack.errors import InputError, NotInstalled, install_command
 from viscotack.files.arrow import arrow
-from viscotack.problem.older import upgraded_output
 from viscotack.version import __version__
 
 NAMES = (
@@ -141,10 +140,7 @@ def load(name: str) -> Any:
     """
     content = _checked(name)
     pa = arrow("the datasets are stored")
-    table = pa.parquet.ParquetFile(pa.BufferReader(content)).read(use_threads=False)
-    facts = json.dumps(_facts(table.schema))
-    names = [upgraded_output(name) for name in table.column_names]
-    return table.rename_columns(names).replace_schema_metadata({METADATA_KEY: facts})
+    return pa.parquet.ParquetFile(pa.BufferReader(content)).read(use_threads=False)
 
 
 def metadata(name: str) -> dict[str, Any]:
@@ -174,7 +170,8 @@ def metadata(name: str) -> dict[str, Any]:
     """
     content = _checked(name)
     pa = arrow("the datasets are stored")
-    return _facts(pa.parquet.read_schema(pa.BufferReader(content)))
+    schema = pa.parquet.read_schema(pa.BufferReader(content))
+    return json.loads(schema.metadata[METADATA_KEY])
 
 
 def checksum(content: bytes) -> str:
@@ -186,13 +183,6 @@ def checksum(content: bytes) -> str:
     'e3b0c44298fc1c14'
     """
     return hashlib.sha256(content).hexdigest()
-
-
-def _facts(schema: Any) -> dict[str, Any]:
-    """Read the metadata in a file, with the current names of columns."""
-    facts = json.loads(schema.metadata[METADATA_KEY])
-    columns = {upgraded_output(name): words for name, words in facts["columns"].items()}
-    return facts | {"columns": columns}
 
 
 def _folder() -> Path:

@@ -12,7 +12,6 @@ from viscotack.methods.crack_problem import ROOT
 from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
-from viscotack.renamed import Renamed
 from viscotack.units import readable
 
 from .cautions import LINEAR_SPEED, beyond_linear
@@ -107,8 +106,6 @@ class Advice:
     length_scale: float | None = None
     speed_scale: float | None = None
     contact: OtherContact | None = None
-
-    crack_speed_m_per_s = Renamed("crack_speed_at_pull_off_m_per_s")
 
     @property
     def statements(self) -> tuple[str, ...]:

@@ -15,7 +15,6 @@ import numpy as np
 
 from viscotack.problem import Case
 from viscotack.problem.record import run_id, to_dict
-from viscotack.renamed import Renamed
 from viscotack.result.trajectory import PRESSED
 from viscotack.version import __version__
 
@@ -98,8 +97,6 @@ class Prediction:
     depth_interval: tuple[float, float] | None = None
     joint: bool = False
     warn: Callable[[], tuple[str, ...]] = field(default=tuple, repr=False, compare=False)
-
-    value = Renamed("pull_off_force")
 
     @property
     def pull_off_stress(self) -> float:

@@ -26,7 +26,6 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart, Dwell
-from viscotack.renamed import Renamed
 from viscotack.result.loops import Loop, returned, work_at_indenter
 from viscotack.result.opening import least_between
 from viscotack.result.parts import Span, all_moves, spans_of, waits
@@ -129,9 +128,6 @@ class CrackContact:
     inside: bool
     why: str
     method: str = METHOD
-
-    pull_off_depth = Renamed("depth_at_pull_off")
-    pull_off_time = Renamed("time_at_pull_off")
 
     @property
     def interval(self) -> tuple[float, float] | None:

@@ -7,23 +7,17 @@ to all of them.
 """
 
 import ast
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
-from pkgutil import ModuleInfo, iter_modules
 from typing import Any
 
 from viscotack.errors import InputError
 
 from .declare.answer import Answer, Caller
 from .declare.options import Here, Operation, answered, respelled, take
-
-# Environment variable with folders of user-defined operations.
-FOLDERS = "VISCOTACK_OPERATIONS"
-__path__ += [folder for folder in os.environ.get(FOLDERS, "").split(os.pathsep) if folder]
 
 
 @dataclass(frozen=True)
@@ -48,7 +42,7 @@ class Declared:
 
 @lru_cache(maxsize=1)
 def declared() -> Mapping[str, Declared]:
-    """List all operations by name, sorted, without importing those of the package.
+    """List all operations by name, sorted, without importing them.
 
     The command line imports only the requested operation, because importing all of them takes ten
     times as long as importing NumPy.
@@ -63,21 +57,13 @@ def declared() -> Mapping[str, Declared]:
     >>> declared()["predict"].module
     'predict'
     """
-    modules = (module for module in iter_modules(__path__) if not module.ispkg)
+    modules = Path(__file__).parent.glob("*.py")
     found = {each.word: each for module in modules for each in _declared_in(module)}
     return dict(sorted(found.items()))
 
 
-def _declared_in(module: ModuleInfo) -> Iterator[Declared]:
-    """Yield the operations that a module declares.
-
-    A module of this package is parsed, not imported; a module in a folder of the user is imported.
-    """
-    source = Path(__file__).with_name(f"{module.name}.py")
-    if not source.is_file():
-        for kind in _kinds(module.name):
-            yield Declared(kind.word, kind.__doc__ or "", module.name, kind.helps)
-        return
+def _declared_in(source: Path) -> Iterator[Declared]:
+    """Yield the operations that a module declares; it is parsed, not imported."""
     for node in ast.parse(source.read_bytes()).body:
         if isinstance(node, ast.ClassDef):
             values = {
@@ -90,7 +76,7 @@ def _declared_in(module: ModuleInfo) -> Iterator[Declared]:
                 yield Declared(
                     ast.literal_eval(word),
                     ast.get_docstring(node, clean=False) or "",
-                    module.name,
+                    source.stem,
                     {} if helps is None else ast.literal_eval(helps),
                 )
 

@@ -209,7 +209,7 @@ def _asked(study: Placed) -> IdentifyRates:
             raise InputError(f"its operation is {found}; a forecast needs a study of {word}")
         return IdentifyRates
 
-    asked = read_study(study.path, known=known, usual=word, also=place.also, place=place).operation
+    asked = read_study(study.path, known=known, also=place.also, place=place).operation
     assert isinstance(asked, IdentifyRates), "no other is known"
     return asked
 

@@ -1,6 +1,5 @@
 """Contact problems: material, traction law, shape, body and protocol, in SI, groups and files."""
 
-from .older import PunchGroups
 from .plane import PunchScales
 from .problem import Case, Groups, Problem
 from .revolution import Scales
@@ -10,7 +9,6 @@ __all__ = [
     "Case",
     "Groups",
     "Problem",
-    "PunchGroups",
     "PunchScales",
     "RoughCase",
     "Scales",

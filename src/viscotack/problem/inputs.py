@@ -12,7 +12,6 @@ from typing import Any
 from viscotack.cards import Pairs, Quantity, cards, unusual
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, PowerLawProfile
-from viscotack.problem.older import upgraded_paths
 from viscotack.problem.problem import Groups, Problem
 from viscotack.problem.record import from_dict, to_dict
 from viscotack.problem.rough_case import RoughCase
@@ -142,7 +141,7 @@ def check_paths(problem: Any, paths: Iterable[str]) -> None:
         With the numbers that there are at the place where a path goes wrong.
     """
     record = to_dict(problem)
-    paths = set(upgraded_paths(paths, record))
+    paths = set(paths)
     replaced(record, dict.fromkeys(paths, 1.0), inputs_of(problem))
     if _is_tip(record) and len(missing := {_HEIGHT, _AT_RADIUS} - paths) == 1:
         raise InputError(f"{_HEIGHT} and {_AT_RADIUS} go together; add {missing.pop()}")
@@ -169,8 +168,7 @@ def replaced(
     coefficient is recomputed, and a reduced tip with another exponent is reduced again.
     """
     changed = copy.deepcopy(dict(record))
-    numbers = map(float, values.values())
-    values = dict(zip(upgraded_paths(values, record), numbers, strict=True))
+    values = {path: float(value) for path, value in values.items()}
     for path, value in values.items():
         if path not in _TIP or not _is_tip(record):
             _put(changed, path, value, known)

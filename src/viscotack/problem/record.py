@@ -8,7 +8,6 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.problem.nouns import Nouns, known
-from viscotack.problem.older import naming, upgraded
 
 
 class UnknownNoun(InputError):
@@ -58,7 +57,7 @@ def from_dict(record: Any, also: Iterable[Any] = ()) -> Any:
     Parameters
     ----------
     record : dict
-        Record of this or an earlier version.
+        Record of a problem or a part of one.
     also : iterable of classes
         User-defined laws, materials and shapes that it may name.
 
@@ -77,13 +76,13 @@ def from_dict(record: Any, also: Iterable[Any] = ()) -> Any:
     >>> from_dict({"type": "AtForce", "force": 0.0015})
     AtForce(force=0.0015)
     """
-    return _made(upgraded(record), known(also))
+    return _made(record, known(also))
 
 
 def run_id(case: Any) -> str:
     """Return a short id that depends only on the content of a problem.
 
-    Equal problems have equal ids, in all versions and on all machines.
+    Equal problems have equal ids, on all machines.
 
     Parameters
     ----------
@@ -108,7 +107,7 @@ def run_id(case: Any) -> str:
     >>> run_id(one) == run_id(same)
     True
     """
-    text = json.dumps(naming(to_dict(case)), sort_keys=True)
+    text = json.dumps(to_dict(case), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
-from viscotack.renamed import Renamed
 
 from . import Outcome, Result
 from .dead_load import time_held
@@ -62,8 +61,6 @@ class Cycle:
     hysteresis_error: float
     loop: Loop
     time_to_detachment: float
-
-    pull_off_depth = Renamed("depth_at_pull_off")
 
 
 def cycles(result: Result) -> tuple[Cycle, ...]:

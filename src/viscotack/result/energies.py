@@ -1,6 +1,6 @@
 """Energy balance of a run at every step."""
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -32,8 +32,8 @@ class Energies:
     interface_heat : ndarray, shape (n,)
         Cumulative dissipation in an interface whose tension grows with the opening speed.
     mode_weight : ndarray, shape (m,)
-        Compliance of each mode over that of the relaxed solid; nan in older results. The
-        instantaneous response has the remainder to 1.
+        Compliance of each mode over that of the relaxed solid. The instantaneous response has the
+        remainder to 1.
     """
 
     drive: Array
@@ -45,14 +45,10 @@ class Energies:
     transfer: Array
     mode_time: Array
     mode_heat: Array
-    interface_heat: Array = field(default_factory=lambda: np.empty(0))  # missing in older results
-    mode_weight: Array = field(default_factory=lambda: np.empty(0))
+    interface_heat: Array
+    mode_weight: Array
 
     def __post_init__(self) -> None:
-        if np.size(self.interface_heat) == 0:
-            object.__setattr__(self, "interface_heat", np.zeros(np.shape(self.drive)))
-        if np.size(self.mode_weight) != np.size(self.mode_time):
-            object.__setattr__(self, "mode_weight", np.full(np.shape(self.mode_time), np.nan))
         for one in fields(self):
             values = np.array(getattr(self, one.name), dtype=float)
             values.setflags(write=False)

@@ -8,10 +8,8 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import Layer
-from viscotack.problem import older
 from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
-from viscotack.renamed import earlier_names
 from viscotack.theory.punch.curve import thin_layer_surface_energy
 from viscotack.threads import caught_warnings
 
@@ -28,15 +26,6 @@ from .opening import (
     tension_work,
 )
 from .parts import spans
-
-_HERE = "viscotack.result.observables"
-__getattr__ = earlier_names(
-    __name__,
-    {
-        "pull_off_depth": f"{_HERE}.depth_at_pull_off",
-        "other_peak_depth": f"{_HERE}.depth_at_other_peak",
-    },
-)
 
 # Relative error of the work to pull-off above which it is rejected.
 _MEANINGLESS = 0.5
@@ -642,7 +631,7 @@ class Observable:
     function: Callable[[Result], float]
 
     def __post_init__(self) -> None:
-        taken = self.name in {*_OBSERVABLES, *_TAKEN, *older.OUTPUTS}
+        taken = self.name in {*_OBSERVABLES, *_TAKEN}
         if not self.name.isidentifier() or taken or "_at_" in self.name:
             raise InputError(
                 f"name must be a new one without _at_, such as 'rise_time', got {self.name!r}, "

@@ -188,7 +188,7 @@ class Result:
     statistics : dict
         Cost: steps, newton_iterations, nodes, modes, wall_time_s.
     accuracy : float or None
-        Requested relative error of the pull-off force; None in older files.
+        Requested relative error of the pull-off force; None if not recorded.
     error_estimate : dict or None
         Relative errors of ``force`` and ``work`` at pull-off, and error of its ``depth`` [h_0]; or
         relative error of the ``time`` to detachment under a load; relative error of ``hysteresis``,
@@ -204,7 +204,7 @@ class Result:
         On request: time (m,), and radius, pressure, gap (m, n); pressure positive in compression.
     move : ndarray of int, or None
         Index of the move that led to each step, from 0; the final retraction is one more than the
-        last move. None in older files.
+        last move. None if not recorded.
     inner_radius : ndarray, or None
         Of a shape that may have several edges: the inner edge of the outermost part of the contact,
         0 where that is a disc around the axis, nan without a contact. Else None.
@@ -525,7 +525,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     Parameters
     ----------
     path : path
-        File of this version or an older one.
+        The file.
     also : iterable of classes
         User-defined laws, materials and shapes of the problem.
 
@@ -595,8 +595,8 @@ def _from_parts(
         return found if header[name] else None
 
     slopes = header.get("sensitivities")
-    began = header.get("shallow_start")  # missing in results of 0.1
-    errors = header.get("hysteresis_errors")
+    began = header["shallow_start"]
+    errors = header["hysteresis_errors"]
     return Result(
         problem=from_dict(header["problem"], also),
         **{name: arrays[name] for name in _SERIES},
@@ -612,8 +612,8 @@ def _from_parts(
         inner_radius=arrays.get("inner_radius"),
         rings=arrays.get("rings"),
         shallow_start=None if began is None else ShallowStart(**began),
-        accuracy=header.get("accuracy"),
-        method=header.get("method", "simulation"),
+        accuracy=header["accuracy"],
+        method=header["method"],
         sensitivities=None if slopes is None else Sensitivities(**slopes),
         versions=header["versions"],
     )

@@ -117,9 +117,6 @@ class JobAnswer(BaseModel):
     kind: str
     state: Literal["queued", "running", "done", "refused", "failed", "cancelled"]
     share: Annotated[float, Field(ge=0, le=1, description="Done share of the work.")]
-    notice: Annotated[
-        str, Field(description="Of a long simulation: the time expected, or what holds it up.")
-    ]
     points: Annotated[
         list[list[float | None]],
         Field(

@@ -172,7 +172,6 @@ def _told(job: Job, points_from: int = 0, rows_from: int = 0, *, whole: bool = T
             "kind": job.kind,
             "state": job.state,
             "share": min(job.share, 1.0),
-            "notice": job.notice,
             "points": job.points[points_from:],
             "points_from": points_from,
             "rows": job.rows[rows_from:],

@@ -368,8 +368,6 @@ def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
         task = bar.add_task("", total=1.0, visible=False, words="")
 
         def tell(told: Mapping[str, Any]) -> None:
-            if "notice" in told:
-                bar.console.print(harmless(told["notice"]), markup=False)
             if "share" in told:
                 said = told.get("words", "")
                 bar.columns = (*first, *(words if said else times))
@@ -387,8 +385,6 @@ def _lines() -> Callable[[Mapping[str, Any]], None]:
 
     def tell(told: Mapping[str, Any]) -> None:
         nonlocal last
-        if "notice" in told:
-            typer.echo(harmless(told["notice"]), err=True)
         is_due = told.get("urgent") or monotonic() - last > LINES
         if "words" in told and is_due:
             last = monotonic()

@@ -40,7 +40,7 @@ def study_command(
         from .reading import carry_out, checked
 
         also = own_nouns(own or ())
-        asked = read_study(file, known=operation, usual="identify rates", also=also)
+        asked = read_study(file, known=operation, also=also)
         kind = type(asked.operation)
         files = {output: asked.write.get(output.name) for output in kind.outputs}
         try:

@@ -95,8 +95,6 @@ class Job:
         "queued", "running", "done", "refused", "failed" or "cancelled".
     share : float
         Of the work that is done.
-    notice : str
-        The last thing it told to be shown, such as the time that it will take.
     points, rows : list
         Of the curve that grows, and of the table.
     error : str
@@ -109,7 +107,6 @@ class Job:
     kind: str
     state: str = "queued"
     share: float = 0.0
-    notice: str = ""
     points: list[Any] = field(default_factory=list)
     rows: list[Any] = field(default_factory=list)
     error: str = ""
@@ -132,7 +129,6 @@ class Job:
     def tell(self, told: dict[str, Any]) -> None:
         """Store a progress message of the task."""
         self.share = max(self.share, told.get("share", 0.0))
-        self.notice = told.get("notice", self.notice)
         self.points += told.get("points", [])
         self.rows += told.get("rows", [])
         self.changed()

@@ -139,7 +139,7 @@ export class Contact {
     this.start.disabled = growing;
     this.keep.disabled = this.store.kept.length >= 4;
     const words = {
-      idle: "", queued: "waiting for a free process", running: `simulating, ${Math.round(100 * run.share)} %${run.notice ? `; ${run.notice}` : ""}`,
+      idle: "", queued: "waiting for a free process", running: `simulating, ${Math.round(100 * run.share)} %`,
       refused: `no simulation: ${run.error}`, cancelled: run.error ? "cancelled" : "",
       stopped: run.answer ? run.answer.summary.status : "",
       done: run.answer && !stale ? `${run.answer.summary.status}; simulated in ${digits(run.took / 1000, 2)} s` : "",

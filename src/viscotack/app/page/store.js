@@ -118,7 +118,6 @@ export class Store extends EventTarget {
         if (run !== this.run) return;
         if (["queued", "running"].includes(news.state)) run.state = news.state; // done is said with the answer
         run.share = news.share;
-        run.notice = news.notice;
         for (const [, depth, force] of news.points) { run.depth.push(depth); run.force.push(force); }
         this.say("run");
       });
@@ -196,7 +195,7 @@ export class Store extends EventTarget {
 }
 
 export function idle() {
-  return { state: "idle", share: 0, notice: "", depth: [], force: [], error: "", answer: null, job: null, version: -1 };
+  return { state: "idle", share: 0, depth: [], force: [], error: "", answer: null, job: null, version: -1 };
 }
 
 // Depth and force of a result in SI, force positive in compression.

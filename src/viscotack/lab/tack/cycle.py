@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from viscotack.arrays import Array
 from viscotack.lab.sweeps import Source
-from viscotack.renamed import Renamed
 
 from .segments import Segments
 
@@ -91,8 +90,6 @@ class Cycle:
     source: Source
     temperature: float | None = None
     cautions: tuple[str, ...] = ()
-
-    pull_off_depth = Renamed("depth_at_pull_off")
 
     @property
     def retraction(self) -> slice:

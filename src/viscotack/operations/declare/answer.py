@@ -76,8 +76,7 @@ class Caller:
     ----------
     tell : callable
         Called with progress data: completed ``share``, current step ``doing``, message ``words``,
-        whether it is ``urgent``, and a ``notice`` that is always shown. An exception that it
-        raises ends the operation.
+        and whether it is ``urgent``. An exception that it raises ends the operation.
     wants : frozenset of str
         Names of the outputs that will be written.
     also : tuple of classes

@@ -47,7 +47,6 @@ def read_study(
     path: str | os.PathLike[str],
     *,
     known: Callable[[str], type[Operation]],
-    usual: str = "",
     also: tuple[Any, ...] = (),
     place: Place | None = None,
 ) -> Asked:
@@ -59,8 +58,6 @@ def read_study(
         The file.
     known : callable
         Returns the class of an operation by name.
-    usual : str
-        Default operation, for files written by earlier versions.
     also : tuple of classes
         User-defined classes.
     place : Place, optional
@@ -76,7 +73,7 @@ def read_study(
     path = Path(path)
     table = dict(read_toml(path))
     try:
-        word = table.pop(_OPERATION, usual)
+        word = table.pop(_OPERATION, "")
         if not isinstance(word, str) or not word:
             raise InputError('operation is missing; write for example operation = "predict"')
         kind = known(word)

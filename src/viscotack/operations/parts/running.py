@@ -1,15 +1,14 @@
 """Simulations with progress reports, and their data for the page."""
 
 from collections.abc import Callable, Mapping
-from time import perf_counter, process_time
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import FlatPunch, Layer
+from viscotack.geometry import FlatPunch
 from viscotack.problem import Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 from viscotack.problem.outputs import Kind
 from viscotack.result import Outcome, Result, columns
 
@@ -21,11 +20,6 @@ Tell = Callable[[Told], None]
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
 _PROFILES, _NODES = 60, 160
-# Processor time after which a run forecasts its own, and the smallest forecast to report [s].
-_LOOK, _WORTH = 0.5, 5.0
-# Processor time after which a run states why it takes long [s], and the range-corrected Tabor
-# number, the width of a punch [a0] and the number of moves that count as a reason.
-_LONG, _SHARP, _WIDE, _MANY = 30.0, 5.0, 30.0, 2
 _NO_UNITS = (1.0, 1.0, 1.0, 1.0)
 # Of the largest contact, what is drawn of the surface.
 _SEEN = 2.5
@@ -35,79 +29,15 @@ def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: An
     """Simulate a problem, telling its curve as it grows.
 
     Tells ``share`` of the work, and the new ``points`` where they are wanted: time, depth, force,
-    contact radius, in SI where the problem is. As a ``notice`` it tells once the processor time
-    that it will take, after at most 2 s, if that is more than 5 s; and after 30 s what takes long
-    and what is cheaper. Other keywords are those of :func:`viscotack.solve`.
+    contact radius, in SI where the problem is. Other keywords are those of
+    :func:`viscotack.solve`.
     """
-    told = _Told(
-        tell,
-        _units_of(problem) if points else _NO_UNITS,
-        {
-            _LOOK: lambda share: _forecast(problem, options),
-            _LONG: lambda share: slow_words(problem, share, options),
-        },
-    )
+    told = _Told(tell, _units_of(problem) if points else _NO_UNITS)
     options |= {"throw": False, "progress": told.progress}
     options |= {"watch": told.watch} if points else {}
     result = _solved(problem, options, profiles)
     told.flush()
     return result
-
-
-def slow_words(problem: Any, share: float, options: Mapping[str, Any]) -> str:
-    """Describe why a simulation takes long, and cheaper alternatives.
-
-    Parameters
-    ----------
-    problem : Problem or Groups
-        The problem.
-    share : float
-        Share of the work that is done, from 0 to 1.
-    options : mapping
-        Keywords of :func:`viscotack.solve`.
-    """
-    groups = problem.groups()
-    causes = []
-    if groups.in_plane_strain:
-        size = groups.geometry.half_width
-        if size > _WIDE:
-            causes.append(f"the punch is {size:.3g} a0 wide, which needs a fine mesh at its edges")
-    elif groups.effective_tabor > _SHARP:
-        causes.append(
-            f"the cohesive zone is small beside the contact (range-corrected Tabor number "
-            f"{groups.effective_tabor:.3g}), which needs a fine mesh and many steps"
-        )
-    if isinstance(groups.body, Layer) and not groups.in_plane_strain:
-        causes.append("the sample is a layer")
-    if len(groups.moves) > _MANY:
-        causes.append(f"the test has {len(groups.moves)} moves")
-    if options.get("accuracy", DEFAULT_ACCURACY) < DEFAULT_ACCURACY:
-        causes.append(f"the accuracy is {options['accuracy']:g}")
-    cheaper = []
-    if options.get("accuracy", DEFAULT_ACCURACY) < LOOSEST_ACCURACY:
-        cheaper.append(f"--accuracy {LOOSEST_ACCURACY:g}")
-    if options.get("until") != "pull-off":
-        cheaper.append("--until pull-off")
-    cheaper.append("`viscotack predict` or `viscotack advise`, which take no simulation")
-    why = f": {'; '.join(causes)}" if causes else ""
-    return (
-        f"{_LONG:g} s of processor time so far, {100 * share:.0f} % of the motion is "
-        f"simulated{why}. Cheaper: {', '.join(cheaper)}. --time-limit ends a simulation."
-    )
-
-
-def _forecast(problem: Any, options: Mapping[str, Any]) -> str:
-    """Return the words on the processor time of a simulation, none where it is short."""
-    from viscotack.methods.cost import processor_time
-
-    seconds = processor_time(
-        problem,
-        accuracy=options.get("accuracy", DEFAULT_ACCURACY),
-        until=options.get("until", "detached"),
-    )
-    if seconds is None or seconds < _WORTH:
-        return ""
-    return f"about {float(f'{seconds:.1g}'):g} s of processor time expected, within a factor of 3"
 
 
 def drawn_of(result: Result) -> dict[str, Any]:
@@ -137,15 +67,8 @@ def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
 class _Told:
     """Progress reports of a run, about twenty times a second."""
 
-    def __init__(
-        self,
-        tell: Tell,
-        units: tuple[float, float, float, float],
-        notices: Mapping[float, Callable[[float], str]],
-    ) -> None:
+    def __init__(self, tell: Tell, units: tuple[float, float, float, float]) -> None:
         self._tell, self._units = tell, units
-        self._notices = dict(sorted(notices.items()))
-        self._began = process_time()
         self._points: list[list[float | None]] = []
         self._share, self._last = 0.0, 0.0
 
@@ -166,10 +89,6 @@ class _Told:
         if now - self._last > _EVERY:
             self._last = now
             self.flush()
-            due = [at for at in self._notices if process_time() - self._began > at]
-            for words in [self._notices.pop(at)(self._share) for at in due]:
-                if words:
-                    self._tell({"notice": words})
 
 
 def _units_of(problem: Any) -> tuple[float, float, float, float]:

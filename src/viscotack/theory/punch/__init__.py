@@ -1,7 +1,6 @@
 """Detachment of a flat punch from a layer; one module per topic, and the main functions."""
 
 from viscotack.geometry import Bonded, Frictionless
-from viscotack.renamed import earlier_names
 
 from . import crossover, curve, design, laws, map, pad, rate, rectangle, regimes, unloading
 from .design import thickness_at_crack_speed, thickness_at_speed
@@ -24,11 +23,6 @@ from .regimes import (
     regime_thicknesses,
 )
 from .unloading import PullOff, pull_off
-
-__getattr__ = earlier_names(
-    __name__,
-    {"thin_layer_pull_off_depth": "viscotack.theory.punch.laws.thin_layer_depth_at_pull_off"},
-)
 
 __all__ = [
     "REGIMES",

@@ -30,15 +30,10 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base
-from viscotack.renamed import earlier_names
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory._roots import halved
 
 from ._kernel import curve
-
-__getattr__ = earlier_names(
-    __name__, {"pull_off_depth": "viscotack.theory.punch.crossover.depth_at_pull_off"}
-)
 
 
 def stiffness(

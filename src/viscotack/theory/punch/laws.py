@@ -14,13 +14,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
-from viscotack.renamed import earlier_names
 from viscotack.theory._checks import Number, Values, plain, positive
-
-__getattr__ = earlier_names(
-    __name__,
-    {"thin_layer_pull_off_depth": "viscotack.theory.punch.laws.thin_layer_depth_at_pull_off"},
-)
 
 # Largest Poisson ratio of the thin-layer law of a bonded layer (appendix I).
 _THIN_POISSON = 0.45
