@@ -68,6 +68,7 @@ class Simulate(Operation):
             "binary",
             flags=("--save", "-o"),
             done="saved",
+            endings=(".npz",),
         ),
     )
     takes_own: ClassVar = True

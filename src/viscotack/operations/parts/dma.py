@@ -94,10 +94,8 @@ class Dma(Part):
     def measured(self, files: tuple[Path, ...]) -> "Measured":
         """Read the files: sweeps of one material, or tests over time."""
         from viscotack.lab import read, read_creeps, read_dma, read_relaxations
-        from viscotack.lab.apart import limited
 
         said: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
         test = said.pop("test")
         readers = {"dma": read_dma, "relaxation": read_relaxations, "creep": read_creeps}
-        with limited() as call:
-            return call(readers.get(test, read), files, **said)
+        return readers.get(test, read)(files, **said)
