@@ -18,7 +18,7 @@ from .joining import numbered_on
 from .lab_file import LabFile
 from .options import Options
 from .sweeps import FrequencySweeps, Source
-from .tables import Table
+from .tables import Table, refuse_pooled
 from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
@@ -32,7 +32,7 @@ _TOLERANCE, _DAMAGED = 0.02, 0.1
 
 def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
-    parts, states, notes = [], [], list(file.notes)
+    parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
         columns = Columns(file, table, given)
         if not table.rows or not has_sweep(columns):
@@ -44,11 +44,14 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
             notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
             continue
         parts.append(part)
+        read.append(columns)
         notes += columns.notes
     if states and not parts:
         raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
         raise no_such_test(file, tables, given, "dma")
+    used = [columns.columns_in_use for columns in read]
+    refuse_pooled(file, [columns.table for columns in read], used, [c.states for c in read])
     if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
     source = source_of(file, format, notes)
@@ -94,6 +97,8 @@ def _part(columns: Columns, given: Options) -> FrequencySweeps:
         "angular_frequency": omega,
     }
     values["storage"], values["loss"] = _moduli(columns, form, omega)
+    kelvins = np.nan_to_num(np.round(values["temperature"]))
+    columns.states = list(zip(kelvins, np.round(100 * np.log(omega)), strict=True))
     if "sweep" in columns:
         values["sweep"] = columns.numbers("sweep")
     refuse_stiffer_than_diamond(columns, values["storage"])

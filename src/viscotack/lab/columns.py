@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -66,7 +66,7 @@ _FLAGS = {
     "s": "--time-unit s or min",
 }
 _IN_FILE = "written in the heading or below it"
-_SAME = 0.5  # K: largest difference of two columns of one temperature
+SAME_TEMPERATURE = 0.5  # K: largest difference of two columns of one temperature
 _LARGEST_POWER = 100.0  # of a logarithm
 _HELD = 0.05  # relative to the level of a step; instruments hold it better than this
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
@@ -100,6 +100,8 @@ class Columns:
                 continue
             self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
+        # of each row: what was measured, such as temperature and frequency; set by the reader
+        self.states: Sequence[tuple[float, ...]] = ()
         self._chosen: dict[str, tuple[int, Heading]] = {}
         used = [index for columns in self._found.values() for index, _ in columns]
         self._cells = Cells(file, table, options.decimal, used, self.notes)
@@ -387,7 +389,7 @@ class Columns:
         first, *others = sorted(places, key=lambda at: nearness_to_sample(names[at[0]]) != best)
         for other in others:
             apart = np.abs(self._kelvins(first) - self._kelvins(other))
-            if not np.any(apart > _SAME):
+            if not np.any(apart > SAME_TEMPERATURE):
                 self.notes.append(f'two equal columns; "{names[first[0]]}" is used')
             elif nearness_to_sample(names[other[0]]) == best:
                 raise self._two_columns("temperature", first, other)

@@ -7,6 +7,7 @@ second, and tensile (E) and shear (G) moduli, are never confused silently.
 import math
 import re
 import unicodedata
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -69,8 +70,8 @@ _TEMPERATURE = re.compile(
     r"temperatu(re|ra|ur|r)?|температур\w?|温度|溫度|온도|teplota|temp$|^temp"
 )
 _OF_SAMPLE = (
-    "sample", "specimen", "proben", "echantillon", "muestra", "campione", "material", "actual", "act",
-    "ist", "measured", "gemessene", "образца", "样品", "試料", "시료",
+    "sample", "specimen", "proben", "echantillon", "muestra", "campione", "material", "actual",
+    "act", "ist", "measured", "gemessene", "образца", "样品", "試料", "시료",
 )  # fmt: skip
 _OF_ROOM = (
     "set", "soll", "target", "setpoint", "consigne", "nominal", "command", "ambient", "room",
@@ -90,7 +91,7 @@ _LOGARITHM = re.compile(
     re.IGNORECASE,
 )
 # symbols that also state tension or shear
-_BY_SYMBOL: dict[str, tuple[str, str | None]] = (
+_BY_SYMBOL: Mapping[str, tuple[str, str | None]] = (
     {
         f"{letter}{mark}": (name, kind)
         for kind, letter in (("E", "e"), ("G", "g"))
