@@ -86,6 +86,14 @@ class Dma(Part):
             example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
         ),
     ] = None
+    where: Annotated[
+        str | None,
+        Text(
+            "Rows to read, by heading and content of a column.",
+            metavar="COLUMN=VALUE",
+            example="Sample=A",
+        ),
+    ] = None
     table: Annotated[
         str | None,
         Text("Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"),
