@@ -1,4 +1,4 @@
-"""Minima of the force in a retraction: smooth or not, their place, and jumps before them."""
+"""Minima of the force in a retraction: their place, and the contact there."""
 
 from types import SimpleNamespace
 
@@ -9,29 +9,6 @@ from viscotack.protocol import AtDepth, LoadTo, Retract
 from viscotack.result import Outcome, observables, opening
 
 MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)
-
-
-@pytest.mark.parametrize(
-    ("moves", "numbers", "lowest", "smooth"),
-    [
-        ([MOVED], [0] * 5, 2, True),
-        ([MOVED], [0] * 5, 0, False),
-        ([MOVED], [0] * 5, 4, False),
-        # a move ends at the minimum, and the next may have a kink
-        ([MOVED, MOVED], [0, 0, 0, 1, 1], 2, False),
-        ([MOVED, MOVED], [0, 0, 0, 1, 1], 3, True),
-        ([LOADED], [0] * 5, 2, False),
-        ([LOADED, MOVED], [0, 0, 1, 1, 1], 3, True),
-    ],
-)
-def test_a_minimum_is_smooth_within_a_move_of_the_drive(
-    moves, numbers, lowest, smooth, monkeypatch
-):
-    steps = np.arange(len(numbers))
-    monkeypatch.setattr(opening, "_valley_of", lambda result, span: (steps, lowest))
-    monkeypatch.setattr(opening, "move_numbers", lambda result: np.array(numbers))
-    monkeypatch.setattr(opening, "moves_of", lambda result: moves)
-    assert opening.is_smooth(None, None) is smooth
 
 
 @pytest.mark.parametrize(

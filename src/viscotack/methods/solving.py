@@ -187,7 +187,8 @@ def solve(
         found = sensitivities_of(
             problem, changes, chosen, run, lambda n: progress and progress((1 + 2 * n) * share)
         )
-        return replace(result, sensitivities=found).posed(groups)
+        cost = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
+        return replace(result, sensitivities=found, statistics=cost).posed(groups)
 
 
 def has_start(problem: Case) -> bool:
