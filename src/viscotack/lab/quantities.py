@@ -83,10 +83,10 @@ _OF_RIG = (
 )  # fmt: skip
 # differences, rates and constants in a unit of temperature are no temperatures of a test
 _NO_TEMPERATURE = re.compile(
-    r"δ|delta|diff|devia|abweich|std|error|uncert|toler|rate$|^rate|glass|^tg|^dt|^tt(g|0|r)|ramp|ref"
+    r"δ|delta|diff|devia|abweich|std|error|uncert|toler|rate$|^rate|glass|^tg|^dt|^tt(g|0|r)|ramp|^ref|ref(eren[cz]e?)?$"
 )
 _LOGARITHM = re.compile(
-    r"(?P<base>log_?10|log|lg|ln)\s*(?:\((?P<inside>.+?)\)|[\s_](?P<bare>.+?))"
+    r"(?P<base>log_?10|log|lg|ln)\s*(?:\((?P<inside>.+?)\)|(?:[\s_]|(?=[EGfω]))(?P<bare>.+?))"
     r"\s*(?P<unit>[\[(][^()\[\]]*[\])])?",
     re.IGNORECASE,
 )
@@ -143,7 +143,7 @@ _GEOMETRIES = {
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
 BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
-IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(\S+)")
+IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(m?Pa s|rad s\S*|\S+)")
 _WORD = re.compile(r"[^\W\d_]+")
 # qualifiers in brackets that define another quantity, not a unit
 _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
