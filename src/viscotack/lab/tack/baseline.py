@@ -218,14 +218,22 @@ class _Part:
     time: Array
 
 
+def straight(force: Array, depth: Array, noise: float) -> Array:
+    """Return the line through the outer quarter of a part, its level where there is no tilt.
+
+    A tilt is no flank of a contact.
+    """
+    outer = slice(max(force.size // _LINE, _FEW))
+    line = np.polynomial.Polynomial.fit(depth[outer], force[outer], 1)
+    if abs(float(line(depth[outer][-1]) - line(depth[0]))) > _TILTED * noise:
+        return np.asarray(line(depth))
+    return np.full(force.size, float(np.median(force[: max(force.size // 10, _FEW)])))
+
+
 def _part(force: Array, depth: Array, time: Array, noise: float, share: float) -> _Part:
     """Return the part up to a fraction of its flank, the force in units of the noise."""
     level = float(np.median(force[: max(force.size // 10, _FEW)]))
-    # a tilt is no flank: the change is that from the line through the outer quarter
-    outer = slice(max(force.size // _LINE, _FEW))
-    line = np.polynomial.Polynomial.fit(depth[outer], force[outer], 1)
-    risen = abs(float(line(depth[outer][-1]) - line(depth[0])))
-    change = np.abs(force - (line(depth) if risen > _TILTED * noise else level))
+    change = np.abs(force - straight(force, depth, noise))
     beyond = change > np.clip(60 * noise, 0.1 * change.max(), share * change.max())
     stop = min(int(np.argmax(beyond)) + _BEYOND, force.size) if beyond.any() else force.size
     # single points at the inner end, where a jump may be
