@@ -147,7 +147,7 @@ def read_dma(
     -----
     Detected damage: a missing or extra cell, a malformed number, a wrong
     count of points, tan(delta) or \|E*\| that contradict the moduli by more than
-    2 %, contradictory hertz and rad/s, impossible values. A last line without a line
+    10 %, contradictory hertz and rad/s, impossible values. A last line without a line
     end is ignored, because a truncated number looks like another number. Undetectable damage:
     a changed digit in a number that occurs once, and whole rows missing from a file
     without a count of points.
