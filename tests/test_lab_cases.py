@@ -290,6 +290,11 @@ FORMS = {
         "η' in Pa s": LOSS / OMEGA,
         "η'' in mPas": 1e3 * STORAGE / OMEGA,
     },
+    "Malvern rSpace": {
+        "Frequency(Hz)": HERTZ,
+        "Shear modulus (elastic component)(Pa)": STORAGE,
+        "Shear modulus (viscous component)(Pa)": LOSS,
+    },
     "complex viscosity": {
         "Frequency (Hz)": HERTZ,
         "Complex viscosity (Pa.s)": np.hypot(STORAGE, LOSS) / OMEGA,
