@@ -18,6 +18,7 @@ from viscotack.lab import (
     read_shifts,
     shift_factors,
 )
+from viscotack.lab.overlap import Curve, Hold, step_between
 from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 
@@ -93,6 +94,17 @@ def test_the_stated_uncertainty_is_the_scatter_of_repeated_measurements(noise, d
     # few draws of twelve correlated sums
     assert 0.6 < np.sqrt(np.mean(scores**2)) < 1.5
     assert np.all(stated[:, -1] == 0)
+
+
+def test_the_variance_of_a_shift_is_a_jackknife_over_four_blocks():
+    # a line of slope 1, and errors that are equal within each block of the overlap: without block k
+    # the shift changes by -error_k/3, so that the variance is 3/4 * 4 * (error/3)^2
+    x, error = np.linspace(0, 2, 41), 0.01
+    blocks = error * np.array([1.0, -1.0, -1.0, 1.0])
+    off = np.append(np.repeat(blocks, 10), blocks[-1])
+    step = step_between(Curve(x, (x,)), Curve(x, (x + 0.5 + off,)), Hold())
+    assert step.shift == pytest.approx(0.5, abs=0.01)
+    assert step.variance == pytest.approx(error**2 / 3, rel=0.3)
 
 
 def test_a_first_point_that_lags_behind_its_temperature_hardly_counts():

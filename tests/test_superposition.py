@@ -9,7 +9,9 @@ from numpy.testing import assert_allclose
 from melts import CHAMBER, EXPANSION, LAW, REFERENCE, creeps, melt, relaxations, vertical
 from reference_data import DMA
 from viscotack.lab import (
+    CreepTest,
     FrequencySweeps,
+    RelaxationTest,
     ShiftTable,
     allow_for_shifts,
     contradiction,
@@ -217,3 +219,21 @@ def test_tests_over_time_that_cannot_superpose_are_refused():
         superposed([tests[0], tests[0]], reference_temperature=REFERENCE)
     with pytest.raises(ValueError, match="got none"):
         superposed([], reference_temperature=REFERENCE)
+
+
+def test_a_vertical_shift_multiplies_a_modulus_and_divides_a_compliance():
+    time, factor = np.geomspace(0.1, 10, 10), 1.2
+    table = ShiftTable([293.15, 313.15], [0.0, -1.0], None, [0.0, np.log10(factor)])
+    found = []
+    for kind, power in ((RelaxationTest, 1), (CreepTest, -1)):
+        # a solid that is softer by the factor and ten times faster when it is hot
+        cold, hot = time**-0.3, (10 * time) ** -0.3 / factor
+        tests = [
+            kind(time, values**power, "G", temperature=T)
+            for T, values in ((293.15, cold), (313.15, hot))
+        ]
+        curve, _ = superposed(tests, reference_temperature=293.15, shift=table)
+        values = curve.modulus if kind is RelaxationTest else 1 / curve.compliance
+        assert_allclose(values, curve.time**-0.3, rtol=1e-12)
+        found.append(len(curve))
+    assert found == [20, 20]

@@ -404,9 +404,10 @@ class Columns:
         """Return the temperatures of a column [K]; nan where its unit is unknown."""
         index, heading = column
         unit = heading.unit or self.table.units[index] or self.options.temperature_unit or ""
-        if no_unit(unit):
+        try:
+            factor, offset = kelvin(unit)
+        except InputError:
             return np.full(len(self.table.rows), math.nan)
-        factor, offset = kelvin(unit)
         return self._cells.numbers(index) * factor + offset
 
     def _refuse_other(

@@ -6,11 +6,13 @@ Cells are separated by commas, semicolons, tabs or spaces. The two-row tables of
 
 import csv
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from viscotack.errors import InputError
 
 from .lab_file import LabFile
+from .numbers import is_number
 from .quantities import is_unit, recognise
 from .tables import (
     Row,
@@ -26,6 +28,7 @@ from .tables import (
 )
 
 _LOOKED = 200  # lines searched for the headings
+_FEWEST, _MOST_ROWS = 3, 50  # numbers in a row of a table on its side, and its rows
 _SEPARATORS = ("\t", ";", ",", None)
 _PYVISCO = {"E_stor", "E_loss", "G_stor", "G_loss", "E_relax", "G_relax", "log_aT"}
 
@@ -132,6 +135,26 @@ def first_line(
             if separator or sure or 2 * sum(known(cell) is not None for cell in row) > len(row):
                 return count, separator, row
     return None
+
+
+def upright(
+    file: LabFile, heads: Callable[[list[str]], bool], known: Callable[[str], Any]
+) -> LabFile:
+    """Return a file with columns in place of rows, if its headings stand one below the other."""
+    if file.is_workbook or first_line(file, _LOOKED, heads, known) is not None:
+        return file
+    for separator in filter(None, _SEPARATORS):
+        split = [(i, text.split(separator)) for i, text in enumerate(file.lines)]
+        rows = [(i, row) for i, row in split if sum(map(is_number, row)) >= _FEWEST]
+        if not 1 < len(rows) <= _MOST_ROWS or len({len(row) for _, row in rows}) > 1:
+            continue
+        columns = [list(column) for column in zip(*(row for _, row in rows), strict=True)]
+        if heads(columns[0]):
+            above = file.lines[: rows[0][0]]
+            lines = (*above, *(separator.join(column) for column in columns))
+            notes = (*file.notes, "rows and columns of the table exchanged")
+            return replace(file, lines=lines, notes=notes)
+    return file
 
 
 def repeats(file: LabFile, line: int) -> list[range]:

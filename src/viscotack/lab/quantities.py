@@ -22,14 +22,17 @@ _WORDS = {
     "winkelfrequenz frequenceangulaire pulsation frecuenciaangular 角频率 角周波数 각주파수 "
     "угловаячастота",
     "temperature": "temp temperature temperatur temperatura 温度 온도 температура",
-    "storage": "storage storagemodulus storagemod stormod speichermodul modulestockage "
+    "storage": "elasticmodulus modulus(elasticcomponent) "
+    "storage storagemodulus storagemod stormod speichermodul modulestockage "
     "moduledestockage moduledeconservation moduloalmacenamiento modulodealmacenamiento 储能模量 "
     "贮能模量 貯蔵弾性率 저장탄성률 저장탄성율 модульнакопления",
-    "loss": "loss lossmodulus lossmod verlustmodul moduledeperte moduleperte moduloperdida "
+    "loss": "viscousmodulus modulus(viscouscomponent) "
+    "loss lossmodulus lossmod verlustmodul moduledeperte moduleperte moduloperdida "
     "modulodeperdida 损耗模量 損失弾性率 손실탄성률 손실탄성율 модульпотерь",
     "tan_delta": "tandelta tand tanδ tan(delta) tan(δ) lossfactor verlustfaktor dampingfactor "
     "facteurdeperte factordeperdida 损耗因子 損失正接",
-    "magnitude": "complexmodulus komplexermodul |complexmodulus| dynamicmodulus 复数模量 "
+    "magnitude": "complexmodulus modulus(complexcomponent) "
+    "komplexermodul |complexmodulus| dynamicmodulus 复数模量 "
     "複素弾性率",
     "phase": "phase phaseangle phaseshift phaseshiftangle delta δ lossangle phasenwinkel "
     "verlustwinkel phasenverschiebungswinkel angledephase 相位角 位相角",
@@ -83,10 +86,10 @@ _OF_RIG = (
 )  # fmt: skip
 # differences, rates and constants in a unit of temperature are no temperatures of a test
 _NO_TEMPERATURE = re.compile(
-    r"δ|delta|diff|devia|abweich|std|error|uncert|toler|rate$|^rate|glass|^tg|^dt|^tt(g|0|r)|ramp|ref"
+    r"δ|delta|diff|devia|abweich|std|error|uncert|toler|rate$|^rate|glass|^tg|^dt|^tt(g|0|r)|ramp|^ref|ref(eren[cz]e?)?$"
 )
 _LOGARITHM = re.compile(
-    r"(?P<base>log_?10|log|lg|ln)\s*(?:\((?P<inside>.+?)\)|[\s_](?P<bare>.+?))"
+    r"(?P<base>log_?10|log|lg|ln)\s*(?:\((?P<inside>.+?)\)|(?:[\s_]|(?=[EGfω]))(?P<bare>.+?))"
     r"\s*(?P<unit>[\[(][^()\[\]]*[\])])?",
     re.IGNORECASE,
 )
@@ -143,7 +146,7 @@ _GEOMETRIES = {
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
 BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
-IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(\S+)")
+IN = re.compile(r"(.*\S)\s+(?:in|en)\s+(m?Pa s|rad s\S*|\S+)")
 _WORD = re.compile(r"[^\W\d_]+")
 # qualifiers in brackets that define another quantity, not a unit
 _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}

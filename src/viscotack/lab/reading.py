@@ -29,8 +29,9 @@ from .diagnosis import best_sheet, sheets_with, test_of
 from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, format_of, load, refuse_unknown
 from .options import Options
+from .quantities import recognise
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
-from .tables import Table, pieces, where
+from .tables import Table, heads, pieces, where
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
@@ -146,7 +147,7 @@ def read_dma(
     -----
     Detected damage: a missing or extra cell, a malformed number, a wrong
     count of points, tan(delta) or \|E*\| that contradict the moduli by more than
-    2 %, contradictory hertz and rad/s, impossible values. A last line without a line
+    10 %, contradictory hertz and rad/s, impossible values. A last line without a line
     end is ignored, because a truncated number looks like another number. Undetectable damage:
     a changed digit in a number that occurs once, and whole rows missing from a file
     without a count of points.
@@ -407,6 +408,8 @@ def _each(kind: type[step_tests.Test], opened: Sequence[_Opened]) -> tuple[step_
 def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
     refuse_unknown(given.format, FORMATS)
     file = load(path)
+    if not given.names:
+        file = plain_layout.upright(file, heads, recognise)
     found = format_of(file, FORMATS, given.format, "csv")
     layout = FORMATS[found]
     if given.names and layout in (plain_layout, workbook_layout):

@@ -172,11 +172,10 @@ def numbered(row: Sequence[str]) -> list[str]:
 
 
 def by_columns(names: Sequence[str]) -> str:
-    """Return an example of the option that chooses columns by their headings or numbers."""
-    sweep, step = (("frequency", "Hz"), ("storage", "Pa"), ("loss", "Pa")), ("time", "modulus")
-    wanted = sweep if len(names) > 2 else tuple(zip(step, ("s", "Pa"), strict=True))
-    parts = [f"{what}={name} [{unit}]" for (what, unit), name in zip(wanted, names, strict=False)]
-    return f'--columns "{"; ".join(parts)}"'
+    """Return the form of the option that chooses columns by number, with units to fill in."""
+    wanted = ("frequency", "storage", "loss") if len(names) > 2 else ("time", "modulus")
+    parts = [f"{what}={name} [UNIT]" for what, name in zip(wanted, names, strict=False)]
+    return f'--columns "{"; ".join(parts)}", with the unit of each in place of UNIT'
 
 
 def numeric(row: Sequence[str]) -> bool:

@@ -75,6 +75,9 @@ def tables(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
 
 
 def _of_sheet(file: LabFile, rows: Cells, names: Sequence[str]) -> list[Table]:
+    if len(rows) <= _LOOKED and first_headings(rows) is None:
+        on_its_side = [list(column) for column in zip(*rows, strict=True)]
+        rows = on_its_side if first_headings(on_its_side) is not None else rows
     numbered_rows = list(enumerate(rows, start=1))
     at = first_headings(rows[:_LOOKED], names)
     if at and begins_interval(rows[at - 1]):

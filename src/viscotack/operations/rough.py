@@ -136,7 +136,7 @@ class OfRough(Operation):
                 "movie": lambda target: movie_of_pull(found, target),
             },
             pictures={"plot": lambda: draw_rough(found)},
-            notes=found.warnings,
+            notes=(*problem.surface.notes, *found.warnings),
             status=1 if found.outcome is Outcome.STOPPED else 0,
         )
 
@@ -176,7 +176,7 @@ class OfRough(Operation):
             ),
             files={"csv": rows_as_csv(found.rows())},
             pictures={"plot": lambda: draw_superposition(problem, found)},
-            notes=(found.why,) if found.why else (),
+            notes=(*problem.surface.notes, *((found.why,) if found.why else ())),
         )
 
 

@@ -28,6 +28,8 @@ class HeightMap:
         Whether the map repeats in both directions; otherwise nothing lies around it.
     beyond : float or None
         Radius [m] of the paraboloid, centred in the middle of the map, in which it continues.
+    notes : tuple of str
+        Decisions and doubts of the reader of a file.
 
     Raises
     ------
@@ -47,6 +49,7 @@ class HeightMap:
     pixel: float
     periodic: bool = False
     beyond: float | None = None
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         h = np.array(self.heights, dtype=float)

@@ -5,6 +5,9 @@ from __future__ import annotations
 import io
 import math
 import os
+import re
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +16,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.files.bounded import open_regular, read_bytes
 from viscotack.files.whole import Target, write_whole
+from viscotack.units import parse, readable
 
 from .heights import MOST, HeightMap
 from .topography import read_topography
@@ -21,7 +25,14 @@ from .topography import read_topography
 _LARGEST = 420_000_000
 # Endings of text; other files than these and .npy are read by SurfaceTopography.
 _TEXT = ("", ".csv", ".txt", ".tsv", ".dat", ".asc")
-_SEPARATORS = (",", ";", "\t", None)
+_SEPARATORS = (";", "\t", ",", None)
+# lines of the header of Gwyddion in any language: width and height, then the unit of the heights
+_LENGTH = re.compile(r"#[^:]*:\s*([0-9.,eE+-]+)\s*([^\s0-9]+)\s*")
+_UNIT = re.compile(r"#[^:]*:\s*([^\s0-9]+)\s*")
+_DECIMAL_COMMAS = re.compile(r"[-+]?[0-9]+(,[0-9]+)?([eE][-+]?[0-9]+)?")
+_SQUARE = 0.01  # largest relative difference of the sides of a pixel that is taken as square
+# Beyond these [m] a unit is probably wrong: sides of a map, and rms heights, below an atom's size.
+_LARGEST_SIDE, _SMALLEST_RMS = 0.3, 1e-11
 # Header of an array [bytes].
 _HEADER = 10_000
 
@@ -40,13 +51,15 @@ def read_map(
     path : path
         A `.npy` file with an array of two dimensions; or text, one row of the map in each line,
         separated by commas, semicolons, tabs or blanks (`.csv`, `.txt`, `.tsv`, `.dat`, `.asc`);
-        lines that begin with # are skipped. With the extra ``surfaces``, also what the package
+        lines that begin with # are skipped, but for a header of Gwyddion (width, height, unit of
+        the heights). With the extra ``surfaces``, also what the package
         SurfaceTopography reads (`.gwy`, `.x3p`, `.sur`, `.nid` and other formats of instruments).
     pixel : float, optional
-        Side of a pixel [m], where the file does not state it; text and `.npy` do not.
+        Side of a pixel [m], where the file does not state it; `.npy` and text without a header do
+        not.
     unit : float, optional
-        Unit of the heights [m], for example 1e-9; of text and `.npy` by default 1 m, of other files
-        where they do not state it.
+        Unit of the heights [m], for example 1e-9, where the file does not state it; of text and
+        `.npy` by default 1 m.
     periodic : bool
         Whether the map repeats in both directions.
 
@@ -61,15 +74,78 @@ def read_map(
     path = Path(path)
     ending = path.suffix.lower()
     try:
-        if ending not in (".npy", *_TEXT):
-            path.stat()  # FileNotFoundError in our words
-            return read_topography(path, pixel=pixel, unit=unit, periodic=periodic)
-        if pixel is None:
-            raise InputError("pixel is missing: this format does not state the size of a pixel")
-        heights = _array(path) if ending == ".npy" else _table(path)
-        return HeightMap(heights * (1.0 if unit is None else unit), pixel, periodic)
+        path.stat()  # FileNotFoundError in our words
+        if ending not in (".npy", *_TEXT) or (ending in _TEXT and _is_binary(path)):
+            found = read_topography(path, pixel=pixel, unit=unit, periodic=periodic)
+            return replace(found, notes=(*found.notes, *_doubts(found)))
+        header = _Header()
+        if ending == ".npy":
+            heights = _array(path)
+        else:
+            heights, header = _table(path)
+        sides, stated = header.sides(heights.shape), header.unit
+        for name, given, own in (("pixel", pixel, sides), ("height_unit", unit, stated)):
+            if given is not None and own and not math.isclose(given, own[0], rel_tol=_SQUARE):
+                raise InputError(f"leave {name} out: the file states {readable(own[0], 'm')}")
+        if pixel is None and not sides:
+            raise InputError("pixel is missing: the file does not state the size of a pixel")
+        size = sides[0] if sides else pixel
+        assert size is not None
+        scale = stated[0] if stated else 1.0 if unit is None else unit
+        found = HeightMap(heights * scale, size, periodic)
+        return replace(found, notes=_doubts(found))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+
+
+@dataclass(frozen=True)
+class _Header:
+    """Lengths of the sides [m] along columns and rows, and unit of the heights [m], if stated."""
+
+    lengths: tuple[float, ...] = ()
+    unit: tuple[float, ...] = ()
+
+    def sides(self, shape: tuple[int, ...]) -> tuple[float, ...]:
+        """Side of a pixel [m], if the header states the size of the map."""
+        if len(self.lengths) < 2:
+            return ()
+        across, down = self.lengths[0] / shape[1], self.lengths[1] / shape[0]
+        if abs(across / down - 1) > _SQUARE:
+            raise InputError(
+                f"its pixels are {readable(across, 'm')} by {readable(down, 'm')}, and they must "
+                "be square; resample the map"
+            )
+        return (across,)
+
+
+def _header(lines: list[str]) -> _Header:
+    lengths, unit = [], ()
+    for line in lines:
+        length, own = _LENGTH.fullmatch(line), _UNIT.fullmatch(line)
+        with suppress(InputError):
+            if length:
+                lengths.append(parse(f"{length[1].replace(',', '.')} {length[2]}", "m"))
+            elif own:
+                unit = (parse(f"1 {own[1]}", "m"),)
+    return _Header(tuple(lengths), unit)
+
+
+def _is_binary(path: Path) -> bool:
+    """Whether a file is no text, such as a .dat of Zygo."""
+    with open_regular(path) as file:
+        first = file.read(_HEADER)
+    return b"\0" in first and not first.startswith((b"\xff\xfe", b"\xfe\xff"))
+
+
+def _doubts(found: HeightMap) -> tuple[str, ...]:
+    """Return a note on sides or heights that suggest a wrong unit."""
+    rms, side = float(np.std(found.heights)), max(found.size)
+    if side <= _LARGEST_SIDE and (rms >= _SMALLEST_RMS or rms == 0) and rms <= side:
+        return ()
+    return (
+        f"check: the map has sides of {readable(side, 'm')} and an rms height of "
+        f"{readable(rms, 'm')}; check the units of pixel and heights",
+    )
 
 
 def write_map(surface: HeightMap, target: Target) -> None:
@@ -102,22 +178,31 @@ def _array(path: Path) -> npt.NDArray:
         return np.load(file, allow_pickle=False).astype(float)
 
 
-def _table(path: Path) -> npt.NDArray:
-    """Return the numbers of a text file."""
+def _table(path: Path) -> tuple[npt.NDArray, _Header]:
+    """Return the numbers of a text file, and its header."""
     text = read_bytes(path, _LARGEST).decode("utf-8", errors="replace").lstrip("\ufeff")
     rows: list[npt.NDArray] = []
+    comments: list[str] = []
     separator: str | None = None
+    commas = False
     for number, line in enumerate(text.splitlines(), 1):
         line = line.strip()
+        if line.startswith("#"):
+            comments.append(line)
         if not line or line.startswith("#"):
             continue
         if not rows:
             separator = next(sep for sep in _SEPARATORS if sep is None or sep in line)
+            # "0,5 0,7" has commas within numbers, "0.5, 0.7" between them
+            blanks = line.split()
+            if separator == "," and len(blanks) > 1 and all(map(_DECIMAL_COMMAS.fullmatch, blanks)):
+                separator = None
+            commas = separator != "," and "," in line and "." not in line
         if len(rows) == MOST:
             raise InputError(f"a map has up to {MOST} rows")
         parts = line.rstrip(separator or "").split(separator)
         try:
-            row = np.array([float(part) for part in parts])
+            row = np.array([float(part.replace(",", ".") if commas else part) for part in parts])
         except ValueError as error:
             raise InputError(f"line {number}: {error}; a map has only numbers") from None
         if rows and len(row) != len(rows[0]):
@@ -127,4 +212,4 @@ def _table(path: Path) -> npt.NDArray:
         rows.append(row)
     if not rows:
         raise InputError("it has no numbers")
-    return np.array(rows)
+    return np.array(rows), _header(comments)

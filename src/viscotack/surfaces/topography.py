@@ -7,6 +7,7 @@ Bruker, Zygo, Keyence, JPK, Nanosurf, X3P and others, which state the size of a 
 
 from __future__ import annotations
 
+import math
 import zipfile
 from importlib import import_module
 from pathlib import Path
@@ -19,8 +20,8 @@ from viscotack.files.bounded import check_unpacked, open_regular
 
 from .heights import MOST, HeightMap
 
-# Largest relative difference of the sides of a square pixel.
-_SQUARE = 1e-4
+# Relative differences of the sides of a pixel: square, and noted where larger; refused.
+_EXACT, _SQUARE = 1e-6, 0.01
 
 
 def read_topography(
@@ -56,7 +57,9 @@ def read_topography(
             f"its pixels are {sides[0]:.4g} m by {sides[1]:.4g} m, and they must be square; "
             "resample the map"
         )
-    return HeightMap(heights, sides[0], periodic)
+    note = f"pixels of {sides[0]:.6g} m by {sides[1]:.6g} m are taken as square"
+    notes = (note,) if abs(sides[0] / sides[1] - 1) > _EXACT else ()
+    return HeightMap(heights, math.sqrt(sides[0] * sides[1]), periodic, notes=notes)
 
 
 def _check(channel: Any) -> None:

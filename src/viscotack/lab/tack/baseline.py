@@ -47,6 +47,7 @@ _POWERS = (0.0, 1.0, 1.5, 2.0, 3.0)  # of the flank; 0 is a jump into or out of 
 _FLANKS = ((1.5,), (2,), (1, 2), (1.5, 2, 3), (0,), (0, 1), (0, 1.5, 2), (0, 1, 2, 3))
 _SURE = 10.0  # half of the degrees of freedom of the noise of neighbouring points
 _BLOCKS = 60  # largest number of blocks of a free part
+_LINE, _TILTED = 4, 6.0  # share of a part and its rise over the noise that show a tilt
 _SINGLE = 50  # points next to contact that are not averaged
 _CANDIDATES = 28  # contact points compared at a time
 _BEYOND = 4  # points of the flank beyond its part in use
@@ -217,10 +218,22 @@ class _Part:
     time: Array
 
 
+def straight(force: Array, depth: Array, noise: float) -> Array:
+    """Return the line through the outer quarter of a part, its level where there is no tilt.
+
+    A tilt is no flank of a contact.
+    """
+    outer = slice(max(force.size // _LINE, _FEW))
+    line = np.polynomial.Polynomial.fit(depth[outer], force[outer], 1)
+    if abs(float(line(depth[outer][-1]) - line(depth[0]))) > _TILTED * noise:
+        return np.asarray(line(depth))
+    return np.full(force.size, float(np.median(force[: max(force.size // 10, _FEW)])))
+
+
 def _part(force: Array, depth: Array, time: Array, noise: float, share: float) -> _Part:
     """Return the part up to a fraction of its flank, the force in units of the noise."""
     level = float(np.median(force[: max(force.size // 10, _FEW)]))
-    change = np.abs(force - level)
+    change = np.abs(force - straight(force, depth, noise))
     beyond = change > np.clip(60 * noise, 0.1 * change.max(), share * change.max())
     stop = min(int(np.argmax(beyond)) + _BEYOND, force.size) if beyond.any() else force.size
     # single points at the inner end, where a jump may be

@@ -13,7 +13,16 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.units import readable
 
-from .baseline import Baseline, Contact, baseline, contact_of, point_noise, rounding, without_spikes
+from .baseline import (
+    Baseline,
+    Contact,
+    baseline,
+    contact_of,
+    point_noise,
+    rounding,
+    straight,
+    without_spikes,
+)
 from .cycle import Cycle, Measured
 from .extremum import Extremum, extremum
 from .record import TackRecord
@@ -328,8 +337,10 @@ def _zero(
     """Return the baseline of the force, and the first contact, if any, and the last one."""
     clock = (time - time[0]) / max(float(np.ptp(time)), 1e-300)
     back, down = slice(own.retract, own.end), slice(own.dwell)
-    outwards = contact_of(clean[back][::-1], way[back][::-1], clock[back][::-1], noise, 0.3)
-    most = own.end - own.retract - int(np.argmin(clean[back])) - 1
+    outer, far = clean[back][::-1], way[back][::-1]
+    outwards = contact_of(outer, far, clock[back][::-1], noise, 0.3)
+    least = int(np.argmin((outer - straight(outer, far, noise))[::-1]))
+    most = own.end - own.retract - least - 1
     if outwards is None or min(outwards.free, most) < _FREE:
         raise InputError(
             "the force does not settle after the pull-off, so no end is certainly free of "
@@ -339,12 +350,12 @@ def _zero(
     free = [slice(own.end - int(_KEPT * min(outwards.free, most)), own.end)]
     if inwards is not None:
         free.insert(0, slice(int(_KEPT * inwards.free)))
-    outer = [slice((free[-1].start + own.end) // 2, own.end)]
+    halves = [slice((free[-1].start + own.end) // 2, own.end)]
     if inwards is not None:
-        outer.insert(0, slice(free[0].stop // 2))
-    law, far = (baseline(clean, way, time, parts, noise) for parts in (free, outer))
-    lowest = own.retract + int(np.argmin(clean[back]))
-    law = law.doubted(far, float(way[lowest]), float(time[lowest]))
+        halves.insert(0, slice(free[0].stop // 2))
+    law, outermost = (baseline(clean, way, time, parts, noise) for parts in (free, halves))
+    lowest = own.retract + least
+    law = law.doubted(outermost, float(way[lowest]), float(time[lowest]))
     # a signal without noise still has whole digits
     return replace(law, noise=max(law.noise, rounding(clean))), inwards, outwards
 

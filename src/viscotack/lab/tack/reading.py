@@ -18,6 +18,7 @@ from viscotack.errors import InputError
 from viscotack.lab import tables
 from viscotack.lab.joining import kelvin_in_name
 from viscotack.lab.lab_file import LabFile, format_of, load, refuse_unknown
+from viscotack.lab.plain_layout import upright
 
 from . import (
     afm_layout,
@@ -28,8 +29,8 @@ from . import (
     nid_layout,
     text_layout,
 )
-from .grid import Given, record
-from .headings import factor
+from .grid import Given, heads_columns, record
+from .headings import factor, recognise
 from .record import TackRecord
 
 AnyPath = str | PathLike[str]
@@ -253,5 +254,7 @@ def _records_of(file: LabFile, format: str | None, given: Given, few: bool) -> l
         if not file.lines and not file.is_workbook:
             raise file.error("the file is neither text nor an Excel workbook; export it as text")
         file = replace(file, notes=(*file.notes, *file.left_out))
+        if not given.names:
+            file = upright(file, heads_columns, recognise)
         read = tables.where(file, layout.grids(file, given.names), given.where)
         return [record(file, table, given, found, few) for table in read]

@@ -53,8 +53,8 @@ def _no_headings(file: LabFile) -> InputError:
     if numbers is not None and len(numbers[2]) > 1:
         choose = (
             f"; {len(numbers[2])} columns of numbers begin at line {numbers[0]}, for example: "
-            f"viscotack test read {shlex.quote(file.path)} --time-column 1 --time-unit s "
-            "--position-column 2 --length-unit um --force-column 3 --force-unit mN"
+            f"viscotack test read {shlex.quote(file.path)} --time-column 1 --time-unit UNIT "
+            "--position-column 2 --length-unit UNIT --force-column 3 --force-unit UNIT"
         )
     return file.error(
         f"none of the first {_LOOKED} lines has the columns of a tack test, such as "
