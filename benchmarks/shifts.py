@@ -118,7 +118,7 @@ def polyisoprene(folder, others, full):
     for name, mass in MELTS.items():
         sweeps, header = melt(folder, name), constants(folder, mass)
         ways = {
-            "most": {},
+            "most": {"vertical": "auto"},
             "density": {"by": "both", "vertical": 1e-3 * header["C3"] / header["Rho0"]},
             "storage": {"by": "storage", "vertical": "none"},
         }
