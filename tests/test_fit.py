@@ -22,6 +22,7 @@ from viscotack.lab import (
 from viscotack.lab.fit_passport import issued
 from viscotack.lab.fit_power_law import fit_constants
 from viscotack.lab.fit_prony import fit_series
+from viscotack.lab.fitting import Tried, _alike
 from viscotack.lab.observed import observed
 from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
@@ -117,6 +118,52 @@ def test_best_finds_the_law_that_made_the_numbers():
         report = fit(curve(material=solid, omega=omega), poisson_ratio=0.5, draws=5)
         assert report.model == model
         assert dict(report.compared)[model] == min(v for _, v in report.compared)
+
+
+@pytest.mark.parametrize("apart, chosen", [(1.9, "fractional-zener"), (2.1, "prony")])
+def test_of_models_within_2_of_the_best_criterion_the_simplest_is_chosen(apart, chosen):
+    solid = FractionalZener(
+        rubbery_modulus=1e6, glassy_modulus=1e9, order=0.5, tau0=1e-3, poisson_ratio=0.5
+    )
+    tried = [
+        Tried("fractional-zener", solid, 10.0 + apart, 4),
+        Tried("prony", solid, 10.0, 14),
+        Tried("sls", solid, 12.2, 3),
+    ]
+    alike = _alike(tried)
+    assert alike[0].model == chosen
+    assert len(alike) == (2 if apart < 2 else 1)
+
+
+def test_a_series_that_follows_the_noise_gives_way_to_the_law_that_made_the_numbers():
+    solid = RelaxationPowerLaw(
+        rubbery_modulus=1e6, glassy_modulus=1e8, exponent=0.5, tau0=1e-3, poisson_ratio=0.5
+    )
+    omega = np.geomspace(1e-2, 1e6, 40)
+    modulus = solid.complex_modulus(omega)
+    noise = np.exp(0.02 * np.random.default_rng([1, 40, 114, 112, 108]).standard_normal((2, 40)))
+    master = MasterCurve(293.15, omega, modulus.real * noise[0], modulus.imag * noise[1], "E")
+    report = fit(master, poisson_ratio=0.5, draws=5)
+    criterion = dict(report.compared)
+    assert 0 < criterion["relaxation-power-law"] - criterion["prony"] < 2
+    assert report.model == "relaxation-power-law" and report.constants == 4
+    # both are named, with what they differ by, in the report and the passport
+    (said,) = (x for x in report.undetermined if "prony" in x)
+    assert said in issued(report, name="x").evidence.undetermined
+    assert "relaxation-power-law or prony" in report.words().splitlines()[0]
+
+
+def test_the_plateau_of_a_series_with_single_arms_is_held_by_its_interval():
+    solid = Prony(rubbery_modulus=1e6, branches=[(3e6, 1e-3), (1e6, 0.3)], poisson_ratio=0.5)
+    omega, held = np.geomspace(1e-2, 1e6, 40), 0
+    for seed in range(1, 5):
+        report = fit(
+            curve(seed, material=solid, omega=omega), poisson_ratio=0.5, model="prony", draws=5
+        )
+        ends = report.interval("glassy_modulus")
+        held += ends.low < 5e6 < ends.high
+        assert ends.low < ends.value < ends.high < 1.02 * ends.low
+    assert held >= 3
 
 
 def test_shear_moduli_become_tensile_ones():

@@ -14,6 +14,7 @@ from viscotack.errors import InputError
 from viscotack.identify import Objective, Parameter, SlowTest, identify_slow, slow_test
 from viscotack.lab import tack
 from viscotack.materials.library import passport_of
+from viscotack.operations.parts.records import slow_record
 from viscotack.theory import jkr, maugis
 
 LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}
@@ -155,6 +156,30 @@ def test_an_elastic_fit_of_a_viscoelastic_test_reads_the_tabor_number_wrong():
     assert maugis_fit.tabor < 3
     assert maugis_fit.work_of_adhesion > 1.3 * study.WORK_OF_ADHESION
     assert any("If the test was not slow" in word for word in fast.words)
+
+
+SMALL = {"radius": 5e-3, "contact_modulus": 2e6, "work_of_adhesion": 60.3e-3}
+
+
+@pytest.mark.parametrize("noise, undetermined", [(0.02, True), (0.0125, True), (0.012, False)])
+def test_works_of_models_that_the_data_do_not_distinguish_are_all_given(noise, undetermined):
+    end = jkr.pull_off(**SMALL)
+    a = np.linspace(end.contact_radius, 2 * end.contact_radius, 40)
+    sigma = noise * abs(end.force)
+    force = jkr.force(a, **SMALL) + sigma * np.random.default_rng(3).standard_normal(40)
+    test = SlowTest(force, jkr.depth(a, **SMALL) + 1e-6, "depth", SMALL["radius"], sigma)
+    fit = identify_slow(test, models=["jkr", "dmt"])
+    apart = fit.fits[1].criterion - fit.fits[0].criterion
+    assert fit.undetermined == undetermined == (apart < 6)
+    record = slow_record(fit)
+    assert (record["work_of_adhesion_J_m2"] is None) == undetermined
+    assert len(record["alike"]) == 1 + undetermined
+    for one in fit.alike:
+        # of a JKR contact DMT reads a quarter less
+        true = {"jkr": 60.3e-3, "dmt": 44.5e-3}[one.model]
+        assert one.work_of_adhesion == pytest.approx(true, rel=0.02)
+        assert f"by {one.model.upper()}" in fit.words[0]
+    assert fit.work_of_adhesion.low < 60.3e-3 < fit.work_of_adhesion.high
 
 
 def test_a_profile_of_a_parabola_is_its_width():

@@ -165,7 +165,7 @@ def test_flags_choose_how_sweeps_are_shifted(lab, capsys):
     assert "0.00065 1/K" in answer["origin"]["notes"][-1]
     for flags, words in (
         ('--leave-out "7 degC"', "no test within 1 K of it; there are some at -40 C, -30 C"),
-        ("--vertical most", "must be auto, none, free or the coefficient"),
+        ("--vertical most", "--vertical must be"),
         ('--wlf "10,90 K" --vertical none', "for shifts found from overlap"),
     ):
         assert words in " ".join(refused(line + flags, capsys).split())

@@ -21,6 +21,8 @@ from viscotack.materials.conversion import slowed
 
 from .forward import Forward, Growth
 
+# Part of the variance between speeds that is a power of the speed, where there is a trend.
+TREND = 0.8
 _RADII = 40  # points of a curve; sufficient for differences between solids
 # Errors of the theory at speeds a factor of e apart correlate by exp(-1/2.3).
 _TOGETHER = log(10.0)
@@ -99,6 +101,19 @@ def theory_covariance(speed: Array, theory: float | Array) -> Array:
     apart = np.abs(np.subtract.outer(np.log(speed), np.log(speed)))
     error = np.broadcast_to(theory, speed.shape)
     return np.multiply.outer(error, error) * np.exp(-apart / _TOGETHER)
+
+
+def trend_covariance(speed: Array, measured: Array, between: float) -> Array:
+    """Return the covariance of a relative error that follows a power of the speed.
+
+    It is the part TREND of a variance between speeds, in the mean over the measured ones. Beyond
+    them it grows, and the power may change by twice itself.
+    """
+    logs, wanted = np.log(measured), np.log(speed)
+    at = between * (wanted - logs.mean()) / logs.std()
+    beyond = np.abs(wanted - np.clip(wanted, logs.min(), logs.max()))
+    change = 2 * between * beyond / logs.std()
+    return TREND * np.outer(at, at) + np.diag(change**2)
 
 
 @dataclass(frozen=True, eq=False)

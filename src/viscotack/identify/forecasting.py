@@ -8,11 +8,13 @@ material in ln of the measured forces (m) and predicted forces (f) have the cova
 where N is the noise of the measured forces. Given their residuals r, the prediction is normal with
 mean :math:`C_{fm} (C_{mm} + N)^{-1} r` and covariance
 :math:`C_{ff} - C_{fm} (C_{mm} + N)^{-1} C_{mf}`. Near measured speeds it follows the data, far from
-them the model.
+them the model. Where the forces depart from the model by a power of the speed, the forecast
+continues it; where the fit does not describe the tests, the band is widened to hold them.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from statistics import NormalDist
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +29,13 @@ from viscotack.materials.passport_uncertainty import allowed
 from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import ModelError, covariance, log_forces, temperature_effect
+from .covariances import (
+    ModelError,
+    covariance,
+    log_forces,
+    temperature_effect,
+    trend_covariance,
+)
 from .forward import Forward, law_of
 from .pull_off import SAME, History
 from .rate_series import RateSeriesFit
@@ -170,6 +178,11 @@ def forecast_rates(
     floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
     sample = np.where(surely, np.maximum(sample, floor), sample)
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
+    if fit.misfit:
+        # no band excludes the tests that the model does not describe
+        model = middle.force * np.median(np.atleast_2d(found.ratio), axis=0)
+        least, most = model * _departure(fit, v, part)
+        low, high = np.minimum(low, least), np.maximum(high, most)
     raised = slower > median
     median, high = np.maximum(median, slower), np.maximum(high, slower)
     one = _of_one(fit, sample, rng, part)
@@ -193,6 +206,18 @@ def forecast_rates(
             ]
         ),
     )
+
+
+def _departure(fit: RateSeriesFit, speed: Array, part: float) -> Array:
+    """Return limits of measured over fitted force, interpolated by speed, shape (2, n)."""
+    order = np.argsort([one.speed for one in fit.series])
+    at, force, noise = np.array(
+        [(one.speed, one.force.value, one.force.uncertainty) for one in fit.series]
+    )[order].T
+    off = np.log(force / np.array(fit.forces)[order])
+    reach = NormalDist().inv_cdf(1 - part) * noise / force
+    wanted, at = np.log(speed), np.log(at)
+    return np.exp([np.interp(wanted, at, off + sign * reach) for sign in (-1, 1)])
 
 
 def _of_one(
@@ -384,7 +409,8 @@ def _together(
 ) -> Array:
     """Return the joint covariance of model, material and machine over all tests.
 
-    The first are those of the series; the machine counts at the others if it is `springy` there.
+    Where the forces depart from the model by a power of the speed, that is in it too. The first are
+    those of the series; the machine counts at the others if it is `springy` there.
     """
     speed = np.concatenate([x.speed for x in tests])
     m = tests[0].speed.size
@@ -403,6 +429,8 @@ def _together(
     warmer[:m] *= fit.uncertain.shifts(fit.series)
     softer = _softer(fit, speed[:m], speed[m:], springy)
     spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
+    if fit.trend:
+        spread = spread + trend_covariance(speed, speed[:m], fit.between_speeds)
     solids = allowed(fit.passport)
     if not solids:
         return spread

@@ -44,6 +44,7 @@ from .search import (
     LEAST_TABOR,
     Data,
     Search,
+    Settled,
     closely,
     plain_table,
     pulled_with_growth,
@@ -62,6 +63,7 @@ from .tiers import Conditions, answered
 _THEORY, _GROWING_THEORY, _LAYER_THEORY = 0.02, 0.03, 0.03
 _LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _MOST = 40  # largest number of speeds
+_NAMED = 4  # number of tests that a misfit names
 # Standard uncertainties where none is stated: temperature of tests [K], relative compliance.
 _TEMPERATURE, _COMPLIANCE = 2.0, 0.1
 _WARMEST = 50.0  # K: largest uncertainty of a temperature; 2 degC would be read as 275 K
@@ -142,6 +144,11 @@ class RateSeriesFit:
     between_speeds : float
         Relative scatter of the forces from speed to speed beyond that of repeated tests and of the
         theory, in the covariance; 0 if the residuals need none.
+    trend : bool
+        Whether most of the variance of that scatter is an error that follows a power of the speed.
+    misfit : str
+        Sentence on tests that the fit does not describe, the first of the words; empty if it
+        describes them.
     solutions : tuple of Best
         Separate interfaces that fit the forces, the most likely first; mostly one.
     words : tuple of str
@@ -181,6 +188,8 @@ class RateSeriesFit:
     scatter: float
     between_tests: float
     between_speeds: float
+    trend: bool
+    misfit: str
     solutions: tuple[Best, ...]
     words: tuple[str, ...]
     series: tuple[PullOff, ...]
@@ -337,9 +346,12 @@ def identify_rates(
     found = _growth(forward, search, replace(search, table=plain, opening=None), best)
     doubted = bool(allowed(passport))
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    forces = search.table(best.values) * search.yielding(best.values)
+    misfit = _misfit(fit, forces, growth, thin)
     words = [
-        *_words(best, intervals, fit.scatter, level, doubted, found),
-        *_between_words(fit.between),
+        *([misfit] if misfit else []),
+        *_words(best, intervals, level, doubted, found),
+        *_between_words(fit.between, fit.trend),
         *solution_words(several, forward, search.opening, data.speed, data.load, theory),
         *_layer_words(forward, search, best),
         *near.words,
@@ -354,10 +366,12 @@ def identify_rates(
         equilibrium_gap=gap,
         tabor=forward.problem(w, gap, float(data.load[0])).groups().tabor,
         intervals=intervals,
-        forces=tuple((search.table(best.values) * search.yielding(best.values)).tolist()),
+        forces=tuple(forces.tolist()),
         scatter=fit.scatter,
         between_tests=scatter,
         between_speeds=fit.between,
+        trend=fit.trend,
+        misfit=misfit,
         solutions=several,
         words=tuple(words),
         series=tuple(data.series),
@@ -706,7 +720,6 @@ _LABELS = {
 def _words(
     best: Best,
     intervals: dict[str, Interval],
-    scatter: float,
     level: float,
     doubted: bool,
     growth: FoundGrowth | None,
@@ -719,23 +732,43 @@ def _words(
         said += _of_one(label, unit, best.values[name], ends, level)
     if growth is not None:
         said += growth.words()
-    if scatter > _LOUD:
-        cause = "the interface may grow with speed, or the material may be wrong"
-        if growth is not None:
-            cause = "the material may be wrong, or nonlinear"
-        kind = "an elastic interface" if growth is None else "a growing interface"
-        said.append(
-            f"residuals are {scatter:.2g} times their uncertainty: no work of adhesion and range "
-            f"of a linear solid with {kind} fit these forces; {cause}"
-        )
     if not doubted:
         said.append("the material is assumed exact, because its uncertainty is unknown")
     return said
 
 
-def _between_words(between: float) -> list[str]:
+def _misfit(fit: Settled, forces: Array, growth: bool, thin: bool) -> str:
+    """Return a sentence on tests that the fit does not describe; empty if it describes them."""
+    if fit.scatter <= _LOUD:
+        return ""
+    data = fit.search.data
+    off = data.force / forces - 1
+    worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
+    tests = ", ".join(f"{_speed(float(data.speed[i]))} {off[i]:+.0%}" for i in worst)
+    if growth:
+        cure = "even an interface that grows; the material may be wrong, or nonlinear"
+    elif thin:
+        cure = "; the material or the thickness may be wrong"
+    else:
+        cure = "; --growth fits an interface that grows with speed, or the material may be wrong"
+    if not fit.trend:
+        cure += ", or tests at one speed scatter by as much, which --scatter states"
+    return (
+        f"the fit does not describe these tests: measured over fitted forces are off by {tests}, "
+        f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory. No work of "
+        f"adhesion and range of a linear solid explain them{cure}"
+    )
+
+
+def _between_words(between: float, trend: bool) -> list[str]:
     if not between:
         return []
+    if trend:
+        return [
+            f"forces depart from the model by {between:.1%} beyond repeated tests and theory, with "
+            "a power of the speed; intervals and bands include such a trend, which a forecast "
+            "continues beyond the measured speeds"
+        ]
     return [
         f"forces scatter by {between:.1%} from speed to speed beyond repeated tests and theory; "
         "the intervals include this"

@@ -16,7 +16,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import LEAST_TABOR
 
-from .covariances import ModelError
+from .covariances import TREND, ModelError, trend_covariance
 from .forward import Forward
 from .growth import Opening, growing, growth_parameters
 from .interpolated_forces import Table
@@ -32,6 +32,8 @@ _COARSE, _COARSE_RADII, _COARSE_SPEEDS = (0.57, 0.57, 0.5, 0.2), 40, 6
 # The same for the fine table, with all pull-offs.
 _FINE, _FINE_RADII = (0.29, 0.46, 0.4, 0.15), 80
 _BETWEEN, _CLOSE = (1e-3, 1.0), 0.05  # searched scatters between speeds, relative accuracy
+# Smallest number of speeds that show a trend, and -2 ln(likelihood) by which it must be better.
+_TREND_SPEEDS, _PREFERRED = 3, 2.0
 _FEWEST = 5  # smallest number of values of an unknown
 # Refinement of the coarse table for the search, and misfits above the minimum that are kept
 # at first, and where an interval needs more.
@@ -103,9 +105,16 @@ class Search:
         at = slice(None) if self.some is None else np.ix_(self.some, self.some)
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])), dtype=np.float64)
 
-    def scattered(self, between: float) -> "Search":
-        """Return this search with a relative scatter between speeds added to its covariance."""
-        return replace(self, spread=self.spread + between**2 * np.eye(len(self.spread)))
+    def scattered(self, between: float, trend: bool) -> "Search":
+        """Return this search with a relative scatter between speeds added to its covariance.
+
+        With a trend, most of its variance is an error that follows a power of the speed.
+        """
+        speed = self.data.speed
+        more = between**2 * np.eye(speed.size)
+        if trend:
+            more = (1 - TREND) * more + trend_covariance(speed, speed, between)
+        return replace(self, spread=self.spread + more)
 
     def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
         """Return relative residuals of the forces, corrected for the machine's stiffness."""
@@ -254,38 +263,60 @@ class Settled(NamedTuple):
         Root mean square of the residuals over their uncertainty, without that scatter.
     between : float
         Relative scatter between speeds.
+    trend : bool
+        Whether most of its variance is an error that follows a power of the speed.
     """
 
     search: Search
     best: Best
     scatter: float
     between: float
+    trend: bool
 
 
 def settled(search: Search) -> Settled:
     """Add the scatter between speeds with which residuals are as large as expected.
 
     This is the estimate of Paule and Mandel (1982), doi:10.6028/jres.087.022: at the best fit for
-    that scatter, the sum of squares of the residuals equals the degrees of freedom.
+    that scatter, the sum of squares of the residuals equals the degrees of freedom. Forces may
+    also depart from the model systematically, so a scatter with a trend is used where the data
+    clearly prefer it.
     """
     best = search.best()
     rest = search.objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
+    plain = _widened(search, best, scatter, trend=False)
+    if not plain.between or np.unique(search.data.speed).size < _TREND_SPEEDS:
+        return plain
+    trend = _widened(search, best, scatter, trend=True)
+    return trend if _surprise(trend) + _PREFERRED < _surprise(plain) else plain
+
+
+def _widened(search: Search, best: Best, scatter: float, *, trend: bool) -> Settled:
+    """Return a search with the scatter that its residuals need, with or without a trend."""
     count = search.data.speed.size
     freedom = count + (search.data.prior is not None) - len(best.values)
+    if not search.data.curves:
+        # forces alone at two speeds leave none, but a range at its bound may not fit them
+        freedom = max(freedom, 1)
 
     def excess(log_scatter: float) -> float:
-        wider = search.scattered(float(np.exp(log_scatter))).objective
+        wider = search.scattered(float(np.exp(log_scatter)), trend).objective
         forces = wider.residuals(wider.best(near=best).values)[:count]
         return float(forces @ forces) - freedom
 
     low, high = (float(np.log(x)) for x in _BETWEEN)
     if freedom <= 0 or excess(low) <= 0:
-        return Settled(search, best, scatter, 0.0)
+        return Settled(search, best, scatter, 0.0, False)
     root = high if excess(high) >= 0 else root_scalar(excess, bracket=(low, high), xtol=_CLOSE).root
     between = float(np.exp(root))
-    wider = search.scattered(between)
-    return Settled(wider, wider.best(), scatter, between)
+    wider = search.scattered(between, trend)
+    return Settled(wider, wider.best(), scatter, between, trend)
+
+
+def _surprise(found: Settled) -> float:
+    """Return -2 ln(likelihood) of a search at its best fit, up to a constant."""
+    return found.best.misfit + float(np.linalg.slogdet(found.search.spread)[1])
 
 
 def closely(forward: Forward, coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]:

@@ -4,7 +4,8 @@ In a slow test the solid is relaxed everywhere, including the edge of the contac
 All models are fitted to the same points. The Bayesian information criterion
 :math:`\chi^2 + k \ln n`, with the scatter of the best model, measures the evidence (twice the
 logarithm of a Bayes factor for wide priors). Intervals are profile likelihoods; that of the work
-of adhesion covers all models that the criterion does not distinguish.
+of adhesion covers all models that the criterion does not distinguish. Where these disagree on the
+work, it is undetermined, and the answer gives the work by each of them.
 
 A test that is not slow contains losses at the edge, so that the work it gives is an upper bound.
 Three signs show it: residuals above the noise, a modulus that contradicts the known one, and, with
@@ -43,6 +44,7 @@ _LOUD = 2.0  # residuals over the noise above which no elastic law holds
 _APART = 3.0  # deviations of the fitted from the given modulus above which they contradict
 _SLOW = 1.05  # force over the slow force up to which a test is slow
 _SHORT = 5.0  # Tabor number of the comparison where the data determine none
+_SAME = 0.02  # relative difference up to which the works of two models are one answer
 _LAMBDA = (0.02, 60.0)  # searched Maugis parameters
 _TRANSITION = (1e-3, 0.979)
 
@@ -187,6 +189,8 @@ class SlowTestFit:
         Fitted test.
     fits : tuple of ModelFit
         Fits, best first.
+    alike : tuple of ModelFit
+        Those that the data do not distinguish from the best, which is first.
     level : float
         Confidence level of the intervals.
     evidence : str
@@ -202,6 +206,7 @@ class SlowTestFit:
 
     test: SlowTest
     fits: tuple[ModelFit, ...]
+    alike: tuple[ModelFit, ...]
     level: float
     evidence: str
     work_of_adhesion: Interval
@@ -212,6 +217,11 @@ class SlowTestFit:
     def best(self) -> ModelFit:
         """The model with the best criterion."""
         return self.fits[0]
+
+    @property
+    def undetermined(self) -> bool:
+        """Whether models that the data do not distinguish give different works of adhesion."""
+        return _differ(self.alike)
 
 
 def identify_slow(
@@ -300,6 +310,7 @@ def identify_slow(
     return SlowTestFit(
         test,
         tuple(fits),
+        tuple(alike),
         level,
         "Bayesian information criterion, chi2 + k ln n, with the scatter of the best model",
         work,
@@ -395,6 +406,11 @@ def _of_material(
         f"the material gives {ratio:.3g} times the slow force {said}, a slow test at most "
         f"{_SLOW:g}: the test was not slow. Use a slower test, or `viscotack identify rates`"
     ], []
+
+
+def _differ(alike: Sequence[ModelFit]) -> bool:
+    works = [fit.work_of_adhesion for fit in alike]
+    return max(works) > (1 + _SAME) * min(works)
 
 
 def _work(alike: list[ModelFit], test: SlowTest, bounded: bool) -> Interval:
@@ -552,13 +568,24 @@ def _words(
             "upper bound: an elastic fit does not determine it from this test",
             *reasons,
         ]
-    else:
-        ends = readable_interval(work.low, work.high, "J/m2")
-        said = [
-            f"work of adhesion {readable(alike[0].work_of_adhesion, 'J/m2')} ({ends}, "
-            f"{level:.0%}) by {' and '.join(names)}"
+    elif _differ(alike):
+        by_each = [
+            f"{_with_interval(fit.work_of_adhesion, fit.intervals['work_of_adhesion'], level)} by "
+            f"{fit.model.upper()}"
+            for fit in alike
         ]
-    if len(names) > 1:
+        apart = alike[1].criterion - alike[0].criterion
+        said = [
+            f"the work of adhesion is undetermined between models: {' or '.join(by_each)} "
+            f"(criteria {apart:.1f} apart, {_DIFFERENT:g} would be evidence); contact radii from a "
+            "camera, or E0* with its uncertainty, distinguish them"
+        ]
+    else:
+        said = [
+            f"work of adhesion {_with_interval(alike[0].work_of_adhesion, work, level)} by "
+            f"{' and '.join(names)}"
+        ]
+    if len(names) > 1 and (reasons or not _differ(alike)):
         said.append(
             f"the data do not distinguish {names[0]} from {' and '.join(names[1:])} "
             f"(criteria within {_DIFFERENT:g})"
@@ -571,6 +598,11 @@ def _words(
             "the zero of depth was also fitted; without a camera the range is poorly determined"
         )
     return said
+
+
+def _with_interval(value: float, ends: Interval, level: float) -> str:
+    both = readable_interval(ends.low, ends.high, "J/m2")
+    return f"{readable(value, 'J/m2')} ({both}, {level:.0%})"
 
 
 def _of_range(fit: ModelFit, alike: list[str], level: float) -> str:

@@ -90,7 +90,8 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
         scatter=spread,
         constants=constants,
         grid=chosen.size,
-        criterion=information_criterion(residuals, constants),
+        # a number of grid times that the data choose counts as one constant
+        criterion=information_criterion(residuals, constants + (arms is None)),
         compared=tuple(compared),
         draws=sample,
     )
@@ -231,7 +232,6 @@ def _criterion(data: Observed, times: Array, weights: Array) -> float:
         return float("inf")
     logs = np.log(np.maximum(_basis(data, times) @ weights, 1e-300))
     residuals = data.weighed((data.logs - logs).reshape(data.values.shape))
-    # the number of grid times counts as one constant
     return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
 
 
@@ -272,7 +272,9 @@ def _plateaus(
     seed: int,
 ) -> tuple[Interval, ...]:
     """Return the intervals of the plateaus; one-sided where a plateau was not measured."""
-    basis = _basis(data, _dense(data))
+    # with the fitted times, because a dense grid has not that of a single arm, and tails of loss
+    # tell the difference
+    basis = _basis(data, np.union1d(_dense(data), times))
     logs = np.log(_basis(data, times) @ weights)
     noise = np.repeat(data.noise, data.at.size)
     # linearise the logarithm about the fit

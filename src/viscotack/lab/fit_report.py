@@ -12,6 +12,8 @@ from viscotack.materials import Material
 
 from .observed import Observed
 
+# Difference of the criterion within which the data do not distinguish two models.
+ALIKE = 2.0
 _UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "modulus": "Pa", "tau0": "s"}
 
 
@@ -222,17 +224,20 @@ class FitReport:
 
     def words(self) -> str:
         """Format the report as lines of text."""
-        low, high = self.observed.frequencies
+        each = dict(self.compared)
+        least = min(each.values(), default=0.0)
+        alike = [x for x in each if self.model in each and each[x] <= least + ALIKE]
+        model = " or ".join([self.model, *(x for x in alike if x != self.model)])
+        model += ", undetermined" * (len(alike) > 1)
         lines = [
-            f"{self.model}: {self.constants} constants on {self.observed.values.size} numbers, "
+            f"{model}: {self.constants} constants on {self.observed.values.size} numbers, "
             f"{_range(self.observed)}",
             f"  {100 * self.level:.0f} % intervals:",
             *(f"  {interval.words()}" for interval in self.intervals),
             f"  scatter {self._scatters()}, median error {100 * self.median_error:.2g} %",
         ]
         if len(self.compared) > 1:
-            best = min(value for _, value in self.compared)
-            tried = ", ".join(f"{name} {value - best:+.1f}" for name, value in self.compared)
+            tried = ", ".join(f"{name} {value - least:+.1f}" for name, value in each.items())
             lines.append(f"  criterion (AICc, above the best): {tried}")
         lines += [f"  Not determined: {sentence}" for sentence in self.undetermined]
         lines += [f"  Note: {sentence}" for sentence in self.cautions]

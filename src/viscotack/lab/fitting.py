@@ -3,16 +3,19 @@
 :func:`fit` fits every model and returns a report of the quality of the fit.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from viscotack.errors import InputError
 from viscotack.materials.words import FITS_ONLY
 from viscotack.threads import one_blas_thread
+from viscotack.units import readable
 
 from .fit_limits import few_arms_caution, misfit_cautions, series_cautions, undetermined
 from .fit_power_law import fit_constants, fitted_constants
 from .fit_prony import fit_series, with_noise
-from .fit_report import FitReport, information_criterion
+from .fit_report import ALIKE, FitReport, information_criterion
 from .fit_search import KINDS
 from .observed import Data, Observed, observed, only
 from .thinned import thinned
@@ -51,7 +54,8 @@ def fit(
         "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls",
         "fractional-zener", "prony"; "fractional-maxwell" or "fractional-kelvin-voigt", which have
         no plateau, so contacts cannot be simulated on them; or "best": all except these two are
-        fitted, and the corrected Akaike criterion chooses.
+        fitted, and of those within 2 of the smallest corrected Akaike criterion the one with the
+        fewest constants is chosen.
     arms : int, optional
         Number of relaxation times of a Prony series, on a logarithmic grid; up to 12 times are
         optimised. By default the criterion chooses. Arms of zero modulus are dropped. A caution
@@ -120,9 +124,45 @@ def fit(
         seen = with_noise(thinned(seen))
         if model != "best":
             return _fitted(seen, model, draws=draws, **options)
-        tried = [(each, _tried(seen, each)) for each in _affordable(seen)]
-        best = min(tried, key=lambda entry: entry[1])[0]
-        return _fitted(seen, best, draws=draws, others=tuple(tried), **options)
+        tried = [_tried(seen, each) for each in _affordable(seen)]
+        alike = _alike(tried)
+        report = _fitted(seen, alike[0].model, draws=draws, **options)
+        compared = tuple((one.model, one.criterion) for one in tried)
+        undetermined = (*report.undetermined, *_undecided(alike))
+        return replace(report, compared=compared, undetermined=undetermined)
+
+
+class Tried(NamedTuple):
+    """A model fitted without intervals: its solid, criterion and number of constants."""
+
+    model: str
+    material: Any
+    criterion: float
+    constants: int
+
+
+def _alike(tried: Sequence[Tried]) -> list[Tried]:
+    """Return the models that the data do not distinguish from the best, the simplest first."""
+    least = min(one.criterion for one in tried)
+    alike = [one for one in tried if one.criterion <= least + ALIKE]
+    return sorted(alike, key=lambda one: (one.constants, one.criterion))
+
+
+def _undecided(alike: Sequence[Tried]) -> tuple[str, ...]:
+    """Return a sentence on the models that the data do not distinguish, with their plateaus."""
+    if len(alike) < 2:
+        return ()
+    least = min(one.criterion for one in alike)
+    each = [
+        f"{one.model} ({one.constants} constants, criterion {one.criterion - least:+.1f}; "
+        f"rubbery {readable(one.material.rubbery_modulus, 'Pa', digits=3)}, glassy "
+        f"{readable(one.material.glassy_modulus, 'Pa', digits=3)})"
+        for one in alike
+    ]
+    return (
+        f"the data do not distinguish {' from '.join(each)}; the one with the fewest constants "
+        "is used. Outside the measured range they differ: --model fits another",
+    )
 
 
 def _affordable(data: Observed) -> list[str]:
@@ -136,12 +176,14 @@ def _affordable(data: Observed) -> list[str]:
     return found
 
 
-def _tried(data: Observed, model: str) -> float:
-    """Return the criterion of a model, without its intervals."""
+def _tried(data: Observed, model: str) -> Tried:
+    """Fit a model without intervals."""
     if model == "prony":
-        return fit_series(data, arms=None, level=0.9, draws=0, seed=0).criterion
+        found = fit_series(data, arms=None, level=0.9, draws=0, seed=0)
+        return Tried(model, found.material, found.criterion, found.constants)
     material, constants = fitted_constants(data, model=model, known={})
-    return information_criterion(data.weighed(data.residuals(material)), constants)
+    criterion = information_criterion(data.weighed(data.residuals(material)), constants)
+    return Tried(model, material, criterion, constants)
 
 
 def _fitted(
@@ -153,7 +195,6 @@ def _fitted(
     level: float,
     draws: int,
     seed: int,
-    others: tuple[tuple[str, float], ...] = (),
 ) -> FitReport:
     cautions: tuple[str, ...] = ()
     if model == "prony":
@@ -177,7 +218,7 @@ def _fitted(
         scatter=found.scatter,
         constants=found.constants,
         criterion=found.criterion,
-        compared=others or found.compared,
+        compared=found.compared,
         undetermined=undetermined(data, found.material, found.intervals),
         cautions=cautions,
         draws=found.draws,

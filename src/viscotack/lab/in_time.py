@@ -30,7 +30,7 @@ def superposed(
     *,
     reference_temperature: float,
     shift: Shift | ShiftTable | None = None,
-    vertical: str | float | None = None,
+    vertical: str | float = "none",
     temperature_uncertainty: float = THERMOMETER,
 ) -> tuple[Test, ShiftTable]:
     """Superpose tests at several temperatures; return one test and the shifts.
@@ -46,8 +46,7 @@ def superposed(
     vertical, temperature_uncertainty
         As in :func:`viscotack.lab.shift_factors`. With one curve per temperature, "auto" assumes
         typical vertical shifts where the curve is straight; a coefficient of expansion is more
-        exact. By default "auto", or "none" with a note if the tests do not determine the vertical
-        shift.
+        exact. By default "none".
 
     Returns
     -------
@@ -104,26 +103,19 @@ def _found(
     tests: Sequence[RelaxationTest | CreepTest],
     temperature: Array,
     reference: float,
-    vertical: str | float | None,
+    vertical: str | float,
     uncertainty: float,
 ) -> tuple[ShiftTable, str]:
     """Return the shifts from overlap, and the method in words."""
-    curves, refused = [_curve(test) for test in tests], None
-    for way in ("auto", "none") if vertical is None else (vertical,):
-        try:
-            table = shifts_between(
-                temperature,
-                curves,
-                reference_temperature=reference,
-                by="both",
-                vertical=way,
-                temperature_uncertainty=uncertainty,
-            )
-        except InputError as error:
-            refused = refused or error
-            continue
-        return table, f"shifts from the overlap of the tests, {moved_words(way)}"
-    raise refused or InputError("overlap does not determine the shifts")
+    table = shifts_between(
+        temperature,
+        [_curve(test) for test in tests],
+        reference_temperature=reference,
+        by="both",
+        vertical=vertical,
+        temperature_uncertainty=uncertainty,
+    )
+    return table, f"shifts from the overlap of the tests, {moved_words(vertical)}"
 
 
 def _checked(tests: Sequence[Test]) -> list[Test]:

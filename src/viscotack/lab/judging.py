@@ -92,9 +92,9 @@ class Superposition:
             found.append(
                 f"sweeps do not superpose in {name}: {_between(where)} differ by "
                 f"{100 * np.expm1(worst):.2g} % where they "
-                f"overlap{f', as do {len(off) - 1} more pairs' * (len(off) > 1)}. No shift makes "
-                "them one curve. Possible causes: a glass, two processes or a faulty sweep "
-                "(--leave-out)"
+                f"overlap{f', as do {len(off) - 1} more pairs' * (len(off) > 1)}. No shift in "
+                "frequency makes them one curve. Possible causes: moduli that move with "
+                "temperature (--vertical), a glass, two processes or a faulty sweep (--leave-out)"
             )
         return found
 

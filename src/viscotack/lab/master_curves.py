@@ -10,11 +10,11 @@ from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
 from .grouping import GAP, refuse_unlike
 from .kramers_kronig import causal_misfit
-from .shifting import BEST, shift_factors, temperature_levels
+from .shifting import shift_factors, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
 
 # methods that use most of the data come first
-_WAYS = (BEST, ("both", "none"), ("storage", "none"))
+_WAYS = (("both", "none"), ("storage", "none"))
 _CAUSAL = 0.03  # Kramers-Kronig misfit within the accuracy of rheometers
 _CLEARLY = 0.8  # ratio of misfits that counts as clearly better
 _PARTS = {
@@ -52,10 +52,10 @@ def master_curve(
         overlap of neighbouring sweeps, see :func:`shift_factors`.
     by : {"both", "storage", "loss", "tan"}, optional
         Which moduli must superpose, for shifts from overlap. If both `by` and `vertical` are None,
-        :func:`most_carried` chooses.
+        :func:`most_carried` chooses; with `vertical` alone, both moduli.
     vertical : {"auto", "none", "free"} or float, optional
         Allowed vertical shift, for shifts from overlap, see
-        :func:`shift_factors`; "auto" if only `by` is given.
+        :func:`shift_factors`; by default "none".
 
     Returns
     -------
@@ -98,7 +98,7 @@ def master_curve(
         _refuse_ramp(sweeps)
         if by is None and vertical is None:
             return most_carried(sweeps, reference_temperature=reference_temperature)
-        by, vertical = by or BEST[0], BEST[1] if vertical is None else vertical
+        by, vertical = by or "both", "none" if vertical is None else vertical
         shift = shift_factors(
             sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
         )
@@ -123,10 +123,9 @@ def master_curve(
 def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> MasterCurve:
     """Return the master curve of the shift method that uses most of the data.
 
-    The first choice superposes both moduli and lets them move vertically as far as the data allow.
-    If this does not determine the shifts, or if shifts of both moduli without vertical motion, or
-    of storage alone, give a clearly more causal pair (Kramers-Kronig, equal weights), they are used
-    instead, and a note states so.
+    The first choice superposes both moduli. If this does not determine the shifts, or if those of
+    storage alone give a clearly more causal pair (Kramers-Kronig, equal weights), they are used
+    instead, and a note states so. Moduli do not move vertically.
 
     Raises
     ------
@@ -152,7 +151,7 @@ def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> Ma
         raise first or InputError("overlap does not determine the shifts")
     if first is None:
         return best
-    note = f"storage and loss with vertical shifts do not determine the shifts: {first}"
+    note = f"storage and loss do not determine the shifts: {first}"
     return replace(best, source=best.source.noted(note))
 
 

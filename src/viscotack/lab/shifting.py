@@ -18,7 +18,7 @@ from .sweeps import FrequencySweeps, ShiftTable
 FEWEST = 4  # smallest number of points per temperature
 MOST = 200  # largest number of points per temperature; more are averaged without loss of accuracy
 BY = ("both", "storage", "loss", "tan")
-BEST = ("both", "auto")  # by, vertical: uses most of the data
+BEST = ("both", "auto")  # by, vertical: what shifts are compared with; uses most of the data
 THERMOMETER = 0.2  # K: standard uncertainty of a chamber's temperature
 
 
@@ -27,7 +27,7 @@ def shift_factors(
     *,
     reference_temperature: float,
     by: str = "both",
-    vertical: str | float = "auto",
+    vertical: str | float = "none",
     temperature_uncertainty: float = THERMOMETER,
 ) -> ShiftTable:
     """Compute the shift of each temperature from the overlap of neighbouring sweeps.
@@ -44,8 +44,8 @@ def shift_factors(
         plateau, where an error of a few per cent appears as a shift by decades. The loss tangent is
         independent of vertical shifts, which are then fitted afterwards.
     vertical : {"auto", "none", "free"} or float
-        Allowed vertical shift, one factor for storage and loss: "auto", as far as
-        the data determine it, with a common size of all steps as prior; "none"; "free", each step
+        Allowed vertical shift, one factor for storage and loss: "none"; "auto", as far as
+        the data determine it, with a common size of all steps as prior; "free", each step
         independently; or a coefficient of volume expansion [1/K], which gives the shift by density
         and temperature of rubber elasticity.
     temperature_uncertainty : float
@@ -56,9 +56,9 @@ def shift_factors(
     ShiftTable
         With the standard deviation of each shift relative to the reference. It includes the scatter
         of points and of blocks of points about the common curve, vertical shifts of the size seen
-        in the data, even where none was allowed, and the thermometer; if fewer than both moduli are
-        used, also the difference to the shifts by both. It does not include the error for a solid
-        that does not superpose; see :func:`viscotack.lab.superposition`.
+        in the data, even where none was allowed, and the thermometer; with two moduli also the
+        difference to the shifts by both moduli with vertical shifts. It does not include the error
+        for a solid that does not superpose; see :func:`viscotack.lab.superposition`.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def shift_factors(
     ...     "E",
     ...     np.repeat([0, 1], 10),
     ... )
-    >>> shifts = shift_factors(sweeps, reference_temperature=293.15, vertical="none")
+    >>> shifts = shift_factors(sweeps, reference_temperature=293.15)
     >>> shifts.log10_shift.round(2).tolist()
     [0.0, -1.0]
     """

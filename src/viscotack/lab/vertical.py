@@ -5,10 +5,11 @@ The theory of rubber elasticity gives, from density and temperature,
 .. math:: b_T = \frac{\rho_0 T_0}{\rho T}, \qquad \rho \propto e^{-\alpha T}
 
 which is a few per cent per ten kelvin. A clamp or a gap that changes with temperature has an effect
-of the same size. By default the vertical shift is determined by both moduli together: the vertical
-shifts of all steps have a common size, fitted with them, which is the prior where
-curves are too straight to determine a shift. It also contributes to the uncertainty of horizontal
-shifts computed without vertical ones.
+of the same size. By default moduli do not move: in sweeps that need no vertical shift a fitted one
+takes up noise and moves the horizontal shift. "auto" determines the vertical shift by both moduli
+together: the vertical shifts of all steps have a common size, fitted with them, which is the prior
+where curves are too straight to determine a shift. It also contributes to the uncertainty of
+horizontal shifts computed without vertical ones.
 """
 
 from collections.abc import Sequence
@@ -20,7 +21,7 @@ from viscotack.errors import InputError
 
 from .overlap import Curve, Hold, free_vertical
 
-WORDS = ("auto", "none", "free")
+WORDS = ("none", "auto", "free")
 _USUAL = 0.02  # decades, 5 %: usual effect of gap, clamp and rubber elasticity between sweeps
 _SPREADS = np.geomspace(1e-4, 0.3, 80)  # decades
 

@@ -224,6 +224,7 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
     return {
         "work_of_adhesion_J_m2": fit.work_of_adhesion,
         "equilibrium_gap_m": fit.equilibrium_gap,
+        "describes_tests": not fit.misfit,
         "level": forecast.level,
         "preload_N": forecast.preload,
         "temperature_K": forecast.temperature,
@@ -234,6 +235,7 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
 
 
 def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
+    first = [fit.misfit] if fit.misfit else []
     lines = []
     for v, force, *ends in (row.values() for row in rows):
         pairs = zip(ends[::2], ends[1::2], strict=True)
@@ -241,4 +243,4 @@ def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
         lines.append(f"  {readable(v, 'm/s')}: {readable(force, 'N')} ({bands})")
     single = "" if forecast.low_of_one is None else ", and of a single test"
     head = f"Pull-off forces, {forecast.level:.0%} band of their mean{single}"
-    return "\n".join([head, *lines, *fit.words, *forecast.words])
+    return "\n".join([*first, head, *lines, *fit.words[len(first) :], *forecast.words])

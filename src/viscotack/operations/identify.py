@@ -36,9 +36,10 @@ class IdentifySlow(Operation):
 
     JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
     against depth, and compared by an information criterion; intervals are profile likelihoods.
-    The answer states which parameters the data do not determine. If the test is not slow, the work
-    is an upper bound, with the reason; with --material the test is compared with the force that
-    `viscotack advise` gives for it.
+    The answer states which parameters the data do not determine, and gives the work by each model
+    that they do not distinguish. If the test is not slow, the work is an upper bound, with the
+    reason; with --material the test is compared with the force that `viscotack advise` gives for
+    it.
 
     Example: viscotack identify slow lens_1um_s.csv --radius "5.19 mm"
     --contact-modulus "1.94 MPa" --contact-modulus-uncertainty "0.06 MPa" --plot slow.png
@@ -286,7 +287,8 @@ class IdentifyRates(Operation):
 
 
 def _slow_words(fit: Any) -> str:
-    lines = [f"Force against {fit.test.against}, {fit.test.force.size} points"]
+    first, *words = fit.words
+    lines = [first, f"Force against {fit.test.against}, {fit.test.force.size} points"]
     for one in fit.fits:
         tabor = "" if one.tabor is None else f", Tabor number {one.tabor:.3g}"
         lines.append(
@@ -294,7 +296,7 @@ def _slow_words(fit: Any) -> str:
             f"E0* {readable(one.contact_modulus, 'Pa')}{tabor}; "
             f"scatter {readable(one.scatter, 'N', digits=2)}, criterion {one.criterion:.1f}"
         )
-    return "\n".join([*lines, *fit.words, f"Chosen by: {fit.evidence}"])
+    return "\n".join([*lines, *words, f"Ranked by: {fit.evidence}"])
 
 
 def _rates_words(fit: Any) -> str:
@@ -303,4 +305,5 @@ def _rates_words(fit: Any) -> str:
         f"{readable(force, 'N')} fitted"
         for one, force in zip(fit.series, fit.forces, strict=True)
     ]
-    return "\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"])
+    first, *words = fit.words
+    return "\n".join([first, *rows, *words, f"Tabor number {fit.tabor:.3g}"])

@@ -155,7 +155,7 @@ class NextTest(Operation):
                 "refused": [_trial(each) | {"why": why} for each, why in found.refused],
                 "words": [*study.fit.words, *found.words],
             },
-            words=lambda: _words(found, bool(wanted)),
+            words=lambda: "\n".join(filter(None, (study.fit.misfit, _words(found, bool(wanted))))),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),

@@ -183,7 +183,10 @@ def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) 
 
 
 def slow_record(fit: Any) -> dict[str, Any]:
-    """Return the interface parameters identified from a slow test."""
+    """Return the interface parameters identified from a slow test.
+
+    The work is None where it is an upper bound, or undetermined between the models in "alike".
+    """
     fits = [
         {
             "model": one.model,
@@ -197,7 +200,11 @@ def slow_record(fit: Any) -> dict[str, Any]:
         for one in fit.fits
     ]
     return {
-        "work_of_adhesion_J_m2": None if fit.upper_bound else fit.best.work_of_adhesion,
+        "work_of_adhesion_J_m2": (
+            None if fit.upper_bound or fit.undetermined else fit.best.work_of_adhesion
+        ),
+        "undetermined": fit.undetermined,
+        "alike": [one.model for one in fit.alike],
         "interval": asdict(fit.work_of_adhesion),
         "upper_bound": list(fit.upper_bound),
         "against": fit.test.against,
@@ -218,6 +225,8 @@ def rates_record(fit: Any) -> dict[str, Any]:
         "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
         "scatter": fit.scatter,
         "scatter_between_speeds": fit.between_speeds,
+        "trend": fit.trend,
+        "describes_tests": not fit.misfit,
         "solutions": [dict(one.values) for one in fit.solutions],
         "series": [
             {

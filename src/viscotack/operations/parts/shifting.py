@@ -14,7 +14,7 @@ from ..declare.options import Part
 from ..declare.wording import flag
 
 _SEVERAL = 3.0  # K: a chamber holds its temperature better
-_MOVES = ("auto", "none", "free")
+_MOVES = ("none", "auto", "free")
 
 
 @dataclass(frozen=True)
@@ -117,15 +117,17 @@ class Shifting(ShiftLaw):
         str | None,
         Choice(
             "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
-            "they are by default. Default without --vertical: chosen by the data.",
+            "they are by default. Default without --vertical: both, or storage if it is clearly "
+            "more causal.",
             choices=("both", "storage", "loss", "tan"),
         ),
     ] = None
     vertical: Annotated[
         str | float | None,
         Moving(
-            "Vertical shift with temperature: auto (if the data determine it), none, free, or by "
-            'density and temperature with a volume expansion of "6e-4 1/K".',
+            "Vertical shift with temperature: none (the default), auto (as far as the data "
+            "determine it), free, or by density and temperature with a volume expansion of "
+            '"6e-4 1/K".',
             metavar="WORD|EXPANSION",
         ),
     ] = None
@@ -205,7 +207,7 @@ class Shifting(ShiftLaw):
             same,
             reference_temperature=self.reference_temperature,
             shift=law,
-            vertical=self.vertical,
+            vertical="none" if self.vertical is None else self.vertical,
         )
         return curve, law if isinstance(law, WLF) else table, ()
 
