@@ -60,6 +60,7 @@ test-processors: $(VENV)/.installed
 lint: $(VENV)/.installed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
 
 # Rooms that depend on the operating system, checked for the others too.
 SYSTEMS = $(addprefix src/viscotack/,system.py files pool campaign app operations)

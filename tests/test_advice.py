@@ -8,12 +8,9 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from effort import calls
-from viscotack.protocol import Dwell
 from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
 from viscotack.traction import effective_range
 
-POWER_LAW = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
 
 
@@ -179,21 +176,6 @@ def test_the_same_start_said_in_three_ways_is_one():
     assert by_force.preload_change == pytest.approx(by_radius.preload_change, rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("case", "most"),
-    [
-        (dict(rate=1.0), 50_000),
-        (dict(rate=316.23), 50_000),
-        # a contact with a crack for its edge is asked there, its cracks being known
-        (dict(rate=1e6, tabor=8.0, modulus_ratio=0.01, exponent=0.4), 300_000),
-    ],
-)
-def test_advice_comes_at_once(case, most):
-    problem = groups(**case)
-    vt.advise(problem)
-    assert calls(lambda: vt.advise(problem)) < most
-
-
 # A hand-made table: a wall, a peak, a tail that ends.
 TABLE = vt.Tabulated.of_points(
     [0.8, 1.0, 1.2, 1.5, 2.5, 4.0], [-4.0, 0.0, 1.0, 0.8, 0.1, 0.0]
@@ -260,12 +242,6 @@ def test_an_elastic_solid_has_one_answer():
     assert [e.tier for e in advice.estimates if e.applies] == ["elastic", "simulation"]
 
 
-def test_a_start_that_jkr_does_not_know_still_gets_advice():
-    advice = vt.advise(groups(1.0, tabor=0.05, start=vt.AtForce(-1.1)))
-    assert advice.start_radius is None
-    assert "tabor is 0.05, verified from 0.3 to 8" in estimate(advice, "unloading").why
-
-
 def test_in_si_speed_and_strain_are_judged():
     slow, fast = vt.advise(silicone(1e-7)), vt.advise(silicone(1e-3))
     assert not slow.beyond_linear and fast.beyond_linear
@@ -294,21 +270,6 @@ def test_advice_does_not_depend_on_the_unit_of_time():
     )
 
 
-@pytest.mark.parametrize(
-    "change", [dict(rate=None, moves=(Dwell(1.0),)), dict(stiffness=1.0), dict(moves=(Dwell(1.0),))]
-)
-def test_other_tests_than_a_steady_retraction_get_no_advice(change):
-    with pytest.raises(ValueError, match="a rigid drive retracts at constant speed; simulate"):
-        vt.advise(replace(groups(1.0), **change))
-
-
-@pytest.mark.slow
-def test_a_threshold_near_saturation_is_found_beyond_the_usual_radii():
-    # the force still grows by 0.16 at (9/k)^(1/3) + 1 = 5.48
-    radius = vt.threshold_contact_radius(groups(1e4, exponent=1.6), slope=0.1, accuracy=5e-3)
-    assert 5.48 < radius < 6.2
-
-
 @pytest.mark.slow
 def test_beyond_the_computed_threshold_force_hardly_grows():
     case = groups(10**0.5, exponent=1.6)
@@ -328,54 +289,7 @@ def test_beyond_the_computed_threshold_force_hardly_grows():
     assert (forces[1] - forces[0]) / 0.2 == pytest.approx(0.1, rel=0.3, abs=0)
 
 
-def test_a_threshold_needs_a_slope():
-    with pytest.raises(ValueError, match="slope must be positive"):
-        vt.threshold_contact_radius(groups(1.0), slope=0.0)
-
-
 # The command line -----------------------------------------------------------------------------
-
-
-def test_advise_prints_sentences_or_one_object(capsys):
-    assert exit_status(["advise", *POWER_LAW, "--rate", "1"]) == 0
-    assert "Use: surrogate." in capsys.readouterr().out
-    assert exit_status(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["use"] == "surrogate" and len(found["estimates"]) == 10
-    assert found["sentences"][-1] == "Use: surrogate."
-
-
-def test_advise_reads_a_case_and_refuses_flags_beside_it(tmp_path, capsys):
-    file = tmp_path / "lens.toml"
-    file.write_text(
-        """
-        [material]
-        model = "power-law"
-        rubbery_modulus = "1.458 MPa"
-        glassy_modulus = "3089 MPa"
-        exponent = 0.2207
-        tau0 = "18.76 ms"
-        poisson_ratio = 0.5
-        [interface]
-        law = "lennard-jones"
-        work_of_adhesion = "0.1523 J/m^2"
-        equilibrium_gap = "1.55 um"
-        [sphere]
-        radius = "5.19 mm"
-        [protocol]
-        preload_force = "1.5 mN"
-        speed = "100 um/s"
-        """,
-        encoding="utf-8",
-    )
-    assert exit_status(["advise", file, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    expected = vt.advise(silicone(100e-6))
-    assert found["strain"] == pytest.approx(expected.strain, rel=1e-9, abs=0)
-    assert exit_status(["advise", file, "--tabor", "1"]) == 2
-    assert "remove --tabor" in capsys.readouterr().err
-    assert exit_status(["advise"]) == 2
-    assert "missing" in capsys.readouterr().err
 
 
 def test_theory_jkr_and_maugis_print_the_results_of_the_functions(tmp_path, capsys):
@@ -459,37 +373,3 @@ def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, 
     assert exit_status([*law, "--plot", picture]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 42
     assert picture.stat().st_size > 1000
-
-
-def test_a_measured_modulus_is_refused_in_words(tmp_path, capsys):
-    file = tmp_path / "dma.csv"
-    file.write_text(MODULUS)
-    table, plateau = ["--modulus-table", file], ["--rubbery-modulus", "1 MPa"]
-    for arguments, words in (
-        (table, "--rubbery-modulus missing"),
-        (plateau, "--modulus-table missing"),
-        ([*table, "--rubbery-modulus", "1"], "has no unit"),
-        ([*table, "--rubbery-modulus", "-1 MPa"], "--rubbery-modulus must be positive"),
-        ([*table, *plateau, "--exponent", "1"], "leave out --exponent"),
-        ([*table, *plateau, "--speed", "1e9"], "measure a wider range"),
-        (["--modulus-table", tmp_path, *plateau], "is a folder"),
-        (["--modulus-table", tmp_path / "none.csv", *plateau], "there is no file"),
-    ):
-        assert exit_status(["theory", "persson-brener", *arguments]) == 2
-        out, err = capsys.readouterr()
-        assert words in err and out == ""
-
-
-def test_theory_refuses_what_is_impossible(tmp_path, capsys):
-    for arguments, words in (
-        (["theory", "jkr", "--radius", "-1 mm", *JKR[2:]], "radius must be positive"),
-        (["theory", "maugis", *JKR], "--strength missing; or give --tabor alone"),
-        (["theory", "maugis", *JKR, "--tabor", "1"], "leave out --radius, --contact-modulus"),
-        (["theory", "maugis", "--tabor", "-1"], "--tabor must be positive"),
-        (["theory", "greenwood", "--material", "sls"], "--modulus-ratio missing"),
-        (["theory", "persson-brener", "--material", "elastic"], "amplification of 1"),
-        (["theory", "jkr", *JKR, "--plot", tmp_path / "none" / "a.png"], "none does not exist"),
-    ):
-        assert exit_status(arguments) == 2
-        out, err = capsys.readouterr()
-        assert words in err and out == ""

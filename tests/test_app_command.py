@@ -1,10 +1,8 @@
 """The command ``viscotack app``: what it needs, where it listens, what it prints."""
 
-import builtins
 import os
 import re
 import signal
-import socket
 import sys
 import urllib.request
 from pathlib import Path
@@ -12,17 +10,10 @@ from pathlib import Path
 import pytest
 
 from app_server import running
-from command_line import exit_status
 from processes import children, lives, until
-from viscotack.app.cli.page import _listening, _query, _token
-from viscotack.errors import install_command
+from viscotack.app.cli.page import _query, _token
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
-
-
-def test_an_answer_does_not_wait_for_the_confirmation_of_its_head():
-    with _listening("127.0.0.1", 0) as listening:
-        assert listening.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
 
 @pytest.mark.slow
@@ -40,34 +31,6 @@ def test_page_and_client_of_the_docs_are_answered(tmp_path, monkeypatch, capsys)
 def test_a_case_file_is_in_the_link_that_is_opened():
     query = _query(Path("examples/from_toml/cone.toml"), ())
     assert "cone.slope=0.05" in query
-
-
-def test_a_missing_library_is_said_in_words(monkeypatch, capsys):
-    real = builtins.__import__
-
-    def without(name, *more):
-        if name in ("uvicorn", "fastapi"):
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-        return real(name, *more)
-
-    monkeypatch.setattr(builtins, "__import__", without)
-    assert exit_status(["app", "--no-browser"]) == 2
-    said = capsys.readouterr().err
-    assert f"need uvicorn; install it with: {install_command('app')}" in " ".join(said.split())
-
-
-def test_a_port_that_is_taken_is_said_in_words(capsys):
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        assert exit_status(["app", "--no-browser", "--port", port]) == 2
-    assert f"cannot listen at 127.0.0.1, port {port}" in capsys.readouterr().err
-
-
-def test_a_file_that_states_no_case_is_refused_before_anything_is_served(tmp_path, capsys):
-    file = tmp_path / "case.toml"
-    file.write_text("[material]\nmodel = 'elastic'\n")
-    assert exit_status(["app", "--no-browser", file]) == 2
-    assert "are missing; see docs/input.md" in capsys.readouterr().err
 
 
 def test_a_material_in_a_file_of_its_own_goes_into_the_link(tmp_path):

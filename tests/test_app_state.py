@@ -4,13 +4,11 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import viscotack as vt
 from viscotack.app.engine.forms import forms
 from viscotack.app.engine.overview import quick
-from viscotack.app.engine.page_tasks import ask_state
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict
 from viscotack.forecast.closed_forms import closed_forms
@@ -19,7 +17,6 @@ from viscotack.operations.declare.options import Here
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
 from viscotack.operations.declare.statement import Stated
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
-from viscotack.operations.parts.json_data import plain
 from viscotack.operations.parts.library import material_table
 from viscotack.problem.case_file import case_of_tables, read_case
 from viscotack.problem.record import to_dict
@@ -61,11 +58,6 @@ def test_a_profile_stated_by_its_slope_is_a_cone_in_every_form():
     assert state.problem == read_case("examples/from_toml/cone.toml")
 
 
-def test_what_belongs_to_the_page_is_no_table():
-    state = State(FIRST)
-    assert state_of_query(f"?accuracy=0.005&{state.query}&keep=x").tables == state.tables
-
-
 def test_the_command_line_says_the_accuracy_and_how_far():
     lines = State(FIRST).command(accuracy=0.005, until="pull-off")
     assert "simulate case case.toml --accuracy 0.005 --until pull-off" in lines
@@ -92,18 +84,6 @@ def test_the_command_line_says_the_accuracy_and_how_far():
 def test_what_is_no_case_is_refused(tables, said):
     with pytest.raises(InputError, match=said):
         State(tables)
-
-
-def test_a_long_text_is_refused_before_it_is_read():
-    with pytest.raises(InputError, match="characters, more than"):
-        state_of_query("x.y=" + "1" * 300_000)
-
-
-def test_a_file_that_states_no_case_is_refused_and_one_of_three_forms_is_asked_for():
-    with pytest.raises(InputError, match=r"tables .* are missing"):
-        ask_state({"toml": "[material]\n"}, print, ())
-    with pytest.raises(InputError, match="give one of toml, query and tables, got none"):
-        ask_state({}, print, ())
 
 
 def test_a_request_states_a_problem_by_tables_or_by_a_record():
@@ -149,19 +129,6 @@ def test_every_noun_that_can_be_typed_has_a_form_whose_examples_make_it():
         assert all(start["title"] and start["example"] for start in starts)
 
 
-def test_a_noun_of_the_users_own_is_asked_for_by_itself():
-    from viscotack.problem.nouns import own_nouns
-
-    also = own_nouns(["examples/own/morse.py", "examples/own/rounded_cone.py"])
-    asked = forms(also)
-    morse = next(choice for choice in asked["interface"] if choice["word"] == "morse")
-    assert [field["key"] for field in morse["fields"]][:2] == [
-        "work_of_adhesion",
-        "equilibrium_gap",
-    ]
-    assert "rounded-cone" in [choice["word"] for choice in asked["shape"]]
-
-
 def test_quick_answers_are_those_of_predict_and_advise():
     problem = State(FIRST).problem
     found, scales = quick(State(FIRST)), problem.scales()
@@ -185,16 +152,6 @@ def test_quick_answers_are_those_of_predict_and_advise():
     here = min(range(41), key=lambda i: abs(speeds["speed"][i] / speeds["here"] - 1))
     assert speeds["force"][here] == pytest.approx(learned["value"], rel=0.05)
     assert json.loads(json.dumps(found, allow_nan=False)) == found
-
-
-@examples
-def test_every_example_has_quick_answers(tables):
-    found = quick(State(tables))
-    curve = found["curves"]["elastic"]
-    assert len(curve["depth"]) == len(curve["force"]) > 1
-    assert min(curve["force"]) < 0
-    pulled = "pull_off_stress" if "punch" in tables else "pull_off_force"
-    assert {"force", "depth", pulled, "work_to_pull_off"} <= found["axes"].keys()
 
 
 @pytest.mark.parametrize(("work", "is_crack"), [(0.15, False), (0.01, True)])
@@ -222,20 +179,6 @@ def test_an_elastic_pad_comes_off_as_a_crack_or_at_its_strength(work, is_crack):
     assert elastic["force"][0] == pytest.approx(2e3)
 
 
-def test_another_solid_has_what_was_learned_of_solids_and_its_speeds():
-    branches = [["6 MPa", "1 ms"], ["3 MPa", "1 s"]]
-    prony = {"model": "prony", "rubbery_modulus": "1 MPa", "branches": branches}
-    state = State(FIRST | {"material": prony | {"poisson_ratio": 0.5}})
-    found = quick(state)
-    speeds, (learned, *_) = found["speeds"], found["numbers"]
-    assert learned["method"] == "surrogate of solids"
-    here = np.interp(np.log(speeds["here"]), np.log(speeds["speed"]), speeds["force"])
-    assert here == pytest.approx(learned["value"], rel=0.02)
-    low, force, high = (np.array(speeds[name]) for name in ("low", "force", "high"))
-    assert np.all((low < force) & (force < high)) and force[-1] > 1.5 * force[0]
-    assert json.loads(json.dumps(found, allow_nan=False)) == found
-
-
 def test_beyond_the_surrogate_of_power_laws_the_other_speeds_are_answered_at_once():
     # a Tabor number of 158, and speeds beyond the learned crack, where only theories answer
     interface = FIRST["interface"] | {"equilibrium_gap": "20 nm"}
@@ -250,22 +193,6 @@ def test_beyond_the_surrogate_of_power_laws_the_other_speeds_are_answered_at_onc
         other = replace(problem, protocol=replace(problem.protocol, speed=speed))
         answer = predict(other, budget=AT_ONCE)
         assert force == pytest.approx(answer.pull_off_force * problem.scales().force, rel=1e-4)
-
-
-def test_a_pad_has_what_was_learned_of_punches_and_its_speeds():
-    state = State(EXAMPLES["A flat punch on a soft layer"])
-    found, problem = quick(state), state.problem
-    one = predict(problem, budget=AT_ONCE)
-    strength = problem.traction.strength
-    assert found["numbers"][0]["value"] == pytest.approx(one.pull_off_force * strength)
-    assert found["numbers"][0]["method"] == "surrogate of punches"
-    curve, speeds = found["curves"]["surrogate"], found["speeds"]
-    # drawn numbers have seven digits
-    assert -curve["force"][-1] == pytest.approx(one.pull_off_force * strength, rel=1e-5)
-    assert curve["radius"][0] == pytest.approx(1e-3, rel=1e-5)
-    assert speeds["words"] == "surrogate" and speeds["here"] == problem.protocol.speed
-    here = np.interp(np.log(speeds["here"]), np.log(speeds["speed"]), speeds["force"])
-    assert here == pytest.approx(one.pull_off_force * strength, rel=1e-3)
 
 
 def test_the_surrogate_says_at_once_where_it_has_no_answer():
@@ -296,10 +223,3 @@ def test_the_curve_of_a_moving_edge_ends_at_the_force_that_advice_has():
         del elastic[gone]
     groups = State(FIRST | {"material": elastic}).problem.groups()
     assert closed_forms(groups).curve is None
-
-
-def test_numbers_on_their_way_out_are_plain():
-    import numpy as np
-
-    told = plain({"a": np.array([1.0, np.inf]), "b": (np.float64("nan"), np.int64(2), "x")})
-    assert told == {"a": [1.0, None], "b": [None, 2, "x"]}

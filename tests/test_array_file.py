@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from command_line import exit_status
 from front_ends import Http, Question, through_all
-from viscotack import clock
 from viscotack.app.cli import application
-from viscotack.bem import body
 from viscotack.errors import InputError
 from viscotack.operations import ask
 from viscotack.pads import Hold, holding, pull_array, read_array
@@ -52,31 +49,12 @@ equilibrium_gap = "10 nm"
 radius = "5 mm"
 """
 
-# In place of an elastic solid.
-SOLID = '"sls"\nglassy_modulus = "15 MPa"\ntau0 = "10 ms"'
-
 
 @pytest.fixture
 def small(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("small.toml").write_text(SMALL)
     return Path("small.toml")
-
-
-def test_a_pad_that_meets_the_time_limit_is_refused_with_advice(small, monkeypatch, capsys):
-    small.write_text(SMALL.replace('"10 nm"', '"4 um"').replace('"elastic"', SOLID))
-    descend, now = body.descend, [0.0]
-
-    def late(*arguments, **options):
-        now[0] += 0.1
-        return descend(*arguments, **options)
-
-    monkeypatch.setattr(clock, "perf_counter", lambda: now[0])
-    monkeypatch.setattr(body, "descend", late)
-    assert exit_status(["array", "small.toml", "--time-limit", "2 s"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("viscotack: stopped because the time limit of 2 s was met at a depth")
-    assert "give more time, or ask for less accuracy" in said and "defect" not in said
 
 
 def test_a_file_states_pads_backing_pull_and_load(small):
@@ -88,11 +66,6 @@ def test_a_file_states_pads_backing_pull_and_load(small):
     assert (found.speed, found.preload) == (1e-5, 6e-3)
     assert found.hold == Hold(3e-4, 0.0, 2.0)
     assert found.scatter is None
-
-
-@pytest.mark.parametrize("name, count", [("gripper_finger", 12), ("wafer_pad", 19)])
-def test_the_examples_are_read(name, count):
-    assert len(read_array(EXAMPLES / f"{name}.toml").array.positions) == count
 
 
 @pytest.mark.slow
@@ -175,13 +148,6 @@ def test_a_hold_time_states_what_is_left_of_the_preload(small):
     # elastic pads keep it
     assert answer.record()["preload_after_hold_N"] == 6e-3
     assert "6 mN are left after 10 s" in answer.words()
-
-
-def test_scatter_gives_a_yield(small):
-    small.write_text(SMALL.replace("rows = 1", "work_scatter = 0.1\ndraws = 40\nrows = 1"))
-    record = ask("array", file="small.toml").record()
-    low, high = record["yield_interval"]
-    assert 0 <= low <= record["yield"] <= high <= 1
 
 
 def test_payload_is_the_force_over_gravity_acceleration_and_safety(small):

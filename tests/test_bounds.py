@@ -8,9 +8,6 @@ import pytest
 from command_line import exit_status
 from effort import calls
 from punches import resized
-from stated import STANDARD, case_text
-from viscotack.bem import Settings
-from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.jumps import _MOST_MESHES
 from viscotack.bem.mesh import MOST_NODES, Grading
 from viscotack.errors import InputError
@@ -18,9 +15,7 @@ from viscotack.geometry import Bonded, FlatPunch, Layer
 from viscotack.materials import Prony, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
-from viscotack.problem.case_file import read_case
 from viscotack.protocol import (
-    MOST_MOVES,
     Apart,
     Approach,
     AtDepth,
@@ -29,11 +24,10 @@ from viscotack.protocol import (
     LoadTo,
     MoveTo,
     Retract,
-    Retraction,
 )
 from viscotack.protocol.words import history_from_file
 from viscotack.result import Outcome
-from viscotack.traction import Exponential, LennardJones, Tabulated
+from viscotack.traction import Exponential, Tabulated
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
@@ -47,8 +41,6 @@ PUNCH = Groups(
     rate=10.0,
 )
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
-MOVES = 'moves = ["approach 10 um/s to 1 um", "retract 10 um/s to -20 um"]'
-CASE = case_text(STANDARD, radius="5 mm", protocol=f'start = "apart 20 um"\n{MOVES}')
 
 
 def refused(capsys, *arguments):
@@ -57,34 +49,6 @@ def refused(capsys, *arguments):
 
 
 # --- how many
-
-
-def test_a_hundred_thousand_moves_are_refused_wherever_they_come_from(tmp_path, capsys):
-    said = "at most 10,000 moves, got {}; remove rows of its history, use fewer cycles"
-    many, one_more = said.format("100,000"), said.format("10,001")
-    moves = (Dwell(1.0),) * 100_000
-    for make in (
-        lambda: replace(SPHERE, moves=moves),
-        lambda: Retraction(start=AtDepth(1e-6), speed=1e-6, moves=moves),
-    ):
-        with pytest.raises(InputError, match=many):
-            make()
-    path = tmp_path / "case.toml"
-    path.write_text(CASE + "cycles = 50000\n")
-    with pytest.raises(InputError, match=rf"case.toml, \[protocol\] .*{many}"):
-        read_case(path)
-    path.write_text(CASE + "cycles = 1000000000000\n")  # more than there is memory for
-    with pytest.raises(InputError, match="at most 10,000 moves"):
-        read_case(path)
-    path.write_text(CASE.replace('["approach', "[" + '"dwell 1 s",' * 9_999 + '"approach'))
-
-    def read():
-        with pytest.raises(InputError, match=rf"\[protocol\] .*{one_more}"):
-            read_case(path)
-
-    assert calls(read) < 10_000 * 60  # they are found in the file, and none of them is read
-    assert one_more in refused(capsys, *["--move", "dwell 1"] * 10_001)
-    assert len(replace(SPHERE, moves=moves[:MOST_MOVES]).moves) == MOST_MOVES
 
 
 def test_tables_have_a_bound(tmp_path, capsys):
@@ -122,12 +86,6 @@ def test_a_mesh_of_too_many_nodes_is_refused_before_there_is_a_matrix():
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert most < MOST_NODES**2  # bytes: a matrix has eight times as many
-
-
-def test_a_punch_narrower_than_its_cohesive_zone_has_few_nodes():
-    contact = PunchContact(1e-9, Layer(3.0), LennardJones(1.0, 1.0))
-    settings = Settings.for_accuracy(2e-3)
-    assert len(contact.grading(settings, 1.0).nodes(1e-9, 1e-9)) < 20
 
 
 @pytest.mark.march
@@ -186,15 +144,6 @@ def test_a_number_that_no_simulation_takes_is_named(problem, said):
             solve(problem)
 
     assert calls(refused_by_name) < 100_000  # a simulation makes millions
-
-
-def test_in_si_the_number_is_said_as_it_was_given(tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text(CASE + 'speed = "1 m/s"\n')
-    problem = read_case(path)
-    fast = replace(problem, protocol=replace(problem.protocol, speed=1e200))
-    with pytest.raises(InputError, match="the rate of the retraction .* which is 1e.200 m/s"):
-        solve(fast)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -20,13 +19,10 @@ from campaign_work import (
     slow,
     stand_in,
     told,
-    trouble,
-    unhurried,
 )
 from processes import until
-from viscotack import InputError
-from viscotack.campaign import NoWorker, Store, cluster, run
-from viscotack.campaign.cluster import Security, security_of
+from viscotack.campaign import Store, cluster, run
+from viscotack.campaign.cluster import security_of
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")
 HERE = Path(__file__).parent
@@ -145,100 +141,6 @@ def test_a_cluster_with_certificates_gives_the_same_table_when_a_worker_is_kille
         monkeypatch.setattr(cluster, "_CONNECT", 2.0)
         with pytest.raises(ConnectionError, match="no scheduler answers at 'tls://"):
             run(plan, tmp_path / "d", scheduler=dask.address, work=slow)
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
-
-
-def altered(folder):
-    """Return a copy of this program with other physics in it."""
-    import viscotack
-
-    shutil.copytree(
-        Path(viscotack.__file__).parent,
-        folder / "viscotack",
-        ignore=shutil.ignore_patterns("__pycache__"),
-    )
-    with (folder / "viscotack/bem/solver.py").open("a") as file:
-        file.write("# other physics\n")
-    return os.pathsep.join([str(HERE), str(folder)])
-
-
-def broken_package(folder):
-    """Return the path of a program that cannot begin."""
-    (folder / "viscotack").mkdir(parents=True)
-    (folder / "viscotack/__init__.py").write_text("raise ImportError('half an installation')\n")
-    return str(folder)
-
-
-@pytest.mark.slow
-def test_no_worker_no_case(tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "_FIRST", 5.0)
-    plan = plan_of(tmp_path, cases=4)
-    with held(tmp_path) as dask:
-        with pytest.raises(NoWorker, match="answers, but it has no workers; start some with"):
-            run(plan, tmp_path / "a", scheduler=dask.address, work=stand_in)
-        # one with altered physics, and one whose package cannot be imported
-        dask.hire(1, altered(tmp_path / "altered"))
-        dask.hire(1, broken_package(tmp_path / "broken"))
-        dask.await_workers(2)
-        with pytest.raises(NoWorker, match="of another program") as caught:
-            run(plan, tmp_path / "b", scheduler=dask.address, work=stand_in)
-        words = str(caught.value)
-        assert "source " in words and "it cannot begin: ImportError: half an installation" in words
-        assert Store(tmp_path / "b").failures().num_rows == 0
-        # beside one that is fit it is given nothing
-        dask.hire(1)
-        dask.await_workers(3)
-        assert run(plan, tmp_path / "b", scheduler=dask.address, work=stand_in).done == 4
-
-
-def test_three_files_or_none_are_needed_for_certificates(tmp_path):
-    assert security_of(None, None, None) is None
-    with pytest.raises(InputError, match="TLS needs three files"):
-        security_of(tmp_path, None, None)
-    for name in "abc":
-        (tmp_path / name).write_text("")
-    files = [tmp_path / name for name in "abc"]
-    assert security_of(*files) == Security(*files)
-    with pytest.raises(FileNotFoundError):
-        security_of(tmp_path / "d", *files[1:])
-
-
-@pytest.mark.slow
-def test_limits_bind_on_a_cluster_too(tmp_path, monkeypatch):
-    # no case that ends by itself takes so long, beside any load
-    plan = plan_of(tmp_path, cases=20, text="settings.time_limit = 3")
-    with held(tmp_path) as dask:
-        dask.hire(2)
-        end = run(plan, tmp_path / "c", scheduler=dask.address, work=trouble)
-    assert (end.done, end.failed) == (18, 2)
-    failures = Store(tmp_path / "c").failures().to_pylist()
-    assert {(row["rate"], row["failure"]) for row in failures} == {
-        (7.0, "worker died"),
-        (11.0, "time limit"),
-    }
-
-
-@pytest.mark.slow
-def test_a_thousand_cases_over_tls_with_workers_replaced_every_5_s_are_the_local_table(
-    tmp_path, monkeypatch, certificates
-):
-    plan, replaced = plan_of(tmp_path, cases=1000), [(time.monotonic(), 0)]
-    with held(tmp_path, certificates) as dask:
-        dask.hire(4)
-
-        def replace(now):
-            # on a machine that is busy a worker takes longer to begin, and another one is awaited
-            due = time.monotonic() - replaced[-1][0] > 5.0 and now.done > replaced[-1][1]
-            if due and len(replaced) < 40:
-                oldest = dask.workers[len(replaced) - 1]
-                oldest.send_signal(signal.SIGKILL if len(replaced) % 2 else signal.SIGTERM)
-                dask.hire()
-                replaced.append((time.monotonic(), now.done))
-
-        options = {"security": security_of(*certificates), "store_every": 0.5}
-        options |= {"scheduler": dask.address, "work": unhurried, "report": replace}
-        end = run(plan, tmp_path / "c", **options)
-    assert (end.done, end.failed) == (1000, 0) and len(replaced) > 5
     assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
 
 

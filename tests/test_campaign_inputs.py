@@ -1,7 +1,5 @@
 """Plans over any number of a problem: bodies, tips, laws, and what the machine does."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,6 @@ from viscotack import (
     AtForce,
     Bonded,
     Cone,
-    Dugdale,
     Dwell,
     FlatPunch,
     Groups,
@@ -22,7 +19,6 @@ from viscotack import (
     LennardJones,
     PowerLawProfile,
     Problem,
-    Prony,
     Retraction,
     StandardSolid,
     read_case,
@@ -156,38 +152,6 @@ def test_a_fill_goes_over_what_the_machine_does():
     assert len({p.geometry.slope for p in problems(plan)}) == 32
 
 
-SERIES = Problem(
-    material=Prony(rubbery_modulus=1e6, poisson_ratio=0.5, branches=((5e6, 1e-3), (4e6, 1.0))),
-    traction=Dugdale(work_of_adhesion=0.05, equilibrium_gap=1e-6),
-    geometry=Cone(slope=0.1),
-    protocol=Retraction(start=AtDepth(2e-6), speed=1e-4, stiffness=100.0),
-)
-
-
-@pytest.mark.parametrize("case", [PAD, CONE, TIP, SERIES])
-def test_every_number_with_a_card_is_an_input(case):
-    stated = {path: entry for path, entry in inputs_of(case).items() if entry.value is not None}
-    # the same value again is the same problem, whatever the number
-    for path, entry in stated.items():
-        over = {path: entry.value}
-        if path == "geometry.exponent":  # which alone would be another shape
-            over["geometry.coefficient"] = case.geometry.coefficient
-        plan = every_combination(case, over)
-        assert problems(plan) == [case], path
-    known = json.dumps([*stated])
-    assert all(word in known for word in ("work_of_adhesion", "poisson_ratio", "protocol.speed"))
-
-
-def test_units_are_those_of_the_geometry():
-    units = {path: entry.unit for path, entry in inputs_of(PAD).items()}
-    assert units["protocol.start.force"] == "Pa" and units["protocol.stiffness"] == "Pa/m"
-    assert inputs_of(CONE)["protocol.moves.0.to.force"].unit == "N"
-    entry = inputs_of(SERIES)["material.branches.0.1"]
-    assert (entry.unit, entry.value) == ("s", 1e-3)
-    first, second = problems(every_combination(SERIES, {entry.path: ["1 ms", "1 min"]}))
-    assert first == SERIES and (5e6, 60.0) in second.material.branches
-
-
 def test_points_whose_numbers_do_not_go_together_are_left_out_and_counted(tmp_path, capsys):
     over = {
         "material.rubbery_modulus": {"log": ["0.1 MPa", "10 MPa"]},
@@ -247,24 +211,6 @@ def test_a_fill_that_cannot_be_is_refused_with_its_place(base, over, words):
         space_filling(base, over, cases=8)
 
 
-def test_a_plan_none_of_whose_points_is_a_contact_is_refused():
-    # a tension beyond what the contact bears
-    with pytest.raises(InputError, match="none of its 1 points is a contact.*no relaxed contact"):
-        every_combination(CONE, {"protocol.start.depth": -1e-3})
-    hollow = {"protocol.start.depth": {"linear": [-2e-3, -1e-3]}}
-    with pytest.raises(InputError, match="none of its 20 points is a contact"):
-        space_filling(CONE, hollow, cases=20, method="latin-hypercube")
-
-
-def test_units_are_refused_where_there_are_none(tmp_path):
-    # the unit library knows an a0: the radius of an atom
-    text = "size = { log = ['1 um', '1 mm'] }\nthickness = 3.0\ncohesion = 0.05\n"
-    text = f'kind = "punch"\n[[fill]]\ncases = 4\n{text}modulus_ratio = 0.1\npreload = 1\nrate = 1'
-    (tmp_path / "p.toml").write_text(text)
-    with pytest.raises(InputError, match="size must be a number, .*dimensionless; got '1 um'"):
-        read_plan(tmp_path / "p.toml")
-
-
 def test_dimensionless_tests_with_moves_are_filled_from_python():
     reduced = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
     shape = PowerLawProfile(coefficient=0.5, exponent=2.0)
@@ -321,23 +267,3 @@ def test_a_case_of_such_a_plan_is_solved(tmp_path, monkeypatch):
     assert run(plan, tmp_path / "c").done == 2
     for row in Store(tmp_path / "c").results().to_pylist():
         assert row["pull_off_stress_Pa"] > 0 and 2e-5 <= row["body.thickness"] <= 6e-5
-
-
-def test_the_inputs_of_a_file_are_told(tmp_path, capsys):
-    (tmp_path / "pad.toml").write_text(PAD_FILE)
-    assert exit_status(["campaign", "inputs", tmp_path / "pad.toml"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    told = {line.split()[0]: line for line in lines}
-    assert (
-        "5e-05 m" in told["body.thickness"] and "thickness of the layer" in told["body.thickness"]
-    )
-    assert "2000 Pa" in told["protocol.start.force"]
-    assert exit_status(["campaign", "inputs", tmp_path / "pad.toml", "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["protocol.stiffness"]["value"] is None
-    assert answer["geometry.half_width"] == {
-        "value": 1e-3,
-        "unit": "m",
-        "words": "half width of the punch",
-    }
-    assert exit_status(["campaign", "inputs", tmp_path / "no.toml"]) == 2

@@ -9,7 +9,6 @@ import time
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
@@ -46,16 +45,6 @@ def strike_a_worker(process, chance):
     with suppress(OSError, IndexError):
         found = Path(f"/proc/{process}/task/{process}/children").read_text().split()
         os.kill(int(chance.choice(found)), signal.SIGKILL)
-
-
-def test_the_benchmark_of_kills_reads_a_campaign_without_a_result(tmp_path, monkeypatch):
-    monkeypatch.syspath_prepend(str(HERE.parent / "benchmarks"))
-    import kills
-
-    plan, _ = kills.planned(real=False)
-    Store.create(tmp_path, plan)
-    undisturbed = SimpleNamespace(plan=plan, whole=([], [], None, None))
-    assert kills.Harassed._checked(undisturbed, tmp_path, reported=0) == kills.CASES
 
 
 @pytest.mark.slow

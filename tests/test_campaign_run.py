@@ -3,7 +3,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -12,7 +11,6 @@ import pytest
 
 from campaign_work import (
     InlineCrew,
-    broken,
     crash_at_seven,
     deadly,
     employ,
@@ -20,10 +18,9 @@ from campaign_work import (
     interrupting,
     picky,
     plan_of,
-    rounded,
     stand_in,
 )
-from viscotack.campaign import AllCrashed, Store, run
+from viscotack.campaign import Store, run
 from viscotack.campaign.cluster import Gone
 from viscotack.campaign.running import PASSING
 
@@ -52,21 +49,6 @@ def test_every_case_is_run_once_and_stored(tmp_path, crew):
     assert sorted(crew.done) == rates(tmp_path / "c") == [float(i + 1) for i in range(20)]
     row = Store(tmp_path / "c").results().to_pylist()[3]
     assert row["pull_off_force"] == 0.25 and row["tabor"] == 1.0 and len(row["trajectory_force"])
-
-
-def test_a_row_keeps_the_inputs_of_its_plan_to_the_last_digit(tmp_path, crew):
-    plan = plan_of(tmp_path, cases=3)
-    run(plan, tmp_path / "c", work=rounded)
-    for case, row in zip(plan.cases, Store(tmp_path / "c").results().to_pylist(), strict=True):
-        assert {name: row[name] for name in case.inputs} == case.inputs
-        assert row["pull_off_force"] == 1 / row["rate"]
-
-
-def test_the_longest_case_comes_first(tmp_path, crew):
-    plan = plan_of(tmp_path)
-    run(plan, tmp_path / "c", work=stand_in)
-    # all else equal, slow retractions take longer
-    assert crew.done == sorted(crew.done)
 
 
 def test_what_is_stored_is_not_run_again(tmp_path, crew):
@@ -120,12 +102,6 @@ def table_of_undisturbed(tmp_path):
     return table(tmp_path / "undisturbed")
 
 
-def test_a_program_with_a_fault_is_not_let_loose_on_all_cases(tmp_path, crew):
-    with pytest.raises(AllCrashed, match="first 20 cases have all crashed.*a fault of the prog"):
-        run(plan_of(tmp_path, cases=100), tmp_path / "c", work=broken)
-    assert len(crew.done) < 30
-
-
 def test_what_is_reported_done_is_stored(tmp_path, crew):
     reports = []
 
@@ -172,13 +148,6 @@ def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
     assert table(folder).equals(table_of_undisturbed(tmp_path))
 
 
-def test_ctrl_c_ends_a_run_for_which_no_worker_has_come(tmp_path, crew, monkeypatch):
-    monkeypatch.setattr(crew, "room", lambda: 0)
-    monkeypatch.setattr(crew, "collect", lambda _: os.kill(os.getpid(), signal.SIGINT) or [])
-    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert end.stopped and end.done == 0
-
-
 def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
     collect = crew.collect
 
@@ -209,15 +178,6 @@ def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
     assert row["rate"] == 7 and row["failure"] == "worker died"
     # twice among others, once alone
     assert crew.alone == [False, False, True] and len(crew.deaths) == 6
-
-
-def test_a_case_is_not_blamed_for_machines_that_leave(tmp_path, monkeypatch):
-    crew = employ(monkeypatch, InlineCrew(deaths=[7.0] * 19, blame=False))
-    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert (end.done, end.failed) == (20, 0)
-    crew.deaths += [7.0] * 30
-    end = run(plan_of(tmp_path), tmp_path / "d", work=stand_in)
-    assert (end.done, end.failed) == (19, 1) and len(crew.deaths) == 10
 
 
 def test_a_lost_scheduler_ends_the_run_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
@@ -253,47 +213,6 @@ def test_a_full_disk_ends_the_run_and_leaves_a_store_that_opens(tmp_path, crew, 
     crew.done.clear()
     assert run(plan, folder, work=stand_in).done == 60
     assert not set(crew.done) & set(stored)
-
-
-def test_a_run_in_a_thread_leaves_signals_to_the_program(tmp_path, crew):
-    ended = []
-
-    def work():
-        ended.append(run(plan_of(tmp_path, cases=3), tmp_path / "c", work=stand_in))
-
-    before = signal.getsignal(signal.SIGTERM)
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join(60)
-    assert ended[0].done == 3 and signal.getsignal(signal.SIGTERM) is before
-
-
-def test_what_is_stored_at_once_has_an_end(tmp_path, crew, monkeypatch):
-    monkeypatch.setattr(import_module("viscotack.campaign.running"), "_PART", 7)
-    run(plan_of(tmp_path), tmp_path / "c", work=picky, store_every=1e9)
-    store = Store(tmp_path / "c")
-    sizes = [
-        sum(
-            part.rows
-            for parts in store.parts().values()
-            for part in parts.kept()
-            if part.span[0] == n
-        )
-        for n in (1, 2, 3)
-    ]
-    assert sizes == [7, 7, 6]
-
-
-def test_a_run_says_who_made_it(tmp_path, crew):
-    run(plan_of(tmp_path), tmp_path / "c", work=stand_in, workers=2)
-    (made,) = Store(tmp_path / "c").provenance["runs"]
-    assert made["done"] == 20 and made["workers"] == 2 and made["process"] == os.getpid()
-    assert {"began", "host", "platform", "python", "viscotack"} <= made.keys()
-
-
-def test_a_run_needs_workers(tmp_path):
-    with pytest.raises(ValueError, match="workers must be at least 1"):
-        run(plan_of(tmp_path), tmp_path / "c", workers=0)
 
 
 def test_processes_give_the_same_table(tmp_path, monkeypatch):
@@ -356,10 +275,3 @@ def test_ctrl_c_in_a_terminal_ends_a_run_in_order(tmp_path):
     last = int(out.split()[-1])
     assert last == Store(tmp_path / "c").results().num_rows < 400
     assert Store(tmp_path / "c").provenance["runs"][0]["stopped"] is True
-
-
-def test_a_scheduler_that_is_not_there_is_named(tmp_path, monkeypatch):
-    pytest.importorskip("distributed", reason="the cluster extra is not installed")
-    monkeypatch.setattr("viscotack.campaign.cluster._CONNECT", 0.2)
-    with pytest.raises(ConnectionError, match="no scheduler answers at 'tcp://127.0.0.1:9'"):
-        run(plan_of(tmp_path), tmp_path / "c", scheduler="tcp://127.0.0.1:9", work=stand_in)

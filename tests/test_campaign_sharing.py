@@ -1,7 +1,6 @@
 """Shards of one plan in folders of their own, and one folder of all."""
 
 import json
-from dataclasses import replace
 
 import pytest
 
@@ -30,14 +29,6 @@ def test_shards_have_all_cases_of_a_plan_each_once(tmp_path):
     assert [len(part.cases) for part in parts] == [7, 7, 6]
     assert {case.name for part in parts for case in part.cases} == {c.name for c in plan.cases}
     assert [part.cases[0].inputs["rate"] for part in parts] == [1.0, 2.0, 3.0]
-
-
-@pytest.mark.parametrize("shard", ["0/3", "4/3", "3", "a/b", "1/0", "-1/3", "1/3 "])
-def test_what_is_no_shard_is_refused(tmp_path, shard):
-    with pytest.raises(InputError, match="the third of twenty"):
-        shard_of(plan_of(tmp_path), shard)
-    with pytest.raises(InputError, match="20 cases has no 21 shards"):
-        shard_of(plan_of(tmp_path), "1/21")
 
 
 def test_merged_shards_are_the_whole_campaign(tmp_path, crew):
@@ -85,32 +76,6 @@ def test_what_does_not_belong_together_is_not_merged(tmp_path, crew, monkeypatch
         merge([one], one)
 
 
-def test_rows_of_an_earlier_plan_are_merged_too_and_once(tmp_path, crew):
-    run(plan_of(tmp_path, cases=5), tmp_path / "a", work=stand_in)
-    run(plan_of(tmp_path, cases=2), tmp_path / "a", work=stand_in)
-    run(plan_of(tmp_path, cases=4), tmp_path / "b", work=stand_in)
-    run(plan_of(tmp_path, cases=1), tmp_path / "b", work=stand_in)
-    store = merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
-    assert len(store.cases()) == 2
-    assert sorted(store.results().column("rate").to_pylist()) == [1, 2, 3, 4, 5]
-    assert sum(part.rows for part in store.parts()["results"].kept()) == 5
-
-
-def test_campaigns_of_another_kind_are_not_merged(tmp_path, crew):
-    run(plan_of(tmp_path / "p", cases=2), tmp_path / "a", work=stand_in)
-    other = plan_of(tmp_path / "q", cases=2)
-    run(replace(other, kind=replace(other.kind, name="punch")), tmp_path / "b", work=stand_in)
-    with pytest.raises(InputError, match="hold cases of another kind: they are no shards"):
-        merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
-    run(
-        plan_of(tmp_path / "r", cases=2, text='settings.until = "detached"'),
-        tmp_path / "c",
-        work=stand_in,
-    )
-    with pytest.raises(InputError, match="has until = pull-off, .* has detached"):
-        merge([tmp_path / "a", tmp_path / "c"], tmp_path / "m")
-
-
 def test_a_result_of_one_folder_stands_before_the_failure_of_another(tmp_path, crew):
     plan = plan_of(tmp_path, cases=10)
     run(plan, tmp_path / "a", work=picky)
@@ -156,33 +121,6 @@ def test_a_merge_that_was_killed_goes_on(tmp_path, crew, monkeypatch):
     assert told(out) == whole and not verify(Store(out)).wrong
     with pytest.raises(InputError, match="holds a campaign already"):
         merge(folders, out)
-
-
-def test_shards_that_have_cases_in_common_are_merged_once(tmp_path, crew):
-    plan = plan_of(tmp_path, cases=7)
-    one, two = shards(tmp_path, plan, count=2, work=stand_in)
-    run(plan, tmp_path / "all", work=stand_in)
-    store = merge([two, tmp_path / "all", one, two], tmp_path / "m")
-    assert not verify(store).wrong and store.results().num_rows == 7
-    # shards of one plan keep its order in whatever order they are given
-    assert merge([two, one, two], tmp_path / "n").cases() == plan.cases
-
-
-def test_a_folder_that_grows_during_a_merge_costs_no_row(tmp_path, crew, monkeypatch):
-    plan, add, grown = plan_of(tmp_path, cases=9), Store.add, []
-    last = max(case.name for case in plan.cases)
-    folders = shards(tmp_path, plan, work=stand_in)
-    folders.sort(key=lambda folder: any(c.name == last for c in Store(folder).cases()))
-
-    def growing(self, results, failures):
-        add(self, results, failures)
-        if not grown:
-            grown.append(folders[1])
-            add(Store(folders[1]), [{"name": "of another run"}], [])
-
-    monkeypatch.setattr(Store, "add", growing)
-    names = merge(folders, tmp_path / "m").results().column("name").to_pylist()
-    assert names == [case.name for case in plan.cases]
 
 
 def test_the_commands_share_and_merge(tmp_path, crew, capsys):

@@ -3,7 +3,6 @@
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 from contextlib import contextmanager, nullcontext
@@ -15,7 +14,6 @@ import synthetic
 from campaign_work import (
     at_rest,
     bare,
-    deadly,
     gated,
     growing,
     holding,
@@ -23,17 +21,15 @@ from campaign_work import (
     plan_of,
     stand_in,
     stubborn,
-    threads,
     waiting,
 )
 from processes import LONG, children, lives, state, until
 from viscotack import to_dict
 from viscotack.campaign import CaseSettings, NoWorker, Store, run
 from viscotack.campaign import local as local_module
-from viscotack.campaign.case import Answer, Lost
+from viscotack.campaign.case import Answer
 from viscotack.campaign.local import local
 from viscotack.pool import supervisor
-from viscotack.pool.line import Line
 from viscotack.system import peak_memory, resident_memory
 
 HERE = Path(__file__).parent
@@ -111,41 +107,6 @@ def test_a_suspended_worker_is_killed_at_the_time_limit(clock):
 
 @pytest.mark.slow
 @LINUX
-def test_a_suspended_worker_is_killed_when_it_gives_no_sign_of_life(clock, began, monkeypatch):
-    heard, receive = [], Line.receive
-
-    def listened(line):
-        found = receive(line)
-        heard.extend(found)
-        return found
-
-    monkeypatch.setattr(Line, "receive", listened)
-    with one(waiting, time_limit=600.0) as crew:
-        crew.hand(0, PROBLEM)
-        until(began)
-        for _ in range(2):
-            heard.clear()
-            clock.now += 59.0
-            assert crew.collect(0.0) == []
-            until(lambda: crew.collect(0.0) or ("alive", None) in heard)
-        assert lives(crew.processes()[0]), "it gives signs of life"
-        suspend(crew.processes()[0])
-        assert crew.collect(0.0) == []
-        clock.now += 60.1
-        assert answer_of(crew) == Lost("its worker process sent no heartbeat for 60 s")
-
-
-def test_a_run_that_was_halted_takes_no_case_for_slow(clock, monkeypatch):
-    monkeypatch.setattr(supervisor, "_LONGEST", 0.01)
-    with one(waiting, time_limit=1.0) as crew:
-        crew.hand(0, PROBLEM)
-        for _ in range(20):
-            clock.now += 100.0  # ctrl-Z, or a machine that slept
-            assert not crew.collect(0.0)
-
-
-@pytest.mark.slow
-@LINUX
 def test_a_case_that_takes_too_much_memory_is_ended():
     # what the worker has at rest is not counted, nor what an earlier case has left there
     with one(at_rest, memory_limit=100e6) as crew:
@@ -182,11 +143,6 @@ def test_workers_end_by_themselves_when_the_run_has_ended_and_at_once_when_it_ha
     assert (tmp_path / "peace/last words").exists()
 
 
-def test_the_memory_of_a_process_that_is_not_there_is_none():
-    assert resident_memory(99_999_999) == 0.0
-    assert resident_memory() > 1e7 and peak_memory() >= 0.9 * resident_memory()
-
-
 def test_the_limits_of_a_case_begin_with_it(clock):
     # neither the time at rest nor what an earlier case took is counted
     with one(stand_in, time_limit=1.0) as crew:
@@ -218,34 +174,6 @@ def test_a_worker_that_dies_at_rest_costs_no_case():
         assert answer_of(crew).row is not None
 
 
-def test_a_message_that_nobody_takes_does_not_hold_the_supervisor():
-    ours, theirs = socket.socketpair()
-    with theirs:
-        line = Line(ours)
-        with pytest.raises(TimeoutError):
-            line.send(b"x" * 10_000_000, 0.2)
-        line.close()
-    ours, theirs = socket.socketpair()
-    with theirs:
-        line, other = Line(ours), Line(theirs)
-        line.send(line.packed("one"), 5.0)
-        # the next one has all the time of the world
-        assert ours.gettimeout() is None
-        line.send(line.packed("two"))
-        assert other.receive() == ["one", "two"]
-        line.close()
-
-
-def test_workers_are_deaf_to_what_ends_their_parent_and_have_one_thread():
-    with one(threads) as crew:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            os.kill(crew.processes()[0], number)
-        crew.hand(0, PROBLEM)
-        row = answer_of(crew).row
-        assert row["OMP_NUM_THREADS"] == row["OPENBLAS_NUM_THREADS"] == "1"
-        assert row["MKL_NUM_THREADS"] == "1" and row["blas"] == 1
-
-
 def test_a_worker_that_cannot_begin_ends_the_run(tmp_path, monkeypatch):
     monkeypatch.setattr(bare, "__module__", "no_such_module")
     with pytest.raises((NoWorker, Exception), match="no_such_module|bare"):
@@ -257,31 +185,6 @@ def test_a_worker_that_cannot_begin_ends_the_run(tmp_path, monkeypatch):
     monkeypatch.setattr(supervisor, "_START", 0.2)
     with pytest.raises(NoWorker, match="did not start within 0.2 s"):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-
-
-def test_three_starts_in_a_row_that_come_to_nothing_end_a_run(monkeypatch):
-    good, wanted, asked = supervisor._program, ["bad", "bad", "good", "bad", "bad", "bad"], []
-
-    def program(*line):
-        asked.append(wanted[len(asked)])
-        return good(*line) if asked[-1] == "good" else "raise SystemExit(3)"
-
-    monkeypatch.setattr(supervisor, "_program", program)
-    with local(stand_in, CaseSettings(), 1) as crew:
-        ready(crew)
-        assert asked == wanted[:3]
-        os.kill(crew.processes()[0], signal.SIGKILL)
-        until(lambda: crew.collect(0.0) or not crew.processes())
-        with pytest.raises(NoWorker, match="3 worker processes in a row.*ended with status 3"):
-            ready(crew)
-    assert asked == wanted
-
-
-def test_a_worker_of_another_program_is_given_nothing(tmp_path, monkeypatch):
-    monkeypatch.setattr(local_module, "identity", lambda: {"viscotack": "0.0"})
-    with pytest.raises(NoWorker, match=r"viscotack \S+ and not 0.0.*changed while this run"):
-        run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert Store(tmp_path / "c").results().num_rows == 0
 
 
 RUN = """
@@ -346,9 +249,3 @@ def test_no_worker_outlives_its_parent(tmp_path, work):
         process.kill()
         process.wait()
         until(lambda: not any(map(lives, workers)))
-
-
-def test_the_death_of_a_worker_is_in_the_words(tmp_path):
-    with one(deadly) as crew:
-        crew.hand(0, PROBLEM.replace(f'"rate": {synthetic.GROUPS.rate}', '"rate": 7.0'))
-        assert answer_of(crew) == Lost("its worker process ended with status 1")

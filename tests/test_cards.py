@@ -1,6 +1,6 @@
 import json
 import re
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -9,26 +9,10 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.cards import Pairs, Quantity, cards, conform
-from viscotack.geometry import SHAPES
-from viscotack.materials.words import MODELS
-from viscotack.operations.declare.questions import PROFILE, PUNCH, SPHERE
+from viscotack.cards import Quantity, conform
 from viscotack.problem.schema import schema, words
-from viscotack.traction import LAWS
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-NOUNS = [*MODELS.values(), *LAWS.values(), *SHAPES.values()]
-every_noun = pytest.mark.parametrize("noun", NOUNS, ids=lambda noun: noun.__name__)
-
-
-@every_noun
-def test_every_number_that_can_be_set_has_a_card(noun):
-    # of a table: two pure numbers each; of a law that grows: the law at rest, with its own cards
-    plain = {"points", "base"}
-    known = {*cards(noun), *cards(noun, Pairs), *plain}
-    assert {field.name for field in fields(noun)} <= known
-    for field in cards(noun).values():
-        assert field.card.words and field.card.symbol and field.card.unit
 
 
 def test_a_number_out_of_its_range_is_refused_with_unit_range_and_cure():
@@ -48,28 +32,6 @@ def test_a_number_out_of_its_range_is_refused_with_unit_range_and_cure():
         Wall("1 m")
     with pytest.raises(ValueError, match="height must be finite"):
         Wall(float("nan"))
-
-
-@pytest.mark.parametrize("door", [SPHERE, PUNCH, PROFILE], ids=lambda door: door.word)
-def test_every_question_is_a_flag_of_its_command_and_says_its_card(door):
-    done = CliRunner().invoke(application(), ["simulate", door.word, "--help"])
-    told = " ".join(done.stdout.split())
-    for question in door.questions:
-        assert f"--{question.name} " in told
-        assert " ".join(question.words.split()) in told
-    for card in door.numbers.values():
-        assert card.words.partition(",")[0][1:] in told
-
-
-def test_a_changed_card_changes_flag_schema_and_words(monkeypatch):
-    card = cards(vt.Sphere)["radius"].card
-    # a card is frozen; only this test may write on it
-    object.__setattr__(card, "words", "radius of the ball")
-    try:
-        assert schema()["$defs"]["Sphere"]["properties"]["radius"]["description"].endswith("ball")
-        assert "radius of the ball" in words()
-    finally:
-        object.__setattr__(card, "words", "sphere radius")
 
 
 def test_the_table_of_the_symbols_is_read_from_the_cards():

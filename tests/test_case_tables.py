@@ -128,28 +128,12 @@ def test_a_pad_has_stresses():
     assert b"pull_off_stress [Pa]" in stream.getvalue().splitlines()[0]
 
 
-def test_rows_alone_and_answered_tables_are_refused(case):
-    with pytest.raises(vt.InputError, match="got rows, which change a problem"):
-        ask("predict", cases=[{"tabor": 1.0}])
-    with pytest.raises(vt.InputError, match="has the columns why already"):
-        ask("predict", problem=case, cases=[{"radius": 1e-3, "why": "x"}])
-
-
 def test_improbable_sizes_are_warned_about_for_one_problem_too(case, capsys):
     case.write_text(LENS.replace("100 um/s", "100 m/s"))
     warning = "protocol.speed of 100 m/s is improbable; check its unit"
     assert exit_status(["predict", case, "--json"]) == 0
     assert warning in capsys.readouterr().err
     assert warning in ask("advise", problem=case).notes
-
-
-def test_headings_without_dimensions_are_compared_without_case(tmp_path, capsys):
-    table = tmp_path / "cases.csv"
-    table.write_text("Tabor,Modulus ratio,EXPONENT,preload,Rate\n3.24,0.1,0.8,73,316.23\n")
-    assert exit_status(["predict", table, "--csv", "-"]) == 0
-    head, row = capsys.readouterr().out.splitlines()
-    assert head.startswith("Tabor,Modulus ratio,EXPONENT,preload,Rate,pull_off_force,")
-    assert row.startswith("3.24,0.1,0.8,73,316.23,7.33")
 
 
 def test_two_headings_of_one_number_are_refused(case):

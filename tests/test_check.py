@@ -1,8 +1,6 @@
 """Conformance: every noun of the package passes its check, and a broken one of each kind fails."""
 
-import itertools
 from dataclasses import dataclass, replace
-from datetime import date
 from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
@@ -12,7 +10,6 @@ import pytest
 
 import viscotack as vt
 from viscotack import check
-from viscotack.check import simulated
 from viscotack.forecast import theories
 from viscotack.forecast.learned import SOLIDS
 from viscotack.forecast.prediction import MEASURED
@@ -150,11 +147,6 @@ def test_observables_pass(observable):
     check.check_observable(observable).raise_if_failed()
 
 
-def solved(problem):
-    """Simulate roughly, to the pull-off."""
-    return simulated.run(problem, accuracy=2e-2)
-
-
 # --- a tier by the interface of tiers ------------------------------------------------------------
 
 
@@ -238,126 +230,6 @@ def test_the_tiers_of_the_package_pass(tier, monkeypatch):
 
 
 # --- every pair of nouns meets ------------------------------------------------------------------
-
-LOAD = vt.AtForce(1e-4)
-FACTORS: dict[str, dict[str, Any]] = {
-    "material": MATERIALS,
-    # relaxed contacts of a growth without an end are refused: test_ageing_interface.py
-    "law": {word: law for word, law in LAWS_CHECKED.items() if word != "logarithmic-ageing"},
-    "shape": SHAPES_CHECKED,
-    "body": {"half-space": vt.HalfSpace(), "foundation": FOUNDATION(2e-5)},
-    "protocol": {
-        "load": vt.Retraction(LOAD, 1e-4),
-        "depth": vt.Retraction(vt.AtDepth(1e-6), 1e-5),
-        "spring": vt.Retraction(LOAD, 1e-4, stiffness=100.0),
-        "dwell": vt.Retraction(LOAD, 1e-4, (vt.Dwell(0.01),)),
-        "approach": vt.Retraction(vt.Apart(5e-6), 1e-4, (vt.Approach(1e-4, LOAD),)),
-    },
-    "tier": {
-        "solve": solved,
-        "predict": vt.predict,
-        "advise": vt.advise,
-        "crack contact": vt.crack_contact,
-    },
-    "observable": {
-        "force": vt.pull_off_force,
-        "depth": vt.depth_at_pull_off,
-        "work": vt.work_to_pull_off,
-        "radius": observables.contact_radius_at_pull_off,
-        "own": LARGEST.function,
-    },
-}
-
-
-def covering(sizes, seed=3):
-    """Return rows of places such that each pair of values of any two factors meets in one."""
-    random = np.random.default_rng(seed)
-    pairs = {
-        (i, a, j, b)
-        for i, j in itertools.combinations(range(len(sizes)), 2)
-        for a in range(sizes[i])
-        for b in range(sizes[j])
-    }
-    rows = []
-    while pairs:
-        i, a, j, b = min(pairs)
-        # of some rows that hold one missing pair the one with most of the others
-        drawn = random.integers(0, sizes, (200, len(sizes)))
-        drawn[:, i], drawn[:, j] = a, b
-        met = [
-            {p for p in pairs if row[p[0]] == p[1] and row[p[2]] == p[3]} for row in drawn.tolist()
-        ]
-        best = max(range(len(met)), key=lambda n: len(met[n]))
-        rows.append(tuple(drawn[best].tolist()))
-        pairs -= met[best]
-    return rows
-
-
-ROWS = covering([len(values) for values in FACTORS.values()])
-
-
-def test_each_pair_of_values_meets_in_a_row():
-    for i, j in itertools.combinations(range(len(FACTORS)), 2):
-        met = {(row[i], row[j]) for row in ROWS}
-        sizes = [len(values) for values in FACTORS.values()]
-        assert len(met) == sizes[i] * sizes[j]
-    assert len(ROWS) < 80
-
-
-def answers_or_refuses(row):
-    """Ask a tier for a problem in SI: it answers within limits, or refuses in words."""
-    material, law, shape, body, protocol, tier, observable = (
-        list(values.values())[place] for values, place in zip(FACTORS.values(), row, strict=True)
-    )
-    try:
-        problem = vt.Problem(material, law, shape, protocol, body)
-        found = tier(problem)
-    except vt.InputError as error:
-        assert len(str(error).split()) > 3
-        return "refused"
-    if isinstance(found, vt.Result):
-        assert found.energy_residual is None or abs(found.energy_residual) < 0.05
-        # a flat end on springs detaches everywhere at once, and has no edge at its largest force
-        edgeless = isinstance(shape, vt.Disc) and body is FACTORS["body"]["foundation"]
-        of_edge = observable is observables.contact_radius_at_pull_off
-        assert np.isfinite(observable(found)) or (edgeless and of_edge)
-        assert (
-            vt.from_dict(vt.to_dict(problem), also=(MORSE, COLE_COLE, ROUNDED, FOUNDATION))
-            == problem
-        )
-        return "simulated"
-    if isinstance(found, vt.Prediction):
-        low, high = found.interval
-        assert 0 < low <= found.pull_off_force <= high
-        return "predicted"
-    return "answered"
-
-
-def named(row):
-    return ", ".join(
-        list(values)[place] for values, place in zip(FACTORS.values(), row, strict=True)
-    )
-
-
-# another part of the rows every day
-TODAY = [ROWS[(date.today().toordinal() * 2 + i) % len(ROWS)] for i in range(2)]
-
-
-@pytest.mark.parametrize("row", TODAY, ids=named)
-def test_two_rows_of_the_day_answer_or_refuse_in_words(row):
-    answers_or_refuses(row)
-
-
-@pytest.mark.slow
-def test_all_rows_answer_or_refuse_in_words():
-    # a sphere on a half-space, which all but the contact with a steady crack know
-    plain = [answers_or_refuses((0, 0, 0, 0, 0, tier, 0)) for tier in range(3)]
-    assert plain == ["simulated", "predicted", "answered"]
-    kinds = [answers_or_refuses(row) for row in ROWS]
-    # simulation takes every noun
-    solving = [kind for row, kind in zip(ROWS, kinds, strict=True) if row[5] == 0]
-    assert set(solving) == {"simulated"}
-    assert "refused" in kinds
 
 
 # --- twenty broken nouns -------------------------------------------------------------------------

@@ -1,6 +1,5 @@
 import json
 import os
-import re
 import subprocess
 import sys
 import threading
@@ -14,7 +13,6 @@ from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
 from viscotack import methods
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
-from viscotack.operations.declare import questions
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.result import load
@@ -135,102 +133,10 @@ def test_scales_with_units_turn_groups_into_si(fake, capsys):
     assert answer["pull_off_force_N"] == pytest.approx(3.7248e-3, rel=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        ("", "--tabor, --modulus-ratio, --exponent and --rate missing .* exactly one of --preload"),
-        ("--material elastic --preload 3", "--tabor missing"),
-        ("--material sls --tabor 2 --modulus-ratio 0.1 --preload 3", "--rate missing"),
-        ("--material elastic --tabor 2", "exactly one of --preload, .* got none"),
-        (
-            "--material elastic --tabor 2 --preload 3 --preload-force 1",
-            "got --preload and --preload-force",
-        ),
-        ("--material elastic --tabor 2 --preload 3 --exponent 1", "--exponent is not an option of"),
-        ("--material rubber --tabor 2 --preload 3", "--material must be .*power-law, elastic, sls"),
-        ("--material prony --tabor 2 --preload 3", "prony:FILE.* got 'prony'"),
-        ("--material elastic:x --tabor 2 --preload 3", "--material must be"),
-        ("--material prony:no.csv --tabor 2 --preload 3 --rate 1", "there is no file no.csv"),
-        ("--material elastic --tabor -2 --preload 3", "--tabor must be positive, got -2.0$"),
-        ("--material elastic --tabor nan --preload 3", "--tabor must be finite, got nan"),
-        ("--material elastic --tabor 2 --preload nan", "--preload must be finite, got nan$"),
-        ("--material elastic --tabor 2 --preload-force inf", "--preload-force must be .* got inf$"),
-        ("--material elastic --tabor 2 --preload-radius 0", "--preload-radius must be .* got 0.0$"),
-        (
-            "--material elastic --tabor 2 --preload 1e300",
-            "--preload 1e.300 at --tabor 2 gives a contact radius of .* limit of 1000",
-        ),
-        ("--material elastic --tabor 2 --preload-force 1e300", "limit of 1000"),
-        ("--material elastic --tabor 2 --preload-force 1e12", "limit of 1000"),
-        ("--material elastic --tabor 2 --preload-radius 1e10", "limit of 1000"),
-        ("--material elastic --tabor 1e-300 --preload 3", "--tabor must be at least 1e-06"),
-        (
-            "--tabor 2 --modulus-ratio 10 --exponent 1 --preload 3 --rate 1",
-            "rubbery over the glassy modulus, in .0, 1., got 10; did you mean 0.1",
-        ),
-        (
-            "--tabor 2 --modulus-ratio 0 --exponent 1 --preload 3 --rate 1",
-            "--modulus-ratio must be positive",
-        ),
-        (
-            "--tabor 2 --modulus-ratio 0.1 --exponent 0 --preload 3 --rate 1",
-            "--exponent must be positive",
-        ),
-        (
-            "--tabor 2 --modulus-ratio 0.1 --exponent 1 --preload 3 --rate 0",
-            "--rate must be positive",
-        ),
-        ("nothing.toml", "there is no file nothing.toml"),
-        ("nothing.toml --tabor 2 --rate 3", "defines the whole problem; remove --tabor, --rate"),
-        (
-            "--material elastic --tabor 2 --preload 3 --plot x.docx",
-            "the file name must end in one of",
-        ),
-        (
-            "--material elastic --tabor 2 --preload 3 --csv /nowhere/x.csv",
-            "folder /nowhere does not exist",
-        ),
-        (
-            "--material elastic --tabor 2 --preload 3 --save /nowhere/x.npz",
-            "folder /nowhere does not exist",
-        ),
-        ("--tabor two", "tabor"),
-        ("--until never", "until"),
-        ("--colour red", "--colour"),
-    ],
-)
-def test_wrong_flags_are_refused_in_words(flags, words, fake, capsys):
-    message = wrong([*SPHERE, *flags.split()], capsys)
-    assert re.search(words, message.strip()), message
-    assert "problem" not in fake
-
-
 def test_a_repeated_option_with_one_value_is_refused(fake, capsys):
     assert exit_status([*SPHERE, *ISSUE, "--tabor", 4]) == 2
     assert "for '--tabor': it is given twice and has one value" in capsys.readouterr().err
     assert exit_status([*SPHERE, *ISSUE, "--json", "--json"]) == 0
-
-
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"radius": None}, "--radius missing to go to SI"),
-        ({"tau0": None}, "--tau0 missing to go to SI"),
-        (
-            {"work_of_adhesion": None},
-            "exactly one of --equilibrium-gap and --work-of-adhesion, got none",
-        ),
-        ({"equilibrium_gap": "1 um"}, "exactly one of .* got both"),
-        ({"radius": "5.19"}, "--radius: '5.19' has no unit"),
-        ({"radius": "5.19 kg"}, '--radius: .* a quantity in m; for example --radius "5.19 mm"'),
-        ({"radius": "5.19 um"}, "exceeds small strain|too long"),
-        ({"poisson_ratio": "0.7"}, "poisson_ratio must lie between 0 and 0.5"),
-        ({"radius": "1e300 m"}, "too large or too small to compute with; check its unit"),
-    ],
-)
-def test_wrong_scales_are_refused_in_words(changes, words, fake, capsys):
-    message = wrong([*SPHERE, *ISSUE, *scales(**changes)], capsys)
-    assert re.search(words, message), message
 
 
 def test_elastic_and_prony_do_not_need_a_time(fake, capsys):
@@ -246,23 +152,6 @@ def test_elastic_and_prony_do_not_need_a_time(fake, capsys):
 def test_a_start_that_does_not_exist_is_wrong_input(capsys):
     start = "--material elastic --tabor 3.24 --preload -300".split()
     assert "no relaxed contact exists" in wrong([*SPHERE, *start], capsys)
-
-
-@pytest.mark.parametrize(
-    "broken",
-    [
-        lambda *problem, **options: int(np.float64("nan")),
-        lambda *problem, **options: np.linalg.cholesky(-np.eye(2)),
-        lambda *problem, **options: 1 / 0,
-    ],
-)
-def test_a_defect_is_not_taken_for_wrong_input(broken, monkeypatch, capsys):
-    """ValueErrors as well: only those that the package words itself are about the input."""
-    monkeypatch.setattr(methods, "solve", broken)
-    assert exit_status([*SPHERE, *ELASTIC]) == 3
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert "Traceback" in err and "a defect of viscotack and not of the input" in err
 
 
 @pytest.mark.parametrize("command", [SPHERE, ["advise"], ["show"]])
@@ -409,12 +298,6 @@ def test_every_kind_of_plot_is_drawn(kind, fake, tmp_path, monkeypatch):
     }[kind]
 
 
-def test_showing_what_is_no_result_is_wrong_input(tmp_path, capsys):
-    (tmp_path / "x.npz").write_text("hello")
-    assert "not a readable result" in wrong(["show", tmp_path / "x.npz"], capsys)
-    assert "there is no file" in wrong(["show", tmp_path / "y.npz"], capsys)
-
-
 def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
     from test_case_file import LENS, POWER_LAW
 
@@ -428,34 +311,12 @@ def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
     assert "[sphere] radius: '5.19' has no unit" in wrong([*SPHERE, path], capsys)
 
 
-def test_help_is_for_strangers(capsys):
-    assert exit_status([*SPHERE, "--help"]) == 0
-    out = " ".join(capsys.readouterr().out.split())
-    for words in (
-        "Pull a rigid sphere off",
-        "--tabor 3.24 --modulus-ratio 0.1",
-        "1.5 pi R dg0, positive in compression",
-        "(pi R^2 dg0/E0*)^(1/3)",
-        "'modulus_ratio,relaxation_time_s'",
-        "The unit of time",
-        "docs/input.md",
-    ):
-        assert words in out, words
-    assert exit_status(["--help"]) == 0
-    assert "simulate" in capsys.readouterr().out
-
-
 def test_version_is_printed_by_the_installed_command():
     done = subprocess.run(
         [sys.executable, "-m", "viscotack", "--version"], capture_output=True, text=True, check=True
     )
     assert done.stdout == f"viscotack {viscotack.__version__}\n"
     assert done.stderr == ""
-
-
-def test_flags_that_nobody_gave_are_none():
-    given = {"tabor": 2.0, "material": "elastic", "preload": 3.0, "rate": None, "exponent": None}
-    assert questions.stated(questions.SPHERE, given).groups().rate == 1
 
 
 def test_a_true_simulation_from_a_terminal(tmp_path):

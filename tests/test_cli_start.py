@@ -6,8 +6,6 @@ import sys
 
 import pytest
 
-from viscotack.operations import Declared, declared, operations
-
 PREDICT = "predict sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 1 --rate 10"
 # Never imported by a list of commands; never by the help of a command; never by a prediction.
 LISTED = ("numpy", "scipy", "pint", "matplotlib", "rich", "pyarrow", "viscotack.geometry")
@@ -41,15 +39,6 @@ def loaded(arguments, modules):
 )
 def test_a_command_imports_nothing_that_it_does_not_need(arguments, modules):
     assert loaded(arguments, modules) == "[]"
-
-
-def test_operations_are_listed_as_their_modules_declare_them():
-    imported = {
-        word: Declared(word, kind.__doc__, kind.__module__.rpartition(".")[2], kind.helps)
-        for word, kind in operations().items()
-    }
-    assert len(imported) > 20
-    assert declared() == imported
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,6 @@ from viscotack.app.cli import application
 from viscotack.bem.live import LiveContact
 from viscotack.bem.settings import Settings
 from viscotack.control import (
-    ForceTable,
     Release,
     c_header,
     fmu,
@@ -157,13 +156,6 @@ def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
     assert release.drive_speed(-1e-6, -3.9e-3) == -release.speed and release.past
 
 
-def test_the_drive_is_not_asked_for_more_than_it_can(table):
-    drive = table.start_depth + 1e-3 / 10.0
-    free = Release(table, 4e-3, 10.0, 1e-3).drive_speed(drive, 1e-3)
-    assert free < -1e-3
-    assert Release(table, 4e-3, 10.0, 1e-3, fastest=1e-3).drive_speed(drive, 1e-3) == -1e-3
-
-
 @pytest.mark.parametrize(
     "make, words",
     [
@@ -198,19 +190,6 @@ def test_a_punch_and_a_pull_from_its_largest_tension_are_refused():
         force_table(punch, 1e-5, 1e-4)
 
 
-def test_a_release_that_takes_too_long_is_refused(table):
-    for limit in (1e-6, 0.05):
-        with pytest.raises(InputError, match="time limit of .* before the contact detached"):
-            let_go(PAD, Release(table, 4e-3, 100.0, 1e-4), time_limit=limit)
-
-
-def test_a_used_controller_is_refused(table):
-    release = Release(table, 4e-3, 100.0, 1e-3)
-    release.drive_speed(0.0, 0.0)
-    with pytest.raises(InputError, match="used before"):
-        let_go(PAD, release)
-
-
 def test_every_door_answers_alike(tmp_path, monkeypatch):
     shutil.copy(LENS, tmp_path)
     monkeypatch.chdir(tmp_path)
@@ -235,11 +214,6 @@ def test_the_command_writes_all_and_lets_go(tmp_path):
     assert release["pull_off_force_N"] == pytest.approx(4.8e-3, rel=0.03)
     sizes = {name: (tmp_path / name).stat().st_size for name in names}
     assert min(sizes.values()) > 200 and sizes["control.png"] > 10_000
-
-
-def test_a_stiffness_without_a_release_is_refused():
-    with pytest.raises(InputError, match="give wanted too"):
-        vt.ask("control", problem=LENS, **SMALL, stiffness="300 N/m")
 
 
 # Other readers of the table: a C compiler, a tool for FMUs, Octave
@@ -300,18 +274,6 @@ def test_a_program_in_c_reads_the_same_digits_and_controls_alike(table, tmp_path
 
 
 @pytest.mark.outside
-def test_octave_reads_the_same_digits(table, tmp_path):
-    octave = shutil.which("octave-cli") or pytest.skip("Octave is not installed")
-    asked, said = points(table)
-    np.savetxt(tmp_path / "in.txt", asked, fmt="%.17g")
-    (tmp_path / "contact.m").write_text(octave_function(table))
-    write = "dlmwrite('out.txt', [f s p], 'delimiter', ' ', 'precision', '%.17g')"
-    script = f"x = load('in.txt'); [f, s, p] = contact(x(:, 1), x(:, 2)); {write}"
-    subprocess.run([octave, "--eval", script], cwd=tmp_path, check=True, capture_output=True)
-    same(np.loadtxt(tmp_path / "out.txt"), said)
-
-
-@pytest.mark.outside
 def test_an_fmu_answers_the_same_digits(table, tmp_path):
     asked, said = points(table)
     with zipfile.ZipFile(_written(tmp_path, fmu(table))) as archive:
@@ -338,27 +300,6 @@ def test_an_fmu_answers_the_same_digits(table, tmp_path):
     same(np.array(found), said)
 
 
-@pytest.mark.outside
-def test_a_tool_for_fmus_accepts_and_runs_it(table, tmp_path):
-    fmpy = pytest.importorskip("fmpy")
-    from fmpy.validation import validate_fmu
-
-    file = str(_written(tmp_path, fmu(table)))
-    assert validate_fmu(file) == []
-    depth = float(table.start_depth - table.travel[0, 0])
-    given = np.array(
-        [(0.0, table.start_depth, 5e-5), (1.0, depth, 5e-5)],
-        dtype=[("time", float), ("depth", float), ("speed", float)],
-    )
-    ran = fmpy.simulate_fmu(file, stop_time=1.0, step_size=0.25, input=given, output=["force"])
-    ours = [
-        table.force_at(table.start_depth + t * (depth - table.start_depth), 5e-5)
-        for t in ran["time"]
-    ]
-    # a step takes the inputs of its beginning
-    np.testing.assert_allclose(ran["force"][1:], ours[:-1], rtol=1e-9)
-
-
 def _written(folder, content):
     (folder / "contact.fmu").write_bytes(content)
     return folder / "contact.fmu"
@@ -382,8 +323,3 @@ def test_the_fmu_states_its_units_and_holds_its_sources(table, tmp_path, monkeyp
         assert text in description
     token = description.split('instantiationToken="')[1].split('"')[0]
     assert token in built["fmu.c"] and "grip_force" in built["fmu.c"]
-
-
-def test_a_table_is_the_same_again():
-    first, second = (force_table(PAD, 1e-4, 2e-4, tolerance=0.2, accuracy=0.02) for _ in range(2))
-    assert isinstance(first, ForceTable) and c_header(first) == c_header(second)

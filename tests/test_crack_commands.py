@@ -48,29 +48,6 @@ def test_a_speed_in_si_is_one_over_its_unit(capsys):
     assert answer["zone_length_m"][0] == pytest.approx(answer["zone_length"][0] * 4e-11)
 
 
-def test_words_and_picture_of_the_range_that_matters(capsys, tmp_path):
-    picture = tmp_path / "crack.png"
-    assert exit_status(["theory", "steady-crack", "--modulus-ratio", 0.3, "--plot", picture]) == 0
-    assert picture.stat().st_size > 1000
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[0].split()[:2] == ["speed", "amplification"]
-    assert len(lines) == 42
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        (["--modulus-ratio", 0.1, "--speed", "1 um/s"], "has a unit; it needs --contact-modulus"),
-        (["--modulus-ratio", 0.1, *SI[:4]], "--equilibrium-gap and --tau0 missing"),
-        (["--material", "elastic"], "amplification of 1"),
-        (["--speed", 1], "--modulus-ratio missing"),
-    ],
-)
-def test_wrong_input_is_refused_in_words(flags, words, capsys):
-    assert exit_status(["theory", "steady-crack", *flags]) == 2
-    assert words in capsys.readouterr().err
-
-
 def test_a_contact_with_a_crack_for_its_edge_in_json_csv_and_a_picture(capsys, tmp_path):
     curve, picture = tmp_path / "curve.csv", tmp_path / "curve.png"
     problem = ["--tabor", 1e4, "--material", "sls", "--modulus-ratio", 0.1]

@@ -39,16 +39,6 @@ INPUTS = {
 }
 
 
-# What the card says of `broad` and `chosen`: least and largest.
-RANGE = {
-    "tabor": (0.01, 10),
-    "modulus_ratio": (1e-4, 0.7),
-    "exponent": (0.15, 2),
-    "preload": (0.005, 500),
-    "rate": (0.01, 1e10),
-}
-
-
 # Tests of one set follow each other; all sets at once are half a gigabyte.
 loaded = lru_cache(maxsize=2)(datasets.load)
 
@@ -122,23 +112,6 @@ def test_fewer_than_one_case_in_a_thousand_fails(named):
     assert len(facts["failures"]) < most.get(name, 1e-3) * facts["cases"]
 
 
-def test_the_metadata_of_each_data_set_are_consistent(named):
-    name, table = named
-    punch = kind_of(name) == "punch"
-    force = "stress" if punch else "force"
-    peak = numbers(table, f"pull_off_{force}")
-    assert np.all(np.isfinite(peak) & (peak > 0))
-    line = np.array(table.column(f"trajectory_{force}").to_pylist())
-    assert line.shape == (table.num_rows, 24)
-    # pull-off is the end of the trajectory, in the sign of the column
-    assert line[:, -1] == pytest.approx(peak if punch else -peak, rel=1e-6)
-    # depth at the pull-off is the start less the travel; both keep seven digits
-    start, travel = numbers(table, "preload"), numbers(table, "travel_to_pull_off")
-    off = np.abs(start - travel - numbers(table, "depth_at_pull_off"))
-    assert np.all(off <= 1e-6 * (np.abs(start) + travel))
-    assert np.all(numbers(table, "energy_residual") < 1e-2)
-
-
 def gathered(count):
     """Return shares of a part of the trajectory that is kept at so many points."""
     return 1 - (1 - np.arange(count) / (count - 1)) ** 2
@@ -200,46 +173,6 @@ def test_the_inputs_of_thesis_have_the_statistics_of_table_a1(column):
     assert (x.min(), x.max()) == pytest.approx((low, high), abs=2e-3)
 
 
-@pytest.mark.parametrize("name", ["broad", "fast", "punch"])
-def test_a_filled_set_is_spread_evenly(name):
-    table = loaded(name)
-    for column in INPUTS[kind_of(name)]:
-        x = np.log(numbers(table, column))
-        if np.ptp(x):
-            shares = np.histogram(x, bins=4, range=(x.min(), x.max()))[0] / len(x)
-            assert shares == pytest.approx(0.25, abs=0.02)
-
-
-@pytest.mark.parametrize("name", ["broad", "chosen"])
-def test_a_set_is_within_the_range_of_broad_and_reaches_its_ends(name):
-    table = loaded(name)
-    faces = np.zeros(table.num_rows, dtype=bool)
-    for column, (least, largest) in RANGE.items():
-        x = numbers(table, column)
-        assert least <= x.min() < 1.02 * least and 0.98 * largest < x.max() <= largest
-        faces |= np.isin(x, (least, largest))
-    assert faces.sum() == {"broad": 0, "chosen": 542}[name]
-
-
-def test_in_fast_nothing_relaxes():
-    table = loaded("fast")
-    assert table.num_rows == 4096
-    assert set(numbers(table, "exponent")) == {2.0} and set(numbers(table, "rate")) == {1e16}
-    quick = np.flatnonzero(numbers(table, "steps") < 100)
-    for place in np.random.default_rng(6).choice(quick, 3, replace=False):
-        (row,) = table.slice(place, 1).to_pylist()
-        other = {name: row[name] for name in INPUTS["sphere"]} | {"exponent": 1.0, "rate": 1e13}
-        result = solve(
-            KINDS["sphere"].problem(other),
-            until="pull-off",
-            accuracy=row["accuracy"],
-            estimate_error=False,
-        )
-        peak, work = pull_off(result).force, work_to_pull_off(result)
-        assert peak == pytest.approx(row["pull_off_force"], rel=row["force_error"], abs=0)
-        assert work == pytest.approx(row["work_to_pull_off"], rel=row["work_error"], abs=0)
-
-
 def test_the_limits_of_punches_are_elastic_layers_and_fast_ones():
     table = loaded("punch_limits")
     elastic = numbers(table, "modulus_ratio") == 1
@@ -273,10 +206,6 @@ def test_rows_are_what_the_solver_gives(name):
         assert work_to_pull_off(result) == pytest.approx(work, rel=row["work_error"], abs=0)
 
 
-def test_the_files_are_small():
-    assert sum(datasets.path(name).stat().st_size for name in datasets.NAMES) < 50e6
-
-
 def test_a_damaged_file_is_refused(tmp_path, monkeypatch):
     content = bytearray(datasets.path("punch").read_bytes())
     content[len(content) // 2] ^= 1
@@ -285,11 +214,6 @@ def test_a_damaged_file_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "path", lambda name: damaged)
     with pytest.raises(ValueError, match="is damaged or of another version: its SHA-256 is"):
         datasets.load("punch")
-
-
-def test_an_unknown_set_is_refused():
-    with pytest.raises(ValueError, match=f"there are {', '.join(datasets.NAMES)}"):
-        datasets.load("thesys")
 
 
 @pytest.mark.slow

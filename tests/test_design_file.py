@@ -10,11 +10,7 @@ from front_ends import Http, Question, through_all
 from viscotack.app.cli import application
 from viscotack.design import Bounds, Targets, read_design
 from viscotack.errors import InputError
-from viscotack.materials import published
-from viscotack.operations import ask
-from viscotack.pictures.design import draw_design
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "design" / "lift_and_let_go.toml"
 SMALL = """
 [targets]
 hold = "5 mN"
@@ -60,26 +56,6 @@ def test_a_file_states_targets_bounds_material_and_interface(small):
     assert found.traction.equilibrium_gap == pytest.approx(1e-7)
 
 
-def test_the_example_names_a_published_material():
-    found = read_design(EXAMPLE)
-    assert found.materials["pdms-10-1"] == published("pdms-10-1").material
-    assert found.space.pads == Bounds(1, 12)
-    assert found.space.area == pytest.approx(1e-3)
-
-
-def test_materials_to_choose_from_have_names(small):
-    rubber = SMALL[SMALL.index("[material]") : SMALL.index("[interface]")]
-    pdms = '[[materials]]\nname = "pdms"\npassport = "pdms-10-1"\ntemperature = "0 degC"\n'
-    named = rubber.replace("[material]", '[[materials]]\nname = "rubber"')
-    small.write_text(SMALL.replace(rubber, named + pdms))
-    found = read_design(small).materials
-    assert list(found) == ["rubber", "pdms"]
-    assert found["pdms"].tau0 > published("pdms-10-1").material.tau0
-    small.write_text(SMALL.replace(rubber, pdms + pdms))
-    with pytest.raises(InputError, match="a name of its own; number 2 has 'pdms'"):
-        read_design(small)
-
-
 @pytest.mark.parametrize(
     "old, new, words",
     [
@@ -108,12 +84,6 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
         read_design(small)
 
 
-def test_a_target_without_its_speed_is_refused(small):
-    small.write_text(SMALL.replace('release_speed = "1 um/s"\n', ""))
-    with pytest.raises(InputError, match="bounds of the release_speed"):
-        ask("design", file="small.toml")
-
-
 def test_all_front_ends_answer_alike(small):
     client = Http()
     try:
@@ -139,23 +109,3 @@ def test_the_command_writes_a_table_and_a_picture(small):
     assert row["meets"] == "True"
     assert float(row["simulated_hold_N"]) == pytest.approx(float(row["hold_N"]), rel=0.05)
     assert Path("d.svg").stat().st_size > 5000
-
-
-def test_words_state_the_bound_of_a_target_out_of_reach(small):
-    small.write_text(SMALL.replace('hold = "5 mN"', 'hold = "60 mN"'))
-    answer = ask("design", file="small.toml")
-    assert answer.found.meets is False
-    assert "the targets are not met" in answer.words()
-    assert "out of reach: ratio of at least 24; the solid permits at most 10." in answer.words()
-    assert "1/k = 10" in answer.words()
-    axes = draw_design(answer.found, read_design(small)).axes
-    assert "worst target -" in axes[0].get_title(loc="left") + axes[0].get_title()
-
-
-def test_words_state_what_the_speeds_reach(small):
-    # 8 is less than 1/k
-    text = SMALL.replace('hold = "5 mN"', "ratio = 8").replace('"1 mm/s"', '"100 um/s"')
-    small.write_text(text)
-    words = ask("design", file="small.toml").words()
-    assert "out of reach: ratio of at least 8; designs between the bounds reach at most" in words
-    assert "a hold speed of 100 um/s and a release speed of 1 um/s" in words

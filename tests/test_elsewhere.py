@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from app_server import running
-from benchmarks import docs_check
+from docs import sessions as docs_check
 
 PAGE = docs_check.ROOT / "docs/elsewhere.md"
 

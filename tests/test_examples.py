@@ -1,10 +1,6 @@
 """Every example runs, with fast settings where it takes any, and says what it should."""
 
 import importlib.util
-import re
-import subprocess
-import sys
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -102,20 +98,6 @@ def test_lens_from_a_file_is_the_lens_of_the_demo():
     assert vt.run_id(case) == vt.run_id(demo.lens(demo.PDMS, 100e-6))
 
 
-@pytest.mark.slow
-def test_command_in_the_file_runs(tmp_path):
-    command = [sys.executable, "-m", "viscotack", "simulate", "sphere"]
-    options = ["--accuracy", "1e-2", "--until", "pull-off", "--csv", str(tmp_path / "lens.csv")]
-    done = subprocess.run(
-        [*command, str(EXAMPLES / "from_toml" / "lens.toml"), *options],
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    assert done.returncode == 0, done.stderr
-    assert "pull-off force" in done.stdout and (tmp_path / "lens.csv").is_file()
-
-
 def test_the_loop_is_largest_at_a_middle_speed(tmp_path, capsys):
     example = load("hysteresis")
     results = example.main(accuracy=1e-2, picture=tmp_path / "loops.png")
@@ -171,32 +153,3 @@ def test_a_probe_on_a_gel_snaps_in_and_lets_go():
     # between the elastic forces of relaxed and instantaneous moduli: 1.5 to 2 pi R dg, over k
     unit = 1.5 * np.pi * 10e-6 * 30e-6
     assert unit < force < 4 / 3 * unit * 2
-
-
-def load_pages():
-    """Return the module of the site that prepares the examples."""
-    spec = importlib.util.spec_from_file_location(
-        "example_pages", EXAMPLES.parent / "docs/example_pages.py"
-    )
-    pages = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(pages)
-    return pages
-
-
-def test_every_example_has_a_title_for_its_page_of_the_site():
-    pages = load_pages()
-    for example in EXAMPLES.glob("*.py"):
-        title, line, empty, *_ = pages.with_title(example.read_text()).split("\n")
-        assert 10 < len(title) - 3 == len(line) < 100 and set(line) == {"="} and empty == ""
-        assert not title.endswith(".")
-
-
-def test_the_archive_of_the_site_has_every_file_that_a_command_of_a_page_names(tmp_path):
-    pages = load_pages()
-    pages.pack(tmp_path / "examples.zip")
-    names = set(zipfile.ZipFile(tmp_path / "examples.zip").namelist())
-    text = "".join(path.read_text("utf-8") for path in (EXAMPLES.parent / "docs").glob("*.md"))
-    blocks = "".join(re.findall(r"```console\n(.*?)```", text, re.DOTALL))
-    named = set(re.findall(r"examples/[\w/.-]+\.(?:toml|csv|py)", blocks))
-    assert len(named) > 15 and named | {"lens.toml"} <= names
-    assert not any("__pycache__" in name for name in names)

@@ -39,14 +39,6 @@ def test_an_editable_checkout_gets_an_extra_in_place(monkeypatch, tmp_path):
     assert install_command("lab") == "python -m pip install -e '.[lab]'"
 
 
-def test_a_package_on_the_path_without_installation_gets_an_extra_by_name(monkeypatch):
-    def missing(name):
-        raise metadata.PackageNotFoundError(name)
-
-    monkeypatch.setattr(metadata, "distribution", missing)
-    assert install_command("lab") == "python -m pip install 'viscotack[lab]'"
-
-
 def test_every_extra_in_messages_and_pages_exists():
 
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]

@@ -1,14 +1,11 @@
 """Advice on films, discs and profiles: limits by theory, thickness of a half-space, saturation."""
 
-import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
 from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from viscotack.theory import disc, film
 
@@ -132,38 +129,6 @@ def test_a_disc_has_kendall_and_its_strength_as_limits():
         assert 0.9 * contact.slow_force < simulated.pull_off_force < contact.fast_force
 
 
-@pytest.mark.parametrize(
-    "body",
-    [vt.HalfSpace(), pytest.param(vt.Layer(1.0), marks=pytest.mark.slow)],
-    ids=["half-space", "layer"],
-)
-def test_a_profile_with_waves_has_limits(body):
-    shape = vt.WavySphere(1.0, 0.06, 0.5)
-    case = groups(body, tabor=4.0, geometry=shape, start=vt.AtDepth(12.0))
-    advice = vt.advise(case)
-    assert advice.contact.slow_force < advice.contact.fast_force
-    assert "several edges" in row(advice, "receding crack").why
-    assert any("simulate" in words for words in advice.sentences)
-
-
-def test_a_cone_keeps_the_prediction_of_its_tier():
-    case = groups(vt.HalfSpace(), tabor=8.0, geometry=vt.Cone(1.0))
-    advice, found = vt.advise(case), vt.predict(case)
-    assert advice.use == "crack contact" == found.method
-    assert advice.pull_off_force == found.pull_off_force
-
-
-def test_the_strain_of_a_film_is_judged_in_words():
-    problem = case_problem()
-    small = vt.advise(problem)
-    assert 0 < small.contact.film_strain < 0.1
-    assert any("strain of the film at the start" in words for words in small.sentences)
-    press = vt.Retraction(vt.AtForce(20e-3), 1e-5)
-    thin = vt.advise(replace(problem, body=vt.Layer(20e-6, GLUED), protocol=press))
-    assert thin.contact.film_strain > 0.1
-    assert any("not small" in words for words in thin.sentences)
-
-
 def case_problem():
     path = Path("case.toml")
     path.write_text(CASE)
@@ -185,26 +150,3 @@ def test_every_door_gives_the_same_advice_on_a_film():
         assert found == by_command(question) == by_study(question) == by_http(question, http)
     finally:
         http.close()
-
-
-def test_flags_ask_for_advice_on_a_film_and_on_a_profile(capsys):
-    flags = "--tabor 50 --material sls --modulus-ratio 0.1 --preload-radius 4 --rate 10".split()
-    assert exit_status(["advise", *flags, "--thickness", "0.5", "--bonded", "0.49", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["slow_force"] == vt.advise(groups(vt.Layer(0.5, GLUED))).contact.slow_force
-    assert exit_status(["advise", *flags, "--profile-exponent", "4"]) == 0
-    assert "relaxed" in capsys.readouterr().out
-
-
-def test_bodies_of_ones_own_and_punches_get_no_advice():
-    punch = vt.Groups(
-        None,
-        SOLID,
-        vt.AtDepth(1.0),
-        1.0,
-        geometry=vt.FlatPunch(60.0),
-        body=vt.Layer(3.0),
-        cohesion=0.05,
-    )
-    with pytest.raises(vt.InputError, match="shapes of revolution on a half-space or a layer"):
-        vt.advise(punch)

@@ -5,10 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from training import fresh_cases
-from training.calibration import Apart, levelled, untested
-from training.fresh_cases import DESIGNS, TWO_PEAKS, counts_of, drawn, labelled
-from training.scores import curve_error
+from research.training import fresh_cases
+from research.training.calibration import Apart, levelled, untested
+from research.training.fresh_cases import DESIGNS, TWO_PEAKS, counts_of, drawn, labelled
+from research.training.scores import curve_error
 from viscotack.result.trajectory import POINTS
 from viscotack.surrogate import physics
 from viscotack.surrogate.line import Curves

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
 from viscotack.methods import has_start
 from viscotack.theory.crack.contact import profile_of, radius_at_depth
 
@@ -89,12 +88,6 @@ def test_advice_and_prediction_take_the_theory_with_the_smallest_band():
     cone = vt.predict(pulled(30.0, geometry=vt.PowerLawProfile(1.0, 1.0)))
     assert cone.method == "crack contact" and (cone.work_to_pull_off or 0) > 0
     assert "the shape is PowerLawProfile; verified only for Sphere" in cone.why
-
-
-def test_the_command_line_names_the_method_of_the_answer(capsys):
-    words = ["--material", "sls", "--modulus-ratio", "0.1", "--preload", "1e5", "--rate", "1e5"]
-    assert exit_status(["simulate", "sphere", "--tabor", "1e4", *words]) == 0
-    assert "steady-crack contact model" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("rate", [0.01, 0.3, 30.0])

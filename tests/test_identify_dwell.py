@@ -29,7 +29,6 @@ from viscotack.operations import ask
 from viscotack.theory import jkr
 
 TIMES = np.repeat([1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0], 2)
-RADIUS = tack_files.SPHERE["radius"]
 RUBBER = """[material]
 model = "elastic"
 rubbery_modulus = "0.75 MPa"

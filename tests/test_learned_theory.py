@@ -113,17 +113,6 @@ def test_creep_is_that_of_the_solid():
         assert creep == pytest.approx(float(solid.creep(t)), rel=2e-6, abs=0)
 
 
-def test_who_has_no_time_for_theories_gets_what_was_learned():
-    assert (
-        vt.predict(problem(), budget=AT_ONCE).pull_off_force == vt.predict(problem()).pull_off_force
-    )
-    inside = problem(tabor=3.0, preload=73.0, rate=300.0)
-    assert vt.predict(inside, budget=AT_ONCE).method == "surrogate"
-    for other in (replace(problem(), stiffness=1.0), problem(modulus_ratio=1e-6)):
-        with pytest.raises(vt.OutOfRange):
-            vt.predict(other, budget=AT_ONCE)
-
-
 def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
     from viscotack.methods.by_crack import crack_contacts
 
@@ -138,30 +127,10 @@ def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
     assert crack_contacts([]) == []
 
 
-def test_it_comes_back_from_its_file_and_a_damaged_one_is_refused(tmp_path):
-    path = tmp_path / "theory.npz"
-    store.save(shipped(), path, {"made": "today"})
-    again, facts = store.load(path), store.facts(path)
-    rows = drawn(20)
-    wanted = shipped().evaluate(rows).pull_off_force
-    assert np.array_equal(again.evaluate(rows).pull_off_force, wanted)
-    assert facts["made"] == "today"
-    with np.load(path) as file:
-        arrays = {name: file[name] for name in file.files}
-    np.savez(path, **arrays | {"state.centre": arrays["state.centre"] + 1})
-    with pytest.raises(ValueError, match="checksum"):
-        store.load(path)
-    path.write_bytes(b"nothing")
-    with pytest.raises(ValueError, match="not the file of a surrogate"):
-        store.load(path)
-    with pytest.raises(FileNotFoundError):
-        store.load(tmp_path / "none.npz")
-
-
 def test_errors_are_measured_on_other_solids():
     pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
-    from training.rows import of_arrays
-    from training.train_short_range import measured
+    from research.training.rows import of_arrays
+    from research.training.train_short_range import measured
 
     rows = drawn(300, seed=5)
     rows = rows[answered(rows)]

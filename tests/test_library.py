@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from viscotack.materials.library import MATERIALS, passport_of, published
 from viscotack.operations.declare.questions import material_from
-from viscotack.operations.parts.library import library, library_table
+from viscotack.operations.parts.library import library
 
 DOCS = Path(__file__).parents[1] / "docs" / "materials.md"
 EXAMPLES = DOCS.parents[1] / "examples"
@@ -24,16 +24,6 @@ def modulus(name, omega):
 def maxwell(omega, rubbery, *arms):
     """Return the complex modulus of a Prony series in the unit of its moduli."""
     return rubbery + sum(E * 1j * omega * t / (1 + 1j * omega * t) for E, t in arms)
-
-
-def test_there_are_ten_and_each_says_what_is_not_known():
-    assert len(MATERIALS) >= 10
-    for name in MATERIALS:
-        passport = published(name)
-        assert passport.origin.reference and passport.origin.notes, name
-        assert passport.frequencies and passport.temperature, name
-        assert passport.evidence.undetermined, name
-        assert re.fullmatch(r"[a-z0-9-]+", name)
 
 
 def test_the_silicone_has_the_plateaus_and_exponent_of_the_thesis():
@@ -100,11 +90,6 @@ def test_the_silicones_have_the_stiffness_of_their_tensile_tests(name):
     ((_, low, high),) = passport.evidence.intervals
     assert low <= passport.material.rubbery_modulus <= high
     assert low <= secant <= high
-
-
-def test_the_table_of_the_documentation_is_that_of_the_library():
-    text = DOCS.read_text(encoding="utf-8")
-    assert library_table() in text
 
 
 def test_a_published_name_is_a_material_in_every_place(tmp_path):

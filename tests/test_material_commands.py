@@ -78,37 +78,12 @@ def test_advice_takes_a_passport(lab, capsys):
     assert "Use: " in out
 
 
-def test_a_fit_as_json_is_one_object(lab, capsys):
-    out, _ = printed(FIT + "--model power-law --name silicone --json", capsys)
-    answer = json.loads(out)
-    assert answer["name"] == "silicone"
-    assert answer["material"]["model"] == "power-law"
-    assert answer["material"]["exponent"] == pytest.approx(0.2207, rel=0.01)
-    assert answer["origin"]["file"] == "dma.csv" and len(answer["origin"]["sha256"]) == 64
-    assert {name for name, _, _ in answer["evidence"]["intervals"]} >= {"tau0", "glassy_modulus"}
-
-
-def test_the_models_can_be_chosen(lab, capsys):
-    out, _ = printed(FIT + "--model prony --arms 18 -o x.toml", capsys)
-    assert "18 arms have 37 constants" in out
-    assert isinstance(read_passport("x.toml").material, Prony)
-    out, _ = printed(FIT + '--model power-law --glassy-modulus "3089 MPa"', capsys)
-    assert "given" in out
-
-
 def test_a_relaxation_test_is_fitted(lab, capsys):
     t = np.geomspace(1e-3, 1e3, 30)
     rows = "\n".join(f"{x:.6g},{1 + 9 * np.exp(-x / 0.5):.6g}" for x in t)
     (lab / "step.csv").write_text(f"t,E_relax\ns,MPa\n{rows}\n")
     out, _ = printed("material fit step.csv --test relaxation --poisson-ratio 0.5", capsys)
     assert "sls" in out.splitlines()[0]
-
-
-def test_a_passport_is_shown(capsys):
-    out, _ = printed("material show pdms-10-1", capsys)
-    assert "0.000472" in out and "Eq. 4.25 and 4.27" in out
-    out, _ = printed("material show pdms-10-1 --json", capsys)
-    assert json.loads(out)["material"]["tau0"] == 0.01876
 
 
 def test_a_passport_moves_to_another_temperature(lab, capsys):

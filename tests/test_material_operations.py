@@ -8,13 +8,10 @@ import pytest
 from command_line import exit_status
 from viscotack.app.engine.operating import run_operation
 from viscotack.errors import InputError
-from viscotack.lab.fitting import MODELS
 from viscotack.materials import StandardSolid, read_passport, write_passport
-from viscotack.materials.exchange import CODES
 from viscotack.materials.library import published
 from viscotack.operations import ask, operation
 from viscotack.operations.declare.options import Here, take
-from viscotack.operations.declare.study import read_study, study_text
 
 OPTIONS = {
     "poisson_ratio": 0.45,
@@ -80,73 +77,6 @@ def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, mon
     assert beside["files"]["output"] == beside["drawn"]["passport"]
 
 
-@pytest.mark.parametrize(
-    ("word", "given"),
-    [
-        (
-            "material fit",
-            {"files": ["a.csv", "b.csv"], **OPTIONS, "temperature_in_name": True, "arms": None},
-        ),
-        (
-            "material fit",
-            {
-                "files": ["a.csv"],
-                "poisson_ratio": "0.5",
-                "reference_temperature": "20 degC",
-                "wlf": "8.86,101.6 K",
-                "test": "creep",
-                "decimal": ",",
-            },
-        ),
-        (
-            "material fit",
-            {
-                "files": ["a.csv"],
-                "poisson_ratio": 0.5,
-                "reference_temperature": 293.15,
-                "shift_file": "shifts.csv",
-            },
-        ),
-        ("material show", {"passport": "pdms-10-1"}),
-        (
-            "material convert",
-            {"source": "pdms-10-1", "prony": True, "frequencies": "1 mHz,1 MHz"},
-        ),
-        (
-            "material convert",
-            {
-                "source": "card.inp",
-                "code": "abaqus",
-                "pressure_unit": "MPa",
-                "time_unit": "s",
-                "temperature": "0 degC",
-            },
-        ),
-        (
-            "material export",
-            {
-                "passport": "pdms-10-1",
-                "to": "ansys",
-                "frequencies": "0.1 rad/s,3 kHz",
-                "tolerance": 1e-3,
-                "bulk_modulus": "2 GPa",
-            },
-        ),
-        ("schema", {"words": True}),
-    ],
-)
-def test_a_study_states_every_option(word, given, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "card.inp").write_text("")
-    stated = take(operation(word), given, Here())
-    study = tmp_path / "study.toml"
-    study.write_text(study_text(stated, tmp_path))
-    back = read_study(study, known=operation).operation
-    # names of files are relative to the study
-    assert study_text(back, tmp_path) == study.read_text()
-    assert len(study.read_text().splitlines()) > len(given) - sum(v is None for v in given.values())
-
-
 def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
     def given(frequencies):
         options = {"passport": "pdms-10-1", "to": "tamaas", "frequencies": frequencies}
@@ -158,19 +88,6 @@ def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
         given("1 Hz")
     with pytest.raises(InputError, match="has no unit"):
         given("1,10")
-
-
-def test_a_law_for_fits_only_is_answered_without_a_passport(lab):
-    given = {"files": ["dma.csv"], "poisson_ratio": 0.45, "kind": "E", "modulus_unit": "MPa"}
-    given |= {"temperature_unit": "degC", "reference_temperature": "-30 degC"}
-    given |= {"shift_file": "shifts.csv", "model": "fractional-kelvin-voigt"}
-    answer = asked("material fit", lab, given, ["drawn"])
-    assert answer["material"]["model"] == "fractional-kelvin-voigt"
-    drawn = answer["beside"]["drawn"]
-    assert drawn["table"] is drawn["passport"] is None
-    assert len(drawn["fit"]["parts"][0]["fitted"]) == len(drawn["fit"]["curve_at"])
-    with pytest.raises(InputError, match="law for fits only"):
-        asked("material fit", lab, given, ["output"])
 
 
 def test_over_http_no_passport_is_read_that_was_not_sent(lab):
@@ -196,14 +113,3 @@ def test_a_passport_is_converted_in_its_place(lab, tmp_path, capsys):
     moved = read_passport(file)
     assert moved.temperature == 273.15 == printed["temperature"]
     assert printed["material"]["tau0"] == moved.material.tau0
-
-
-def test_what_can_be_chosen_is_what_there_is():
-    def choices(word, name):
-        from viscotack.operations.declare.options import options
-
-        return next(o.card.choices for o in options(operation(word)) if o.name == name)
-
-    assert set(choices("material fit", "model")) == {"best", *MODELS}
-    for word, name in (("convert", "code"), ("export", "to")):
-        assert set(choices(f"material {word}", name)) == set(CODES)

@@ -177,20 +177,3 @@ def test_what_a_moved_surrogate_cannot_do_is_refused(lab, tmp_path):
         predict(problem, model=shipped("short range"))
     # a surrogate without measured forces keeps its measured intervals
     assert predict(problem, model=replace(lab, move=None)).interval == predict(problem).interval
-
-
-@pytest.mark.parametrize(
-    ("columns", "error", "words"),
-    [
-        ({"tabor": [1.0]}, 0.1, "columns must be tabor, modulus_ratio"),
-        (columns_of(rows_of([1.0]), []), 0.1, "arrays of one length"),
-        (columns_of(np.ones((0, 5)), []), 0.1, "arrays of one length from 1"),
-        (columns_of(rows_of([1.0]), [-1.0]), 0.1, "pull_off_force must be positive"),
-        (columns_of(rows_of([1.0]), [1.0]), 0.0, "error must be a positive part"),
-        (columns_of(rows_of([1e-9]), [1.0]), 0.1, "point 0 is outside the training range: rate"),
-        (columns_of(rows_of(np.geomspace(1, 1e3, 501)), np.ones(501)), 0.1, "from 1 to 500"),
-    ],
-)
-def test_points_that_tell_nothing_are_refused(columns, error, words):
-    with pytest.raises(ValueError, match=words):
-        moved(shipped(), columns, error=error)

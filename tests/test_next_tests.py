@@ -111,27 +111,6 @@ def test_a_test_beyond_the_theory_is_not_ranked(fit):
         next_tests(fit, [Trial(1e-3)], wanted=[soft])
 
 
-@pytest.mark.parametrize(
-    "given, words",
-    [
-        ({"candidates": []}, "1 to 500 candidates"),
-        ({"wanted": "work"}, "must be tests or 'interface'"),
-        ({"wanted": []}, "wanted tests"),
-        ({"noise": 2.0}, "between 0 and 1"),
-        ({"count": 0}, "at least 1"),
-    ],
-)
-def test_what_cannot_be_is_refused(fit, given, words):
-    with pytest.raises(InputError, match=words):
-        next_tests(fit, **({"candidates": [Trial(1e-3)]} | given))
-
-
-def test_a_trial_is_checked():
-    for given in ({"speed": 0.0}, {"speed": 1.0, "dwell": 1.0}, {"speed": 1.0, "radius": -1.0}):
-        with pytest.raises(InputError):
-            Trial(**given)
-
-
 def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
     from types import SimpleNamespace
 

@@ -136,17 +136,6 @@ def test_a_jump_within_tension_does_not_end_the_count():
     assert work_to_pull_off(result) == pytest.approx(9.1, rel=1e-12)
 
 
-def test_a_jump_is_found_among_steps_of_the_same_time():
-    """Before a runaway steps are so short that the clock shows the same time for several."""
-    x = np.array([-0.5, 0.0, 0.5, 1.0, 1.5, 900.0, 900.5])
-    force = np.array([1.0, 0.0, -1.0, -0.9, -0.8, -0.1, 0.0])
-    time = np.array([0.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.1])
-    jump = Event("jump", time=3.0, depth=-900.0, force=-0.8, energy=300)
-    work = work_of_separation(plain(-x, force, time=time, events=(jump,)))
-    # triangle and trapezium before the jump, a triangle behind it
-    assert work == pytest.approx(0.25 + 0.9 + 0.025, abs=0.05)
-
-
 def test_a_dwell_at_the_relaxed_start_keeps_the_pull_off_there():
     """A start beyond the force minimum: the force is least where the retraction begins."""
     from viscotack.protocol import Dwell
@@ -183,24 +172,6 @@ def test_a_run_that_ends_in_its_minimum_by_a_jump_has_a_pull_off():
         pull_off_force(plain(-x, falling, status="detached"))
 
 
-def test_a_far_step_does_not_bend_the_minimum():
-    x = np.array([-0.3, -0.2, -0.1, 0.02, 0.1, 4.0, 5.0])
-    force = np.where(x < 1, 0.5 * x**2 - 1, -0.01)
-    for sign in (1, -1):
-        order = np.argsort(sign * x)
-        result = plain(-sign * x[order], force[order])
-        assert pull_off_force(result) == pytest.approx(1, rel=1e-9)
-        assert depth_at_pull_off(result) == pytest.approx(0, abs=1e-9)
-
-
-def test_a_force_that_breaks_off_is_no_deeper_than_its_steps():
-    # of an elastic punch with Dugdale's law that detaches within a thousandth of h0
-    x = np.array([2.2665, 2.2736, 2.2841, 2.29995, 2.3009, 2.3024])
-    force = np.array([-0.8611, -0.8635, -0.8668, -0.8686, -0.2763, -0.2072])
-    result = plain(-x, force)
-    assert pull_off_force(result) == pytest.approx(0.8686, rel=1e-3)
-
-
 def test_work_of_separation_goes_past_the_jump_to_infinity():
     for far in (5.0, 40.0):
         result = jkr_detachment(far=far, steps=400)
@@ -216,11 +187,6 @@ def test_work_of_separation_without_energies_ends_with_the_run():
         rest = whole - work_of_separation(jkr_detachment(energy=energy))
         last_gap = 1 - jkr_detachment().depth[-1]
         assert rest == pytest.approx((16 / 9) / last_gap, rel=1e-9)
-
-
-def test_a_run_in_contact_has_no_work_of_separation():
-    with pytest.raises(ValueError, match="not separated.*still in contact.*until='detached'"):
-        work_of_separation(jkr_result())
 
 
 def test_a_failed_run_has_no_observables():
@@ -262,15 +228,6 @@ def test_only_the_retraction_counts_when_there_is_an_approach():
     assert work_to_pull_off(both) == pytest.approx(WORK_TO_PULL_OFF, rel=1e-5)
 
 
-def test_pull_off_without_an_edge_has_no_radius():
-    nothing = np.full(200, np.nan)
-    result = jkr_result(contact_radius=nothing[:], edge_speed=nothing[:], steps=199)
-    assert np.isnan(contact_radius_at_pull_off(result))
-    assert np.isnan(crack_speed_at_pull_off(result))
-    assert summary(result)["contact_radius_at_pull_off"] is None
-    assert summary(result)["pull_off_force"] == pytest.approx(1, rel=1e-5)
-
-
 def test_work_lost_is_what_the_drive_does_while_a_sloping_error_moves_the_minimum():
     a, error = PULL_OFF_RADIUS, 1e-3
     by_radius = DISPLACEMENT * (2 * a - 1 / np.sqrt(2 * a))
@@ -282,11 +239,6 @@ def test_work_lost_is_what_the_drive_does_while_a_sloping_error_moves_the_minimu
     tilted = jkr_result(steps=400)
     tilted = jkr_result(steps=400, force=tilted.force - error * (travel + PULL_OFF_DEPTH))
     assert abs(depth_at_pull_off(tilted) - PULL_OFF_DEPTH) == pytest.approx(found, rel=0.05)
-
-
-def test_no_work_is_lost_where_the_minimum_is_no_valley():
-    assert work_lost(jkr_result(start=0.9), 1e-3) == 0
-    assert work_lost(jkr_detachment(until_jump=True), 1e-3) > 0
 
 
 @pytest.mark.parametrize("error", [0.4, 0.6])
@@ -337,23 +289,6 @@ def test_summary_in_si_adds_the_same_names_with_units():
     assert answer["work_of_separation_J"] is None
 
 
-def test_summary_passes_the_estimates_on():
-    result = jkr_result(
-        error_estimate={"force": np.float64(1e-3), "work": 5e-3},
-        energy_residual=2e-4,
-        statistics={"steps": np.int64(200)},
-    )
-    answer = json.loads(json.dumps(summary(result)))
-    assert answer["error_estimate"] == {"force": 1e-3, "work": 5e-3}
-    assert answer["energy_residual"] == 2e-4
-    assert answer["statistics"] == {"steps": 200}
-    assert answer["wall_time_s"] is None
-
-
-def test_displacements_are_in_equilibrium_gaps():
-    assert depth_at_pull_off(jkr_result()) == pytest.approx(-0.360562 * DISPLACEMENT, rel=1e-5)
-
-
 def test_a_held_force_is_no_pull_off_however_round_off_lets_it_tremble():
     from viscotack.protocol import AtForce, Dwell, LoadTo
 
@@ -400,12 +335,6 @@ def test_the_edge_of_a_punch_that_runs_out_soon_is_not_interpolated_by_a_line(st
     assert pull_off(result).contact_radius == pytest.approx(exact, rel=1e-9, abs=0)
 
 
-def test_moves_that_do_not_fit_the_steps_are_refused():
-    for move in ([0], np.arange(7)[::-1]):
-        with pytest.raises(ValueError, match="must have one ascending index per step"):
-            plain(-np.arange(7.0), -np.ones(7), move=move)
-
-
 def test_a_pull_off_is_not_drawn_below_steps_between_which_the_force_breaks_off():
     solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=19.2, tau0=1.0, poisson_ratio=0.0)
     punch = vt.Groups(
@@ -437,11 +366,3 @@ def test_a_change_of_speed_bends_the_curve_whose_area_is_the_work():
     result = vt.solve(groups, accuracy=0.01, estimate_error=False)
     # -2.4 where the drive works 26.9: a spline went through the jump of the tension
     assert vt.work_of_separation(result) > vt.work_to_pull_off(result) > 0
-
-
-def test_the_force_of_a_crack_contact_is_not_drawn_below_its_steps():
-    solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=30.0, tau0=1.0, poisson_ratio=0.0)
-    groups = vt.Groups(tabor=270.0, material=solid, start=vt.AtForce(4.7), rate=1e4, stiffness=0.5)
-    # an IndexError, as the parabola went above all steps
-    found = vt.crack_contact(groups)
-    assert found.pull_off_force == pytest.approx(-found.force.min(), rel=5e-3)

@@ -1,9 +1,6 @@
 """The exported surrogate gives the same digits as NumPy, whoever runs it."""
 
-import sys
-import tomllib
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,8 +11,7 @@ runtime = pytest.importorskip("onnxruntime", reason="comes with viscotack[dev]")
 from viscotack.surrogate import line, physics  # noqa: E402
 from viscotack.surrogate.model import Surrogate  # noqa: E402
 from viscotack.surrogate.network import Networks  # noqa: E402
-from viscotack.surrogate.onnx import INPUTS, export  # noqa: E402
-from viscotack.surrogate.onnx import __main__ as command  # noqa: E402
+from viscotack.surrogate.onnx import export  # noqa: E402
 from viscotack.surrogate.onnx.graph import Graph  # noqa: E402
 from viscotack.surrogate.store import SHIPPED, shipped  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust  # noqa: E402
@@ -141,66 +137,6 @@ def test_same_digits_outside_where_the_elastic_limit_has_other_branches(exported
     assert_same_digits(exported, surrogate, groups)
 
 
-def test_one_row_is_a_batch_too(exported, surrogate):
-    # memory is planned by shape: ONNX Runtime before 1.18 mixed up the curves of one row
-    for seed in range(40):
-        assert_same_digits(exported, surrogate, drawn(1, seed=seed))
-
-
-def test_another_program_reads_the_same(surrogate, tmp_path):
-    from onnx.reference import ReferenceEvaluator
-
-    export(surrogate, tmp_path / "tack.onnx")
-    groups = drawn(50)
-    force, work, *_ = ReferenceEvaluator(str(tmp_path / "tack.onnx")).run(None, {"groups": groups})
-    answers = surrogate.evaluate(groups)
-    np.testing.assert_allclose(force, answers.pull_off_force, rtol=DIGITS)
-    np.testing.assert_allclose(work, answers.work_to_pull_off, rtol=DIGITS)
-
-
-def test_two_exports_are_the_same_bytes(surrogate, tmp_path):
-    for name in ("a", "b"):
-        export(surrogate, tmp_path / name)
-    assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
-
-
-def test_the_file_describes_its_inputs_and_outputs(surrogate, tmp_path):
-    export(surrogate, tmp_path / "tack.onnx")
-    read = onnx.load(tmp_path / "tack.onnx")
-    facts = {p.key: p.value for p in read.metadata_props}
-    project = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())["project"]
-    assert facts["license"] == project["license"] and facts["version"] == project["version"]
-    assert facts["confidence"] == "0.9"
-    assert facts["input.rate"] == "retraction speed [h0/tau0], 0.01 to 1e+10"
-    assert facts["output.pull_off_force"] == "pull-off force [1.5 pi R dg0], positive"
-    assert list(INPUTS) == list(physics.INPUTS)
-    (groups,) = read.graph.input
-    assert all(name in groups.doc_string for name in physics.INPUTS)
-    assert all(output.doc_string in facts.values() for output in read.graph.output)
-
-
-def test_only_operators_of_the_standard_in_an_old_version(surrogate, tmp_path):
-    export(surrogate, tmp_path / "tack.onnx")
-    read = onnx.load(tmp_path / "tack.onnx")
-    assert [(o.domain, o.version) for o in read.opset_import] == [("", 13)]
-    assert read.ir_version == 7 and not read.functions
-    assert {node.domain for node in read.graph.node} == {""}
-    # nothing is kept in single precision
-    single = onnx.TensorProto.FLOAT
-    assert all(constant.data_type != single for constant in read.graph.initializer)
-
-
-def test_a_surrogate_of_another_contact_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="only surrogates of a sphere on power laws .* 'punch'"):
-        export(shipped("punch"), tmp_path / "tack.onnx")
-
-
-def test_without_onnx_the_error_states_what_to_install(surrogate, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "onnx", None)
-    with pytest.raises(ModuleNotFoundError, match=r"pip install .*\[onnx\]'"):
-        export(surrogate, tmp_path / "tack.onnx")
-
-
 def test_what_onnx_cannot_express_is_refused(surrogate):
     graph = Graph()
     x = graph.input("x", np.ones((1, 3)))
@@ -210,21 +146,6 @@ def test_what_onnx_cannot_express_is_refused(surrogate):
         np.cumsum(x)
     with pytest.raises(TypeError, match=r"np\.add \(accumulate\) has no ONNX counterpart"):
         np.add.accumulate(x, axis=1)
-
-
-def test_the_same_formula_is_written_down_once():
-    graph = Graph()
-    x = graph.input("x", np.ones((1, 3)))
-    assert (np.tanh(x) + 1.0).name == (np.tanh(x) + 1.0).name
-    assert [node.op_type for node in graph.nodes] == ["Tanh", "Add"]
-
-
-def test_module_is_a_command(surrogate, tmp_path, monkeypatch, capsys):
-    file = tmp_path / "tack.onnx"
-    monkeypatch.setattr(command, "shipped", lambda: surrogate)
-    monkeypatch.setattr(sys, "argv", ["onnx", str(file)])
-    command.main()
-    assert capsys.readouterr().out == f"{file}\n" and file.exists()
 
 
 @pytest.mark.skipif(not SHIPPED.exists(), reason="the package comes without a surrogate yet")

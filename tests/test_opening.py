@@ -118,22 +118,6 @@ def test_minima_lie_before_and_after_rises_that_count(force, minima):
 
 
 @pytest.mark.parametrize(
-    ("x", "i", "points"),
-    [
-        ([0, 1, 2, 3, 4, 5], 2, (0, 4)),
-        ([0, 1, 2, 3, 4 - 1e-12, 5], 2, (0, 4)),
-        ([0, 1, 2, 3, 3.9, 5], 2, (1, 5)),
-        ([0, 1, 2, 3], 0, (0, 3)),
-        ([0, 1, 2, 3], 1, (0, 4)),
-        ([0, 1, 2, 3], 3, (1, 4)),
-        ([0, 1], 0, (0, 2)),
-    ],
-)
-def test_the_nearest_points_are_both_neighbours_and_the_nearer_of_the_next(x, i, points):
-    assert opening._nearest(np.array(x), i) == slice(*points)
-
-
-@pytest.mark.parametrize(
     ("y", "i", "place", "least"),
     [
         # the line through the points at 0 and 1, and through those at 1 and 3, less 3e-3
@@ -165,12 +149,6 @@ def test_the_minimum_of_a_parabola_or_a_cubic_through_uneven_points_is_exact():
     assert opening._minimum(x, (x - 7) ** 2, 4) == (6.0, 1.0)
 
 
-def test_between_steps_is_a_line_and_unknown_beside_the_unknown():
-    x, y = np.array([0.0, 1.0, 3.0]), np.array([5.0, 7.0, np.nan])
-    assert [opening._between(x, y, at) for at in (0.0, 0.25, 1.0)] == [5.0, 5.5, 7.0]
-    assert np.isnan(opening._between(x, y, 2.0))
-
-
 def test_the_edge_that_runs_out_is_found_from_the_travel_as_a_cubic_of_its_place():
     travel = np.polynomial.Polynomial([10.0, -2.0, 0.0, -0.1])
     edge = np.array([3.0, 2.5, 1.8, 1.0, np.nan, np.nan])
@@ -181,14 +159,6 @@ def test_the_edge_that_runs_out_is_found_from_the_travel_as_a_cubic_of_its_place
         assert found == pytest.approx((place, -4 / travel.deriv()(place)), rel=1e-9)
     assert opening._running_out(x[1:], edge[1:], time[1:], float(travel(1.4))) is None
     assert opening._running_out(x, edge[[0, 1, 1, 3, 4, 5]], time, float(travel(1.4))) is None
-
-
-@pytest.mark.parametrize(("gone", "found"), [(7, True), (8, False)])
-def test_an_edge_runs_out_if_it_is_gone_within_a_few_steps(gone, found):
-    edge = np.arange(12.0, 0.0, -1.0)
-    x, time = -edge, -edge
-    edge[gone:] = np.nan
-    assert (opening._running_out(x, edge, time, x[3]) is not None) is found
 
 
 @pytest.mark.parametrize(
@@ -203,12 +173,6 @@ def test_an_edge_runs_out_if_it_is_gone_within_a_few_steps(gone, found):
 )
 def test_the_curve_is_smooth_within_a_move_and_from_the_last_step_before_it(moves, lowest, steps):
     assert opening._smooth(np.array(moves), lowest) == steps
-
-
-def test_the_steps_of_a_piece_are_split_by_moves_that_share_their_ends(monkeypatch):
-    monkeypatch.setattr(opening, "move_numbers", lambda result: np.array([9, 0, 0, 1, 1, 2]))
-    parts = opening._moves_of(None, np.arange(1, 6))
-    assert [part.tolist() for part in parts] == [[1, 2], [2, 3, 4], [4, 5]]
 
 
 @pytest.fixture

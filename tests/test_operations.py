@@ -1,7 +1,5 @@
 """Operations: declared once, and answered alike by every door."""
 
-import dataclasses
-import inspect
 import os
 import random
 import shutil
@@ -10,12 +8,10 @@ from pathlib import Path
 import pytest
 
 import tack_files
-import viscotack.operations
-from front_ends import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
+from front_ends import OF_THE_SHELL, Http, Question, by_python, run, through_all
 from stated import PUNCH, SPHERE
-from viscotack.app.api import application
 from viscotack.errors import InputError
-from viscotack.operations import ask, operation, operations
+from viscotack.operations import operation, operations
 from viscotack.operations.declare.cards import (
     Choice,
     File,
@@ -27,7 +23,6 @@ from viscotack.operations.declare.cards import (
     Switch,
     Whole,
 )
-from viscotack.operations.declare.description import described
 from viscotack.operations.declare.options import Here, options, take
 from viscotack.operations.declare.statement import Stated
 from viscotack.operations.declare.study import read_study, study_text
@@ -232,17 +227,6 @@ def test_all_doors_answer_what_takes_seconds_alike(word, folder, http):
     agree(question, found)
 
 
-def test_doors_that_disagree_are_seen(folder, http, monkeypatch):
-    from viscotack.app.engine.operating import Sent
-
-    question = Question("test read", {"files": ["lens_1_um_s.csv"], "compliance": "2 um/N"})
-    found = through_all(question, http)
-    agree(question, found)
-    monkeypatch.setattr(Sent, "file", lambda self, name: self.folder / "lens_30_um_s.csv")
-    with pytest.raises(AssertionError, match="HTTP"):
-        agree(question, found | {"HTTP": by_http(question, http)})
-
-
 def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, http, monkeypatch):
     def stiffness_of(series, *, stiffness, **options):
         raise InputError(f"a rig of {stiffness:g} N/m")
@@ -318,52 +302,3 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
 
 def test_every_operation_has_a_question_here():
     assert (ASKED | NOT_DRAWN).keys() == operations().keys()
-
-
-def test_every_operation_is_known_to_every_door_or_refused_in_words(http):
-    app = application()
-    posts = {path for path, routes in app.openapi()["paths"].items() if "post" in routes}
-    for word, kind in operations().items():
-        path = word.replace(" ", "/")
-        if reason := kind.refused.get("http"):
-            assert len(reason.split()) > 4
-            assert f"/api/{path}" not in posts
-            for place in ("/api", "/api/jobs"):
-                answer = http(f"{place}/{path}", json={})
-                assert answer.status_code == 422
-                assert answer.json()["error"].endswith(f"not available over HTTP: {reason}")
-        else:
-            assert {f"/api/{path}", f"/api/jobs/{path}"} <= posts
-        command = [*word.split(), "case"] if word == "simulate" else word.split()
-        status, out, _ = run([*command, "--help"])
-        assert status == 0
-        flags = [o.flag for o in options(kind) if not o.card.argument]
-        flags = [f for f in flags if f != "--cases" or word != "predict"]
-        assert [flag for flag in flags if flag not in out] == []
-        # what the page draws its form of
-        assert [o["name"] for o in described(kind)["options"]] == [o.name for o in options(kind)]
-
-
-def test_what_is_declared_wrongly_is_found_when_it_is_read():
-    @dataclasses.dataclass(frozen=True)
-    class Bare(viscotack.operations.Operation):
-        radius: float
-
-    with pytest.raises(TypeError, match="Bare.radius has no card"):
-        options(Bare)
-
-
-def test_a_misspelt_option_is_refused_with_the_nearest_name(folder):
-    with pytest.raises(InputError, match="no option 'radious'; did you mean radius"):
-        ask("identify rates", files=LENS, material="pdms-10-1", radious="5 mm")
-
-
-def test_an_operation_that_does_not_exist_is_refused_with_those_that_do():
-    with pytest.raises(InputError, match="unknown operation 'predikt'; known are advise"):
-        ask("predikt")
-
-
-def test_the_words_of_a_budget_are_those_of_predict():
-    usual = inspect.signature(viscotack.predict).parameters["budget"].default
-    (budget,) = (o for o in options(operation("predict")) if o.name == "budget")
-    assert budget.words.endswith(f" Default: {usual:g} s.") and budget.default is None

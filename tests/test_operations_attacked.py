@@ -7,15 +7,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from front_ends import run
-from stated import SPHERE
 from viscotack.app.cli import application
-from viscotack.app.engine.jobs import harmless_name
 from viscotack.app.engine.operating import run_operation
 from viscotack.errors import InputError
-from viscotack.operations import ask, operation
-from viscotack.operations.declare.cards import Spelled
-from viscotack.operations.declare.options import Here, spelled, take
+from viscotack.operations import operation
+from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.state import State
 from viscotack.operations.declare.study import read_study, study_text
 from viscotack.operations.parts.examples import EXAMPLES
@@ -72,13 +68,6 @@ def test_a_study_that_was_asked_for_over_http_names_files_as_they_were_sent(sent
     assert 'files = ["lens_1000_um_s.csv", "lens_1_um_s.csv", "lens_30_um_s.csv"]' in study
 
 
-@pytest.mark.parametrize("letter", ["x", "\u6f22", "\U00020000"])
-def test_the_name_of_a_file_that_was_sent_is_one_for_a_file_system(letter, tmp_path):
-    name = harmless_name(f"{letter * 300}.csv")
-    (tmp_path / name).touch()
-    assert name.endswith(f"{letter}.csv") and harmless_name(name) == name
-
-
 @pytest.mark.parametrize("sign", [{"a": 1}, [["+"]], ["+"], True, 0, "plus"])
 def test_a_sign_that_is_none_is_refused(sign):
     with pytest.raises(InputError, match=r"--into must be \+ or -"):
@@ -114,30 +103,6 @@ def test_a_range_of_speeds_may_be_wider_than_a_float_is():
     given = {"study": "study.toml", "speed": "1e-300 m/s..1e300 m/s"}
     (speeds,) = take(operation("forecast"), given, Here()).wish.speed
     assert len(speeds) == 50
-
-
-@pytest.mark.parametrize(
-    ("more", "words"),
-    [
-        ({"move": 5}, "dwell"),
-        ({"move": [{"a": 1}]}, "--move must be words"),
-        ({"rate": True}, "--rate must be a number"),
-        ({"tabor": [3.24]}, "--tabor must be a number"),
-        ({"tabor": {"a": 1}}, "--tabor must be a number"),
-        ({"temperature": {"a": 1}}, "--temperature must be words"),
-    ],
-)
-def test_an_answer_of_another_kind_than_its_question_is_refused(more, words):
-    with pytest.raises(InputError, match=words.replace("--", "(--)?")):
-        ask("advise", problem=SPHERE | more)
-
-
-def test_a_single_move_needs_no_list():
-    one, several = (
-        take(operation("advise"), {"problem": SPHERE | {"move": move}}, Here()).problem.problem
-        for move in ("dwell 1", ["dwell 1"])
-    )
-    assert one == several
 
 
 LAB = 'operation = "test read"\nfiles = ["../lens_1_um_s.csv"]\n'
@@ -178,52 +143,6 @@ def test_a_study_never_writes_over_what_it_reads(lab, text, name):
     assert not (lab / name).read_text().startswith(("file,", "time,"))
 
 
-def test_standard_output_is_no_file_of_the_folder_of_a_study(lab):
-    status, words = study(lab, f'{LAB}[write]\ncsv = "-"\n')
-    assert status == 0 and "pull_off_force_N" in words
-    assert not (lab / "studies/-").exists()
-
-
-def test_a_study_prints_what_its_command_prints(lab):
-    expected = CliRunner().invoke(application(), ["material", "convert", "pdms-10-1"]).output
-    assert "passport = 1" in expected
-    _, words = study(lab, 'operation = "material convert"\nsource = "pdms-10-1"\n')
-    assert words == expected
-
-
-def test_a_study_of_a_report_says_where_the_page_goes(lab):
-    status, words = study(lab, 'operation = "report"\nstudy = "other.toml"\n')
-    assert status == 2 and "output is missing" in words
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        (["--corner", "-"], "--corner -: a picture is binary"),
-        (["--corner", "corner.txt"], "the file name must end in one of"),
-    ],
-)
-def test_every_picture_is_refused_before_the_work(flags, words):
-    # the files do not exist: they are not asked for
-    status, _, err = run(
-        ["identify", "rates", "none.csv", "--material", "pdms-10-1", "--radius", "1 mm", *flags]
-    )
-    assert status == 2 and words in err
-
-
-@pytest.mark.parametrize(
-    "read", [["--law", "table:read.csv"], ["--material", "prony:read.csv"], ["--with", "read.csv"]]
-)
-def test_no_output_takes_the_place_of_a_file_among_words(read, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("read.csv").write_text("x = 1\n")
-    flags = ["--tabor", "3", "--preload", "10", "--rate", "1", "--csv", "./read.csv"]
-    if read[0] == "--with":
-        flags += ["--material", "elastic"]
-    status, _, err = run(["simulate", "sphere", *flags, *read])
-    assert status == 2 and "is an input file" in err
-
-
 LONG = "[material]\nmodel = 'prony'\n" + "# a branch\n" * 100
 
 
@@ -246,21 +165,3 @@ def test_a_problem_of_tables_is_written_as_a_study(tables, tmp_path):
     again = read_study(tmp_path / "study.toml", known=operation).operation
     assert again.problem.problem == simulate.problem.problem
     assert study_text(again, tmp_path) == study_text(simulate, tmp_path)
-
-
-def test_the_file_among_words_is_behind_the_first_keyword_and_no_part_of_another():
-    card = Spelled("", before=("table:",))
-    files = {
-        "table:a table:b.csv": ("a table:b.csv",),
-        "gent-schultz:1,2:table:c.csv": ("c.csv",),
-        "mytable:0.3": (),
-        "table:": (),
-    }
-    assert {words: card.names(words) for words in files} == files
-
-
-def test_messages_name_options_and_not_flags_and_names_of_files_stay():
-    rates, predict = operation("identify rates"), operation("predict")
-    words = spelled("a--radius b.csv: --radius, --work-of-adhesion-uncertainty or --rate", rates)
-    assert words == "a--radius b.csv: radius, work_of_adhesion_uncertainty or --rate"
-    assert spelled("--modulus-ratio and --size", predict) == "modulus_ratio and size"

@@ -1,24 +1,18 @@
-"""The page docs/operations.md: generated from the declarations; its examples give one answer."""
+"""The examples of docs/operations.md and docs/api.md give one answer through every interface."""
 
 import json
 import re
 import shlex
 import shutil
-import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
 from front_ends import Http, run
-from viscotack.operations import ask, operations
-from viscotack.operations.declare.options import options
+from viscotack.operations import ask
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import operations_page  # noqa: E402
-
 PAGE, API = (ROOT / "docs" / name for name in ("operations.md", "api.md"))
 
 
@@ -61,35 +55,6 @@ def post(http, path, *body):
         else:
             data.setdefault(name, []).append(value)
     return http(path, data=data, files=files)
-
-
-def test_the_table_and_the_reference_are_current():
-    text = PAGE.read_text(encoding="utf-8")
-    assert text == operations_page.page(), "python benchmarks/operations_page.py --write"
-
-
-def test_the_page_has_every_refusal_operation_and_option():
-    table, reference = operations_page.table(), operations_page.reference()
-    for word, kind in operations().items():
-        rows = [line for line in table.splitlines() if f"[{word}](" in line]
-        reason = kind.refused.get("http")
-        assert [reason in row for row in rows] == ([True] if reason else [])
-        section = reference.partition(f"### {word}\n")[2].partition("\n### ")[0]
-        linked = re.findall(r"\[(?:group|common) (\w+)\]", section)
-        places = [section, *(x for x in reference.split("\n### ") if x.split("\n")[0] in
-                  [f"Group {name}" for name in linked])]  # fmt: skip
-        for option in options(kind):
-            assert any(f"`{option.name}`" in place for place in places), (word, option.name)
-        assert section
-
-
-def test_links_within_the_page_lead_to_headings():
-    text = PAGE.read_text(encoding="utf-8")
-    headings = re.findall(r"^#+ (.*)$", text, re.M)
-    anchors = {heading.lower().replace(" ", "-") for heading in headings}
-    linked = set(re.findall(r"\]\(#([^)]+)\)", text))
-    assert linked
-    assert linked <= anchors
 
 
 def test_the_example_has_one_answer_in_all_interfaces(anywhere):

@@ -12,11 +12,10 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.campaign import Store, read_plan, run, space_filling
+from viscotack.campaign import Store, read_plan, run
 from viscotack.materials import WLF, Passport, read_passport, write_passport
 from viscotack.materials.conversion import slowed
 from viscotack.problem.nouns import known, own_nouns
-from viscotack.problem.schema import schema, words
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 FILES = {"law": "morse.py", "material": "cole_cole.py", "shape": "rounded_cone.py"}
@@ -69,12 +68,6 @@ def call(*arguments):
 # --- simulated, saved, loaded -----------------------------------------------------------------
 
 
-def test_a_file_states_all_three_by_their_words(problem):
-    assert type(problem.traction) is MORSE and problem.traction.steepness == 3
-    assert type(problem.material) is ZENER and problem.material.order == 0.6
-    assert problem.geometry == SHAPE(slope=0.2, rounding=20e-6)
-
-
 def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
     result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
     assert vt.pull_off_force(result) > 0
@@ -108,19 +101,6 @@ def test_the_command_line_loads_own_parts(case_file, tmp_path):
     assert alone.exit_code == 2 and "--with FILE.py" in alone.stderr
 
 
-def test_flags_take_their_numbers_in_the_order_of_their_fields():
-    status, out, err = call(
-        *"simulate sphere --law morse:3 --material cole-cole:0.6 --tabor 1".split(),
-        *"--modulus-ratio 0.1 --preload 3 --rate 10 --until pull-off --accuracy 1e-2".split(),
-        "--json",
-    )
-    assert status == 0, err
-    stated = json.loads(out)["problem"]
-    assert stated["traction"]["steepness"] == 3 and stated["material"]["order"] == 0.6
-    status, _, err = call(*"simulate sphere --material cole-cole --tabor 1".split())
-    assert status == 2 and "missing" in err
-
-
 def test_a_campaign_keeps_their_numbers_and_goes_on(case_file, tmp_path):
     plan = tmp_path / "plan.toml"
     files_of_own = [OWN / file for file in FILES.values()]
@@ -141,12 +121,6 @@ geometry.rounding = 20e-6
     assert all(row["largest_contact_radius_m"] > 0 for row in rows)
     assert [row["traction.steepness"] for row in rows] == [2.0, 3.0]
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
-
-
-def test_classes_that_a_file_imports_are_not_its_own(tmp_path):
-    path = tmp_path / "importing.py"
-    path.write_text("from viscotack import Dugdale, Elastic\n" + (OWN / FILES["law"]).read_text())
-    assert [noun.__name__ for noun in own_nouns([path])] == [MORSE.__name__]
 
 
 def test_a_theory_predicts_with_own_parts():
@@ -200,18 +174,6 @@ def test_a_temperature_shifts_times_of_ones_own_by_their_cards():
     assert solid.rubbery_modulus == 1e6
 
 
-def test_schema_and_words_know_them():
-    found = schema((MORSE, ZENER, SHAPE))["$defs"]
-    assert found["Morse"]["properties"]["steepness"]["exclusiveMinimum"] == 0
-    assert found["ColeCole"]["properties"]["order"]["maximum"] == 0.95
-    assert found["RoundedCone"]["properties"]["rounding"]["unit"] == "m"
-    told = words((MORSE, ZENER, SHAPE, RADIUS))
-    for row in ("| `steepness` | b | 1 |", "| `order` | a | 1 |", "| `rounding` | b | m |"):
-        assert row in told
-    assert "`largest_contact_radius`" in told
-    assert "Morse" not in schema()["$defs"]
-
-
 # --- and they are right -----------------------------------------------------------------------
 
 
@@ -257,32 +219,7 @@ def test_the_modes_of_cole_cole_are_its_creep():
     assert product == pytest.approx(1.0, rel=1e-12)
 
 
-@pytest.mark.slow
-def test_a_wide_rounding_is_a_sphere_to_second_order_in_the_contact_over_it():
-    material = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
-    law = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1e-6)
-    test = vt.Retraction(start=vt.AtForce(0.0), speed=1e-5)
-
-    def force(shape):
-        problem = vt.Problem(material, law, shape, test)
-        result = vt.solve(problem, until="pull-off", estimate_error=False, accuracy=1e-4)
-        return vt.pull_off_force(result) * problem.scales().force
-
-    sphere = force(vt.Sphere(1e-3))
-    near, nearer = (force(SHAPE(b / 1e-3, b)) / sphere - 1 for b in (1e-3, 2e-3))
-    assert 0 < nearer < near < 0.01
-    assert near / nearer == pytest.approx(4, rel=0.15)
-
-
 # --- refusals ---------------------------------------------------------------------------------
-
-
-def test_a_word_or_a_name_that_is_taken_is_refused():
-    taken = type("Sphere", (SHAPE,), {"word": "mine"})
-    with pytest.raises(ValueError, match="a name or a word that is already used"):
-        known((taken,))
-    with pytest.raises(ValueError, match="'int' is not a law, material, shape or body"):
-        known((int,))
 
 
 def test_a_file_that_defines_nothing_or_fails_is_refused(tmp_path):
@@ -293,17 +230,6 @@ def test_a_file_that_defines_nothing_or_fails_is_refused(tmp_path):
     with pytest.raises(ValueError, match="cannot be read: ModuleNotFoundError"):
         own_nouns([tmp_path / "wrong.py"])
     assert not any("wrong" in name for name in sys.modules)
-
-
-def test_a_constant_without_a_card_is_named_on_the_way_to_si():
-    @dataclass(frozen=True, kw_only=True)
-    class Bare(vt.Elastic):
-        extra: float = 1.0
-
-    groups = vt.Groups(3.0, Bare(rubbery_modulus=1.0, poisson_ratio=0.0), vt.AtDepth(1.0), 1.0)
-    scales = dict(radius=1e-3, contact_modulus=1e6, time_unit=1.0, poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="Bare.extra has no card and so no unit"):
-        groups.in_si(**scales, work_of_adhesion=0.05)
 
 
 def test_times_and_moduli_of_ones_own_go_to_si_by_their_cards():
@@ -326,34 +252,6 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
         known((dataclass(frozen=True)(bare),))
 
 
-def test_flags_that_ones_own_material_needs_are_named():
-    status, _, err = call(
-        *"simulate sphere --material cole-cole:0.6 --tabor 1 --preload 3 --rate 1".split()
-    )
-    assert status == 2 and "--modulus-ratio missing for --material cole-cole" in err
-    status, _, err = call(*"simulate sphere --law morsel --material elastic".split())
-    assert status == 2 and "missing" in err
-
-
-def test_an_observable_that_fails_is_named(problem, tmp_path):
-    broken = vt.Observable("broken", "a broken number", "1", lambda result: result.nothing)
-    result = vt.solve(problem, until="pull-off", accuracy=2e-2, estimate_error=False)
-    with pytest.raises(vt.InputError, match="the observable broken failed: AttributeError"):
-        vt.summary(result, also=(broken,))
-
-
-def test_a_file_that_ends_the_program_is_refused(tmp_path):
-    (tmp_path / "ends.py").write_text("import sys\nsys.exit()\n")
-    with pytest.raises(ValueError, match="cannot be read: SystemExit"):
-        own_nouns([tmp_path / "ends.py"])
-    assert len(own_nouns([OWN / "morse.py", str(OWN / "morse.py")])) == 1
-
-
-def test_an_unknown_name_raises_an_error_with_its_source(case_file):
-    done = CliRunner().invoke(application(), ["simulate", "case", str(case_file)])
-    assert done.exit_code == 2 and "give a user-defined one with --with FILE.py" in done.stderr
-
-
 def test_a_geometry_that_is_not_reduced_is_refused():
     solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     with pytest.raises(ValueError, match=".slope 1 at distance 1., got Cone.slope=0.3."):
@@ -367,27 +265,3 @@ def test_an_observable_has_a_name_of_its_own(name):
     one = vt.Observable("mine", "words", "1", lambda result: 0.0)
     with pytest.raises(vt.InputError, match="two observables have the name mine"):
         known((one, one))
-
-
-def test_a_plan_is_looked_at_with_files_of_ones_own(case_file, tmp_path):
-    plan = tmp_path / "plan.toml"
-    plan.write_text(f'problem = "{case_file.name}"\n[[grid]]\ntraction.steepness = 2.0\n')
-    status, out, err = call("campaign", "plan", plan)
-    assert status == 0 and out.startswith("1 cases"), err
-
-
-def test_a_sweep_has_their_numbers(case_file, tmp_path):
-    (tmp_path / "cases.csv").write_text("traction.steepness\n2.0\n")
-    status, out, err = call(
-        "sweep", case_file, tmp_path / "cases.csv", "--accuracy", 0.02, "--json"
-    )
-    assert status == 0, err
-    (row,) = json.loads(out)["rows"]
-    assert row["outputs"]["largest_contact_radius_m"] > 0
-
-
-def test_a_campaign_of_an_own_class_without_its_file_says_where_to_name_it(problem):
-    with pytest.raises(vt.InputError, match=r"settings=CaseSettings\(own=\[.*to run") as wrong:
-        space_filling(problem, {"protocol.speed": {"log": [1e-6, 1e-5]}}, cases=2)
-    assert type(problem.traction).__name__ in str(wrong.value)
-    assert "also=" not in str(wrong.value)

@@ -6,20 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import viscotack as vt
 from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
-from viscotack.app.cli import application
-from viscotack.app.engine.overview import quick
 from viscotack.campaign import Store, read_plan, run
 from viscotack.check.tiers import problems
 from viscotack.files.toml import read_toml
 from viscotack.forecast.simulation import SIMULATION
 from viscotack.forecast.tiers import TIERS
-from viscotack.operations.declare.state import State
 from viscotack.problem.nouns import own_nouns
-from viscotack.problem.schema import schema
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 FILE, CASE = OWN / "foundation.py", OWN / "foundation.toml"
@@ -116,20 +111,6 @@ def test_every_door_gives_the_same_answer(send, tmp_path, monkeypatch):
         http.close()
 
 
-def test_without_its_file_each_entry_point_names_possible_sources():
-    done = CliRunner().invoke(application(), ["simulate", "case", str(CASE)])
-    assert done.exit_code == 2 and "unknown table 'foundation'" in done.stderr
-
-
-def test_schema_and_page_know_it(problem):
-    assert "Foundation" in schema((FOUNDATION,))["$defs"]
-    found = quick(State(read_toml(CASE), (FOUNDATION,)))
-    curve = found["curves"]["elastic"]
-    # JKR on springs: 2 pi R dg at least
-    assert min(curve["force"]) == pytest.approx(-2 * np.pi * 5e-3 * 0.1, rel=0.01)
-    assert any("body is Foundation" in note for note in found["notes"])
-
-
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
 def test_a_tier_accepts_the_bodies_on_its_list_alone(tier, body):
@@ -177,12 +158,6 @@ def test_beyond_the_simulation_only_verified_contacts_are_answered(body):
             continue
         with pytest.raises(vt.InputError, match="Tabor number"):
             vt.solve(case)
-
-
-@pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
-def test_what_theories_answer_is_refused_for_it_in_words(problem, ask):
-    with pytest.raises(vt.InputError, match="foundation|Foundation"):
-        ask(problem)
 
 
 def test_a_large_tabor_number_is_not_answered_as_on_a_half_space():

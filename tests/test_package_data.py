@@ -1,14 +1,8 @@
 """The contents of the two wheels: viscotack is small, viscotack-data has the data sets."""
 
-import io
-import subprocess
-import sys
 import tomllib
-import venv
 from fnmatch import fnmatch
 from pathlib import Path
-from shutil import copy, copytree, ignore_patterns
-from zipfile import ZIP_DEFLATED, ZipFile
 
 import pytest
 
@@ -18,7 +12,6 @@ from viscotack.datasets import files
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "viscotack"
 DATA = ROOT / "data" / "viscotack_data"
-LOAD = "from viscotack import datasets; print(datasets.load('punch_faces').num_rows)"
 
 
 def project(folder):
@@ -44,22 +37,6 @@ def test_every_file_of_a_package_is_installed(folder, package):
     assert not missing
     idle = [pattern for pattern in wanted if not any(fnmatch(name, pattern) for name in names)]
     assert not idle
-
-
-def test_the_wheel_is_below_3_3_mb():
-    packed = io.BytesIO()
-    with ZipFile(packed, "w", ZIP_DEFLATED) as wheel:
-        for name, path in contents(PACKAGE).items():
-            wheel.write(path, name)
-    # 3.15 MB, half of it four surrogates; its metadata has below 50 kB
-    assert packed.tell() < 3.3e6 - 5e4
-
-
-def test_the_wheel_has_no_data_sets_no_training_and_no_benchmarks():
-    names = contents(PACKAGE)
-    assert not [name for name in names if name.endswith((".parquet", ".csv"))]
-    rooms = {part for name in names for part in Path(name).parts[:-1]}
-    assert not rooms & {"training", "benchmarks", "replication", "tests"}
 
 
 def test_the_data_have_the_version_of_the_package():
@@ -89,40 +66,3 @@ def test_without_data_sets_the_error_has_the_command_that_installs_them(tmp_path
     wanted = rf"viscotack-data=={__version__}.*pip install .*\[data\]'"
     with pytest.raises(ModuleNotFoundError, match=wanted):
         datasets.load("thesis")
-
-
-@pytest.mark.outside
-def test_wheels_are_installed_together_and_apart(tmp_path):
-    """Needs an index of packages for the build: setuptools."""
-
-    def pip(*arguments):
-        subprocess.run([sys.executable, "-m", "pip", *map(str, arguments)], check=True)
-
-    # a copy: builds leave files beside the sources, which later builds would pack
-    source = tmp_path / "source"
-    for name in ("src", "data"):
-        copytree(ROOT / name, source / name, ignore=ignore_patterns("__pycache__", "*.egg-info"))
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
-        copy(ROOT / name, source)
-    pip("wheel", "--no-deps", "--wheel-dir", tmp_path, source, source / "data")
-    (package,) = tmp_path.glob("viscotack-*.whl")
-    (data,) = tmp_path.glob("viscotack_data-*.whl")
-    assert package.stat().st_size < 3.3e6 < data.stat().st_size
-
-    def loaded(*wheels):
-        """Load a set in an environment with these wheels and the libraries of this one."""
-        place = tmp_path / "-".join(wheel.name.partition("-")[0] for wheel in wheels)
-        venv.create(place, with_pip=False)
-        site = next(place.glob("lib/python*/site-packages"))
-        pip("install", "--no-deps", "--quiet", "--target", site, *wheels)
-        libraries = site / "libraries.pth"
-        libraries.write_text("\n".join(path for path in sys.path if "site-packages" in path))
-        return subprocess.run(
-            [place / "bin" / "python", "-I", "-c", LOAD],
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-        )
-
-    assert loaded(package, data).stdout == "174\n"
-    assert "pip install 'viscotack[data]'" in loaded(package).stderr

@@ -11,13 +11,9 @@ from viscotack import (
     AtDepth,
     AtForce,
     Backing,
-    Disc,
     Elastic,
-    FlatPunch,
     InputError,
-    Layer,
     LennardJones,
-    OutOfRange,
     PadArray,
     Problem,
     Retraction,
@@ -139,14 +135,6 @@ def test_tilted_and_curved_plates_pull_off_as_an_independent_sum_of_jkr_curves(t
     assert found.load_sharing < 0.999
 
 
-def test_pads_that_do_not_reach_the_counterface_never_touch():
-    found = pulled(places=grid(1, 3, 5e-3), heights=[0.0, 0.0, -1e-4])
-    assert np.isnan(found.released).tolist() == [False, False, True]
-    assert found.start_force[2] == 0
-    assert found.start_force.sum() == pytest.approx(3 * LOAD, rel=1e-6)
-    assert found.load_sharing == pytest.approx(2 / 3, rel=1e-3)
-
-
 def work_of_drive(found):
     """Work of the drive over the whole pull."""
     F, z = found.force, found.drive
@@ -217,41 +205,6 @@ def test_curves_between_two_starts_are_those_of_that_start(start):
     )
     depth = direct.depth[-1] * si.length
     assert found.released[0] == pytest.approx(start - depth, rel=0.02)
-
-
-@pytest.mark.parametrize(
-    "options, words",
-    [
-        ({"heights": [0.0]}, "one for each pad"),
-        ({"works": [1.0] * 11 + [-1.0]}, "must be positive"),
-        ({"places": ()}, "1 to 2,000 pads"),
-        ({"stiffness": 0.0}, "stiffness must be positive"),
-        ({"tilt": 0.3}, "below 10 degrees"),
-        ({"mean_load": -1.0}, "no relaxed"),
-    ],
-)
-def test_impossible_arrays_are_refused(options, words):
-    with pytest.raises(ValueError, match=words):
-        pulled(**options)
-
-
-def test_a_punch_in_plane_strain_is_refused():
-    punch = replace(pad(), geometry=FlatPunch(1e-4), body=Layer(1e-4))
-    with pytest.raises(InputError, match="take a disc"):
-        PadArray(punch, [(0.0, 0.0)])
-
-
-@pytest.mark.slow
-def test_viscoelastic_pads_that_share_a_soft_machine_very_unequally_are_refused():
-    with pytest.raises(OutOfRange, match="share the backing"):
-        pulled(pad(RUBBER, gap=6e-7), grid(1, 2, 5e-3), tilt=1e-3, stiffness=100.0)
-
-
-def test_an_array_of_discs_is_simulated():
-    disc = replace(pad(shape=Disc(2e-4)), traction=LennardJones(0.05, 1e-6))
-    found = pulled(disc, grid(1, 2, 1e-3), mean_load=1e-4)
-    assert found.method == "simulation"
-    assert found.load_sharing == pytest.approx(1, rel=1e-9)
 
 
 def test_a_viscoelastic_base_is_refused():

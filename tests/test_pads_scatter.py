@@ -75,25 +75,3 @@ def test_an_array_of_the_yield_is_that_of_a_pull():
     )
     pulled = pull_array(scatter.of(array(stiffness=2e3)), speed=1e-5, preload=4 * LOAD)
     assert one.forces[0] == pytest.approx(pulled.pull_off_force, rel=1e-3)
-
-
-def test_a_seed_gives_the_same_arrays_and_another_one_others():
-    options = {"load": UNIT, "speed": 1e-5, "preload": 4 * LOAD, "draws": 3}
-    first, again, other = (
-        array_yield(array(), Scatter(height=2e-6, seed=seed), **options).forces
-        for seed in (1, 1, 2)
-    )
-    assert first.tolist() == again.tolist() != other.tolist()
-
-
-@pytest.mark.parametrize(
-    "scatter, words", [({"height": -1e-6}, "not be negative"), ({"work": 0.5}, "between 0 and")]
-)
-def test_impossible_scatter_is_refused(scatter, words):
-    with pytest.raises(ValueError, match=words):
-        Scatter(**scatter)
-
-
-def test_too_many_pads_are_refused():
-    with pytest.raises(ValueError, match="pads are drawn in all"):
-        array_yield(array(), Scatter(work=0.1), load=1e-3, speed=1e-5, preload=8e-3, draws=200_000)

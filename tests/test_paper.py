@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT))
 
-from paper import closed_forms, numbers  # noqa: E402
+from research.paper import closed_forms, numbers  # noqa: E402
 from viscotack.theory import persson_brener  # noqa: E402
 
 

@@ -60,12 +60,6 @@ def test_a_problem_in_si_is_drawn_with_readable_units():
     assert mark(axes).get_ydata() == pytest.approx(-3.7248, rel=1e-4)
 
 
-def test_a_simulation_is_open_markers():
-    (axes,) = draw_force(jkr_result()).axes
-    assert curve(axes).get_marker() == "o"
-    assert curve(axes).get_markerfacecolor() == "white"
-
-
 def test_a_failed_run_is_drawn_without_a_pull_off():
     (axes,) = draw_force(jkr_result(status="stopped because it had to")).axes
     assert [line.get_label() for line in axes.lines if "pull" in line.get_label()] == []
@@ -126,13 +120,6 @@ def test_drawing_leaves_no_trace():
     subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parent)
 
 
-def test_the_style_is_readable_from_the_back_of_a_room():
-    figure = draw_force(jkr_result())
-    (axes,) = figure.axes
-    assert axes.xaxis.label.get_size() >= 16
-    assert min(label.get_size() for label in axes.get_xticklabels()) >= 14
-
-
 def test_an_unknown_format_is_refused_before_the_work():
     check_format("figure.PNG")
     with pytest.raises(
@@ -189,11 +176,3 @@ def test_every_cycle_has_its_pull_off_marked(taps):
     np.testing.assert_array_equal(mark(axes).get_xdata(), [end.depth_at_pull_off for end in ends])
     np.testing.assert_array_equal(mark(axes).get_ydata(), [-end.pull_off_force for end in ends])
     assert mark(axes).get_label() == f"pull-offs, the last {ends[-1].pull_off_force:.4g}"
-
-
-def test_no_line_is_drawn_over_a_time_without_contact(taps):
-    axes = draw_overview(taps).axes[2]
-    drawn, edge = curve(axes).get_ydata(), taps.contact_radius
-    assert np.sum(np.isfinite(drawn)) == np.sum(np.isfinite(edge))
-    # one break between the contacts, and none before or after them
-    assert np.sum(np.isnan(drawn)) == 1 and np.isfinite(drawn[[0, -1]]).all()

@@ -1,15 +1,12 @@
 """Pools of worker processes: progress, cancellation, limits, crashes."""
 
-import os
 import select
-import signal
 from contextlib import contextmanager
 from math import inf
 
-import psutil
 import pytest
 
-from processes import POSIX, lives, until
+from processes import lives, until
 from viscotack.pool import Limits, NoWorker, Pool, Setup
 
 FREE = Limits()
@@ -73,18 +70,6 @@ def test_a_task_that_is_stopped_is_interrupted_and_its_process_is_kept(clock, be
         assert done(pool, "echo", 7).what["process"] == before
 
 
-def test_a_task_that_is_stopped_before_it_begins_does_not_begin(clock, began):
-    with pool_of() as pool:
-        os.kill(pool.processes()[0], signal.SIGSTOP)  # both messages lie there when it goes on
-        pool.hand(0, "pool_tasks:spin", str(began), Limits(grace=inf))
-        pool.stop(0)
-        os.kill(pool.processes()[0], signal.SIGCONT)
-        assert outcome(pool).kind == "stopped"
-        # a request to stop a task that is over is for no other one
-        pool.stop(0)
-        assert done(pool, "echo").kind == "answer"
-
-
 def test_a_task_is_interrupted_at_its_time_limit_and_killed_after_the_grace(clock, began):
     with pool_of() as pool:
         (before,) = pool.processes()
@@ -131,18 +116,6 @@ def test_a_task_without_an_answer_says_why_and_its_process_is_kept(task, asked, 
         assert done(pool, "echo").kind == "answer" and pool.processes() == before
 
 
-def test_processes_are_nice():
-    with pool_of(nice=3) as pool:
-        assert done(pool, "niceness").what > psutil.Process().nice()
-
-
-@POSIX
-def test_processes_have_a_bounded_address_space():
-    with pool_of(address_space=2**32) as pool:
-        failed = done(pool, "huge", 10**9)
-        assert failed.kind == "failed" and "MemoryError" in failed.what
-
-
 def test_a_crash_costs_its_own_task_only_and_the_process_is_replaced(began):
     with pool_of(workers=2) as pool:
         first, second = pool.processes()
@@ -178,12 +151,6 @@ def test_processes_are_started_as_they_are_wanted():
     finally:
         pool.dismiss(at_once=True)
     assert pool.processes() == []
-
-
-def test_an_idle_process_ends_by_itself_and_costs_nothing():
-    with pool_of(idle=0.2) as pool:
-        until(lambda: pool.collect(0.0) or not pool.processes())
-        assert pool.room(1) == 0
 
 
 def test_a_loop_can_wait_for_a_pool():

@@ -11,11 +11,9 @@ import viscotack as vt
 from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import methods
-from viscotack.app.cli import reading
 from viscotack.forecast import cautions_on
 from viscotack.operations.parts import predict_table
-from viscotack.surrogate import physics, store, trust
-from viscotack.units import readable
+from viscotack.surrogate import store
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 RATE = ["--rate", "316.23"]
@@ -88,17 +86,6 @@ def test_flags_and_a_file_give_what_python_gives(lens, capsys):
         expected["cautions"] = list(cautions_on(problem))
         assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
     assert answer(capsys, "sphere", lens) == answer(capsys, lens)
-
-
-def test_words_have_the_interval_and_si(lens, capsys):
-    assert call(lens) == 0
-    out = capsys.readouterr().out
-    found = answer(capsys, lens)
-    assert out.startswith("by surrogate: every input is in the training range")
-    assert f"= {readable(found['pull_off_force_N'], 'N')}" in out
-    low, high = found["interval_N"]
-    assert "90 % between" in out and f"= {readable(low, 'N', to=high)}" in out
-    assert "work to pull-off" in out and "contact radius there" in out
 
 
 def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
@@ -238,17 +225,6 @@ def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
     assert told[1][told[0].index("pull_off_force")] == pytest.approx(7.3, abs=0.1)
 
 
-def test_a_workbook_that_cannot_be_read_and_two_outputs_are_refused(tmp_path, capsys):
-    damaged = tmp_path / "cases.xlsx"
-    damaged.write_text("tabor,rate\n1,2\n")
-    target = tmp_path / "answers.xlsx"
-    assert "expected an Excel workbook" in wrong(capsys, damaged, "--xlsx", target)
-    both = wrong(capsys, damaged, "--xlsx", target, "--csv", tmp_path / "answers.csv")
-    assert "choose one output" in both and "--csv or --xlsx" in both
-    assert "is for a table of cases" in wrong(capsys, *SPHERE, *RATE, "--xlsx", target)
-    assert not target.exists()
-
-
 def test_thousands_of_rows_are_a_matter_of_seconds(tmp_path, capsys):
     count = 5000
     limits = store.shipped().limits
@@ -325,32 +301,6 @@ def test_a_table_is_refused_before_anything_is_predicted(tmp_path, monkeypatch, 
     for same in (cases, tmp_path / "." / "cases.CSV", link):
         assert "is an input file" in wrong(capsys, cases, "--csv", same)
     assert cases.read_text() == text and not out.exists()
-
-
-def test_an_ending_in_capitals_and_the_count_of_rows(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(reading, "LINES", -1.0)
-    cases, out = tmp_path / "CASES.CSV", tmp_path / "out.csv"
-    rows = "1,0.1,0.8,5,10\n1,0.1,0.8,5,-1\n1,0.1,0.8,5,-2\n"
-    cases.write_text("tabor,modulus_ratio,exponent,preload,rate\n" + rows)
-    assert call(cases, "--csv", out) == 0
-    said, told = capsys.readouterr()
-    assert said.startswith("3 rows, 1 inside")
-    assert told.startswith("2 of 3 rows answered\n3 of 3 rows answered\n")
-
-
-def test_help_names_the_flags_and_the_confidences_that_there_are(capsys):
-    assert call("--help") == 0
-    out = capsys.readouterr().out
-    for word in ("--tabor", "--compare", "--curve", "CASES.csv", *map(str, trust.CONFIDENCES)):
-        assert word in out
-
-
-def test_the_page_states_the_ranges_that_there_are():
-    page = (Path(__file__).parents[1] / "docs/predict.md").read_text(encoding="utf-8")
-    for name, ends in physics.LIMITS.items():
-        words = " | ".join(f"{end:g}".replace("+", "") for end in ends)
-        title = "Tabor number" if name == "tabor" else name.replace("_", " ")
-        assert f"| {title} | {words} |" in page
 
 
 def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):

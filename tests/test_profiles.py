@@ -1,6 +1,5 @@
 """Profiles of any form: tables of heights, waves, worn tips, cups; several edges."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,19 +9,16 @@ import pytest
 from scipy.special import struve
 
 import viscotack as vt
-from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study, run
+from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
 from viscotack.bem import jumps
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of
-from viscotack.campaign import read_plan
 from viscotack.check.tiers import problems
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.forecast.simulation import SIMULATION
 from viscotack.forecast.tiers import TIERS
-from viscotack.problem.schema import schema
-from viscotack.result import observables
 from viscotack.theory import jkr
 from viscotack.theory.elastic import indenter
 from viscotack.traction import LennardJones
@@ -58,12 +54,6 @@ def test_a_paraboloid_by_its_heights_is_one_everywhere():
     assert shape.gap(r) == pytest.approx(r * r / 2, abs=1e-12)
     assert shape.flank(r) == pytest.approx(r, rel=1e-12)
     assert shape.equivalent_radius(1e-9) == pytest.approx(1.0, rel=1e-12)
-
-
-def test_heights_count_from_the_lowest():
-    shape = vt.MeasuredProfile.sampled(lambda r: (r - 1) ** 2, RADII)
-    assert shape.gap(1.0) == 0 and shape.gap(0.0) == pytest.approx(1.0)
-    assert shape == vt.from_dict(vt.to_dict(shape))
 
 
 def test_a_profile_goes_on_smoothly_behind_its_last_row():
@@ -155,19 +145,6 @@ def test_a_contact_beyond_the_last_row_is_refused():
         vt.solve(apart, accuracy=1e-2)
 
 
-@pytest.mark.parametrize("shape", [WAVY, reduced(worn)], ids=lambda shape: shape.word)
-def test_theories_of_one_edge_refuse_in_words(shape):
-    groups = vt.Groups(
-        tabor=3.0, material=RELAXING, start=vt.AtDepth(20.0), rate=3.0, geometry=shape
-    )
-    with pytest.raises(vt.InputError, match="rise ever more steeply"):
-        vt.crack_contact(groups)
-    with pytest.raises(vt.InputError, match="Tabor number"):
-        vt.solve(replace(groups, tabor=300.0))
-    with pytest.raises(vt.InputError, match="shape is"):
-        vt.predict(groups)
-
-
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
 @pytest.mark.parametrize("shape", [WAVY, reduced(worn), vt.Disc(1.0)], ids=lambda x: x.word)
 def test_no_cheap_tier_answers_for_a_shape_that_it_was_not_shown(tier, shape):
@@ -229,13 +206,6 @@ def test_a_case_file_names_the_table(tmp_path, table):
     typed = vt.read_case(path).geometry
     assert isinstance(typed, vt.MeasuredProfile)
     assert np.array(typed.points) == pytest.approx(np.array(shape.points), rel=1e-9, abs=1e-18)
-
-
-def test_a_case_file_states_waves(tmp_path):
-    path = tmp_path / "case.toml"
-    keys = 'radius = "5 mm"\namplitude = "0.2 um"\nwavelength = "50 um"'
-    path.write_text(CASE.format(table="wavy-sphere", keys=keys))
-    assert vt.read_case(path).geometry == vt.WavySphere(5e-3, 0.2e-6, 50e-6)
 
 
 def test_steep_waves_are_beyond_small_strain(tmp_path):
@@ -305,16 +275,6 @@ def test_a_ring_pulls_alike_from_rest_and_after_its_approach(ring_result):
     assert found.pull_off_force == pytest.approx(ring_result.pull_off_force, rel=error)
 
 
-def test_edges_are_saved_and_written(ring_result, tmp_path):
-    vt.save(ring_result, tmp_path / "ring.npz")
-    again = vt.load(tmp_path / "ring.npz")
-    for name in ("rings", "inner_radius"):
-        assert np.array_equal(getattr(again, name), getattr(ring_result, name), equal_nan=True)
-    vt.write_csv(again, tmp_path / "ring.csv")
-    header = (tmp_path / "ring.csv").read_text().splitlines()[0].split(",")
-    assert {"inner_radius", "rings"} <= set(header)
-
-
 def test_parts_of_a_contact_that_comes_together_are_counted():
     # a groove around a tip: it closes with a jump on the way in, whose energy is booked
     def groove(r):
@@ -348,14 +308,6 @@ def test_nodes_are_fine_at_each_edge(ring_result):
     for edge in (*inner, start.edge):
         around = np.searchsorted(nodes, edge)
         assert np.diff(nodes)[around - 3 : around + 3] == pytest.approx(grading.spacing, rel=0.3)
-
-
-def test_a_sphere_has_no_inner_edge():
-    groups = vt.Groups(tabor=1.0, material=ELASTIC, start=vt.AtDepth(2.0), rate=1.0)
-    result = vt.solve(groups, accuracy=1e-2)
-    assert result.rings is None and "most_rings" not in vt.summary(result)
-    with pytest.raises(vt.InputError, match="one edge"):
-        observables.most_rings(result)
 
 
 # --- every door -----------------------------------------------------------------------------------
@@ -392,28 +344,6 @@ def test_every_door_gives_the_same_answer(word, send, tmp_path, monkeypatch):
     )
     advice: Any = by_python(Question("advise", {"problem": "case.toml"})).record
     assert advice["use"] == "simulation" and advice["slow_force"] <= advice["fast_force"]
-
-
-def test_the_example_of_a_worn_lens_is_a_profile():
-    example = Path(__file__).parents[1] / "examples" / "from_toml" / "worn.toml"
-    assert isinstance(vt.read_case(example).geometry, vt.MeasuredProfile)
-    status, out, _ = run(["simulate", "profile", example, "--accuracy", "0.02", "--json"])
-    assert status == 0 and json.loads(out)["pull_off_force_N"] == pytest.approx(4.77e-3, rel=0.03)
-
-
-def test_a_campaign_varies_the_amplitude(tmp_path):
-    keys = 'radius = "5 mm"\namplitude = "0.2 um"\nwavelength = "100 um"'
-    (tmp_path / "case.toml").write_text(CASE.format(table="wavy-sphere", keys=keys))
-    plan = 'problem = "case.toml"\n[[grid]]\ngeometry.amplitude = ["0.1 um", "0.3 um"]\n'
-    (tmp_path / "plan.toml").write_text(plan + "[settings]\naccuracy = 0.02\n")
-    cases = read_plan(tmp_path / "plan.toml").cases
-    assert len(cases) == 2
-
-
-def test_records_of_both_shapes_fit_the_schema():
-    known = schema()["$defs"]
-    assert {"MeasuredProfile", "WavySphere"} <= known.keys()
-    assert known["MeasuredProfile"]["properties"]["points"]["units"] == ["m", "m"]
 
 
 def test_a_march_goes_on_where_new_nodes_have_no_compliance(monkeypatch):

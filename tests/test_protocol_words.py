@@ -106,13 +106,6 @@ def test_words_that_are_no_move_are_refused_with_the_cure(words, said):
         move_from_words(words, SPHERE_UNITS)
 
 
-def test_a_number_without_a_word_may_be_anything():
-    with pytest.raises(ValueError, match="state whether 20 is a depth, a force or a radius"):
-        move_from_words("approach 10 to 20", PURE_NUMBERS)
-    with pytest.raises(ValueError, match="'near 20' is not a start; write apart, depth"):
-        start_from_words("near 20", PURE_NUMBERS)
-
-
 def test_a_case_states_start_moves_spring_and_retraction(tmp_path):
     protocol = case(
         tmp_path,
@@ -248,21 +241,6 @@ def test_a_wrong_law_is_refused_with_its_key(interface, said, tmp_path):
         case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', interface)
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        ("glue", "the law must be one of lennard-jones, dugdale"),
-        ("exponential", "write exponential:DECAY, got 'exponential'"),
-        ("lennard-jones:3", "write lennard-jones, got"),
-        ("exponential:soft", "decay must be a dimensionless number"),
-        ("table", "needs a file: table:FILE.csv"),
-    ],
-)
-def test_a_wrong_law_in_a_flag_is_refused(words, said):
-    with pytest.raises(ValueError, match=said):
-        law_from_words(words)
-
-
 def simulated(*flags):
     arguments = ["simulate", "sphere", "--tabor", "1", "--material", "elastic", *flags, "--json"]
     return CliRunner().invoke(application(), arguments)
@@ -279,20 +257,3 @@ def test_moves_on_the_command_line():
     assert [move["type"] for move in record["moves"]] == ["Approach", "Dwell"]
     assert record["stiffness"] == 5.0
     assert record["traction"]["decay"] == 0.4
-
-
-@pytest.mark.parametrize(
-    ("flags", "said"),
-    [
-        (("--apart", "5", "--preload", "1"), "exactly one of .*--apart, got --preload and --apart"),
-        (("--apart", "-5"), "--apart must be positive"),
-        (("--preload", "1", "--move", "jump"), "'jump' is not a move"),
-        (("--preload", "1", "--stiffness", "0"), "--stiffness must be positive"),
-    ],
-)
-def test_wrong_moves_on_the_command_line_are_refused(flags, said):
-    import re
-
-    done = simulated(*flags)
-    assert done.exit_code == 2
-    assert re.search(said, " ".join(done.output.split()))

@@ -9,16 +9,13 @@ from command_line import exit_status
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.operations.declare import questions
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Problem
 from viscotack.problem.case_file import read_case
-from viscotack.problem.record import from_dict, run_id
+from viscotack.problem.record import from_dict
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
 from viscotack.result import columns, load
 
 PUNCH = ["simulate", "punch"]
-ISSUE = (
-    "--size 64.85 --thickness 3.24 --cohesion 0.05 --modulus-ratio 0.1 --preload 1 --rate 10"
-).split()
 # The keys that the command line promises, with what they are in SI.
 KEYS = {
     "pull_off_stress": "Pa",
@@ -78,20 +75,6 @@ def case_file(tmp_path):
     return path
 
 
-def test_the_example_of_the_help_gives_the_promised_keys(capsys):
-    answer = asked([*PUNCH, *ISSUE], capsys)
-    assert KEYS.keys() | {"status", "error_estimate", "energy_residual"} <= answer.keys()
-    assert answer["status"] == "detached"
-    assert answer["pull_off_stress"] == pytest.approx(0.9955, rel=2e-3)
-    assert answer["energy_residual"] < 1e-3
-    assert 0 < answer["error_estimate"]["force"] < 2e-3
-    assert answer["effective_surface_energy_note"] is None
-    assert {"size", "thickness", "cohesion", "rate"} <= answer.keys()
-    problem = from_dict(answer["problem"])
-    assert isinstance(problem, Groups) and problem.in_plane_strain
-    assert run_id(problem) == answer["run_id"]
-
-
 def test_the_material_is_a_standard_solid_unless_it_is_said():
     flags = {"size": 60, "thickness": 3, "cohesion": 0.05, "preload": 1, "rate": 10}
     assert isinstance(
@@ -124,27 +107,6 @@ def test_a_test_with_a_history_and_another_law_is_stated_in_words(capsys):
     # the strength, with the overshoot of a parabola at the corner of a flat maximum
     assert answer["pull_off_stress"] == pytest.approx(1.0, abs=0.01)
     assert answer["energy_residual"] < 2e-3
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        ("--size 60 --thickness 3 --modulus-ratio 0.1 --preload 1 --rate 1", "--cohesion missing"),
-        ("--size 60 --thickness 3 --cohesion 0.05 --preload 1 --rate 1", "--modulus-ratio missing"),
-        ("--size 60 --thickness 3 --cohesion 1 --material elastic", "exactly one of --preload"),
-        ("--size 60 --thickness 0 --cohesion 1 --material elastic --preload 1", "must be positive"),
-        (
-            "--size 60 --thickness 3 --cohesion 1 --material elastic --preload 1 --bonded 0.6",
-            "poisson_ratio must lie between 0 and 0.5",
-        ),
-        (
-            "--size 60 --thickness 3 --cohesion 1 --material elastic --preload-force -2",
-            "no relaxed contact bears a mean stress of -2 sigma0",
-        ),
-    ],
-)
-def test_wrong_flags_are_refused_in_words(flags, words, capsys):
-    assert words in wrong([*PUNCH, *flags.split()], capsys)
 
 
 def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
@@ -194,15 +156,6 @@ def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
     assert "remove --size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
 
 
-def test_words_tell_what_is_at_hand(capsys):
-    thick = ["324" if word == "3.24" else word for word in ISSUE] + ["--until", "pull-off"]
-    assert exit_status([*PUNCH, *thick]) == 0
-    out = capsys.readouterr().out
-    assert "pull-off stress" in out and "sigma0" in out
-    assert "thicker than b1" in out
-    assert "work of separation" not in out  # the run ended before
-
-
 @pytest.mark.parametrize("kind", ["force", "radius", "overview", "energy"])
 def test_every_kind_of_plot_is_drawn(kind, case_file, tmp_path):
     picture = tmp_path / "pad.png"
@@ -222,16 +175,6 @@ def test_theory_says_how_thick_a_pad_must_be(capsys):
     assert back["pull_off_stress_Pa"] == pytest.approx(3e4, rel=1e-4)
     assert back["regime"] == "thin layer"
     assert back["slowest_pull_off_stress_Pa"] < 3e4 < back["fastest_pull_off_stress_Pa"]
-
-
-def test_theory_takes_a_case(case_file, capsys):
-    case_file.write_text(CASE.replace("bonded", "frictionless"))
-    answer = asked(["theory", "punch", case_file, "--theory", "persson-brener"], capsys)
-    found = asked([*PUNCH, case_file, "--until", "pull-off"], capsys)
-    # theory is up to 19 % high
-    assert answer["pull_off_stress_Pa"] == pytest.approx(found["pull_off_stress_Pa"], rel=0.2)
-    wished = asked(["theory", "punch", case_file, "--stress", "60 kPa"], capsys)
-    assert wished["thickness_m"] > 50e-6
 
 
 @pytest.mark.slow
@@ -268,10 +211,3 @@ def test_an_elastic_pad_has_an_answer_and_no_map(capsys, tmp_path):
     assert answer["pull_off_stress_Pa"] == pytest.approx(answer["slowest_pull_off_stress_Pa"])
     assert answer["crack_speed_at_pull_off_m_per_s"] is None
     assert "no regime map" in wrong([*pad, "--plot", tmp_path / "map.png"], capsys)
-
-
-def test_help_is_for_strangers(capsys):
-    for command in (PUNCH, ["theory", "punch"]):
-        assert exit_status([*command, "--help"]) == 0
-        out = capsys.readouterr().out
-        assert "Example: viscotack" in out and "a" in out

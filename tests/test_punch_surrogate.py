@@ -14,7 +14,7 @@ from viscotack.surrogate import punch_physics as physics
 from viscotack.surrogate import store
 from viscotack.surrogate.line import OUTPUTS, PRESSING, SHAPE
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, single, together
+from viscotack.surrogate.network import Networks
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 from viscotack.surrogate.trust import INPUTS as TOLD
 
@@ -187,7 +187,7 @@ def test_thin_and_thick_elastic_layers_are_those_of_theory():
 
 def test_both_limits_are_those_that_were_simulated():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.train_punch import LIMITS, read
+    from research.training.train_punch import LIMITS, read
 
     rows = read(LIMITS)
     tests = shipped().tests(rows.groups)
@@ -219,15 +219,6 @@ def test_a_fast_pull_off_tends_to_that_of_a_layer_that_does_not_relax():
     fast = 10 ** shipped().tests(rows).fast.mean(axis=0)
     off = 1 - shipped().evaluate(rows).pull_off_force / fast
     assert np.median(off) < 5e-4 and np.quantile(off, 0.95) < 5e-3
-
-
-def test_faster_is_never_weaker():
-    rows = np.repeat(random_rows(60, seed=6), 40, axis=0)
-    rows[:, physics.RATE] = np.tile(np.geomspace(1e-3, 1e6, 40), 60)
-    stress = np.log(shipped().evaluate(rows).pull_off_force).reshape(60, 40)
-    # what networks may wave by, of the answer
-    assert np.diff(stress, axis=1).min() > -2e-3
-    assert np.max(np.maximum.accumulate(stress, axis=1) - stress) < 4e-3
 
 
 def test_the_start_by_stress_is_that_of_its_depth():
@@ -276,8 +267,8 @@ def test_a_simulation_lies_in_the_intervals(case):
 
 def test_test_rows_are_predicted_within_the_documented_errors():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.rows import joined
-    from training.train_punch import LEARNED, parts, read, scored
+    from research.training.rows import joined
+    from research.training.train_punch import LEARNED, parts, read, scored
 
     rows = joined([one.chosen(parts(len(one))[1]) for one in map(read, LEARNED)])
     found = scored(shipped(), rows)
@@ -290,12 +281,6 @@ def test_test_rows_are_predicted_within_the_documented_errors():
 
 
 # where it ends
-
-
-def test_a_picture_of_a_punch_speaks_of_stress():
-    axes = vt.draw_prediction(vt.predict(punch_of(rate=10.0))).axes[0]
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert "zero stress, interval" in labels and axes.get_ylabel().startswith("mean stress")
 
 
 def test_what_was_not_learned_is_refused_in_words():
@@ -361,34 +346,3 @@ def test_rows_of_a_table_are_those_of_single_predictions():
 
 
 # the file
-
-
-def test_a_surrogate_comes_back_from_its_file(tmp_path):
-    one, path, rows = random_surrogate(), tmp_path / "one.npz", random_rows(20)
-    store.save(one, path, {"made": "today"})
-    again = store.load(path)
-    assert store.facts(path)["made"] == "today" and again.contact is physics.PunchContact
-    said, found = one.evaluate(rows), again.evaluate(rows)
-    assert np.array_equal(found.work_to_pull_off, said.work_to_pull_off)
-    assert np.array_equal(again.curves(rows, found).force, one.curves(rows, said).force)
-
-
-def test_a_damaged_or_foreign_file_is_refused(tmp_path):
-    path, one = tmp_path / "one.npz", random_surrogate()
-    three, slow = random_surrogate().networks["force"], one.networks["slow"]
-    for wrong, words in (
-        (one.having(slow=three), "layer 0 of slow must have the shape"),
-        (one.having(force=slow), "layer 0 of force must have the shape"),
-        (replace(one, trust=replace(one.trust, levels=np.ones((4, 2)))), "trust.levels must have"),
-        (replace(one, trust=replace(one.trust, joint=np.full(7, np.nan))), "finite numbers"),
-        (one.having(slow=together([slow, single(slow, 0)])), "the slow limit must be 1 or 2"),
-    ):
-        store.save(wrong, path, {})
-        with pytest.raises(ValueError, match=words):
-            store.load(path)
-    whole = store.FILES["punch"].read_bytes()
-    assert len(whole) < 5.5e5
-    for content in (b"nothing", whole[: len(whole) // 2], whole[:5000] + b"x" + whole[5001:]):
-        path.write_bytes(content)
-        with pytest.raises(ValueError, match="not the file of a surrogate|checksum"):
-            store.load(path)

@@ -3,7 +3,6 @@
 import itertools
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,11 +10,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks import docs_check
+from docs import sessions as docs_check
 from viscotack import datasets
 
 ROOT = Path(__file__).parents[1]
-REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
+REPLICATION = sorted((ROOT / "research/replication").rglob("*.md"))
 PAGES = [
     ROOT / "README.md",
     *(ROOT / f"{word}.md" for word in ("CONTRIBUTING", "CODE_OF_CONDUCT", "SECURITY")),
@@ -108,11 +107,6 @@ def test_the_readme_has_one_short_example(anywhere, capsys):
     assert stated and capsys.readouterr().out == f"pull-off force {stated[1]} mN\n"
 
 
-def test_the_readme_fits_on_a_screen():
-    lines = (ROOT / "README.md").read_text().splitlines()
-    assert len([line for line in lines if line.strip()]) < 60
-
-
 def test_first_steps_have_an_example_in_python(anywhere, capsys):
     page = ROOT / "docs/first_hour.md"
     (example,) = [block for block in blocks(page, "python") if "vt.Problem(" in block]
@@ -159,7 +153,7 @@ def compare(lines, shown):
         if line not in shown:
             run([line])
         elif wrong := docs_check.difference(shown[line], docs_check.printed(line)):
-            pytest.fail(f"{line}\n  {wrong}\nrun: python benchmarks/docs_check.py --write")
+            pytest.fail(f"{line}\n  {wrong}\nrun: python docs/sessions.py --write")
 
 
 @pytest.mark.parametrize("page", short())
@@ -213,68 +207,3 @@ def test_a_stale_session_is_found_and_renewed(monkeypatch):
     assert "lines" in docs_check.difference(session, ["a 1.2"])
     fresh = docs_check.renewed(page, {session: ["a 1.5", "b", "z 4"]})
     assert fresh == page.replace("1.2", "1.5").replace("z 3", "z 4")
-
-
-@pytest.mark.parametrize("page", PAGES, ids=name)
-def test_make_targets_of_the_pages_exist(page):
-    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
-    words = [w for line in commands(page) if line.startswith("make ") for w in line.split()[1:]]
-    assert set(words) <= targets
-
-
-def test_every_change_is_held_to_the_slow_tests_too():
-    lines = (ROOT / ".ci" / "run").read_text().splitlines()
-    assert {"make test", "make test-slow"} <= set(lines)
-
-
-def test_first_two_commands_are_demo_and_test():
-    assert commands(ROOT / "README.md")[:2] == ["make demo", "make test"]
-
-
-@pytest.mark.skipif(not shutil.which("make"), reason="make is not installed")
-def test_the_demo_installs_nothing_but_the_package_and_what_it_stands_on():
-    dry = ["make", "--dry-run", "--always-make", "demo"]
-    said = subprocess.run(dry, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    installs = [line.split()[-2:] for line in said.splitlines() if " install " in line]
-    assert installs == [["--editable", "."]]
-
-
-@pytest.mark.parametrize("page", PAGES, ids=name)
-def test_links_lead_somewhere(page):
-    for target in re.findall(r"\]\(([^)#]+)", page.read_text()):
-        if not target.startswith("http"):
-            path = (page.parent / target).resolve()
-            assert path.exists(), f"{name(page)}: {target}"
-
-
-def test_every_page_is_in_the_navigation_of_the_site():
-    pages = {page.stem for page in (ROOT / "docs").glob("*.md")}
-    listed = [
-        entry
-        for page in (ROOT / "docs").glob("*.md")
-        for block in re.findall(r"```{toctree}\n(.*?)```", page.read_text(), re.DOTALL)
-        for entry in re.findall(r"(?m)^([\w./-]+)$", block)
-    ]
-    assert len(listed) == len(set(listed))
-    assert set(listed) >= pages - {"index"}
-
-
-def test_every_example_is_on_its_page():
-    text = (ROOT / "docs/examples.md").read_text()
-    kinds = [*ROOT.glob("examples/*.py"), *ROOT.glob("examples/own/**/*.py")]
-    kinds += [*ROOT.glob("examples/*/*.toml")]
-    assert len(kinds) > 15
-    assert [path.name for path in kinds if f"{path.relative_to(ROOT)})" not in text] == []
-
-
-def test_picture_of_the_readme_is_small():
-    assert (ROOT / "docs" / "pdms_lens.png").stat().st_size < 150_000
-
-
-def test_no_page_holds_what_a_merge_left():
-    root = Path(__file__).resolve().parents[1]
-    kept = [*root.glob("*.md"), *root.glob("docs/*.md"), *root.glob("replication/**/*.md")]
-    assert kept
-    marks = ("<" * 7 + " ", ">" * 7 + " ")
-    left = [page.name for page in kept if any(f"\n{m}" in page.read_text() for m in marks)]
-    assert left == []

@@ -13,13 +13,10 @@ from pathlib import Path
 import pytest
 
 from release.building import settled
-from release.links import broken
-from release.metadata import CODEMETA, ROOT, codemeta, notes, project, readme_for_index, recipe
+from release.metadata import CODEMETA, ROOT, codemeta, project, readme_for_index, recipe
 from viscotack import __version__
 
 RUN = ["--tabor", "3.24", "--modulus-ratio", "0.1", "--exponent", "0.8", "--preload", "73"]
-# Quick tests of the sdist that need the examples, the pages and the data sets.
-SHORT = ["tests/test_package_data.py", "tests/test_examples.py", "tests/test_release.py"]
 
 
 def test_codemeta_is_that_of_the_project():
@@ -45,10 +42,6 @@ def test_the_recipe_has_every_dependency_and_the_sdist():
     assert "path: viscotack-9.tar.gz\n  sha256: ab12\n" in text
 
 
-def test_notes_are_the_newest_section_of_the_changelog():
-    assert notes().startswith("## [Unreleased]") and notes().count("\n## ") == 0
-
-
 def test_the_readme_of_an_index_has_no_link_into_the_checkout():
     text = "![lens](docs/lens.png)\n\nSee [this](docs/start.md#one) and [that](http://x.org/y)."
     assert readme_for_index(text) == "See this and [that](http://x.org/y)."
@@ -56,24 +49,6 @@ def test_the_readme_of_an_index_has_no_link_into_the_checkout():
     assert "![lens](http://x.org/v1/docs/lens.png)" in absolute
     assert "[this](http://x.org/v1/docs/start.md#one)" in absolute
     assert not re.findall(r"\]\((?!http)", readme_for_index((ROOT / "README.md").read_text()))
-
-
-def test_broken_links_and_parts_from_elsewhere_are_found(tmp_path):
-    (tmp_path / "in").mkdir()
-    (tmp_path / "index.html").write_text(
-        '<h1 id="top-of-all"></h1><a href="in/one.html#here">1</a> <a href="in">2</a>'
-        '<a href="https://example.org/">3</a> <a href="#nowhere">4</a> <a href="in/two.html">5</a>'
-        '<script src="https://cdn.example.org/x.js"></script><img src="in/none.png">'
-    )
-    (tmp_path / "in/one.html").write_text('<p id="here"><a href="../index.html#top-of-all">6</a>')
-    (tmp_path / "in/index.html").write_text('<link rel="stylesheet" href="none.css">')
-    assert list(broken(tmp_path)) == [
-        "in/index.html: none.css does not exist",
-        "index.html: #nowhere has no such place",
-        "index.html: in/two.html does not exist",
-        "index.html: https://cdn.example.org/x.js comes from another place",
-        "index.html: in/none.png does not exist",
-    ]
 
 
 def packed(names, time):
@@ -144,15 +119,3 @@ def test_the_package_is_installed_from_the_folder(folder, environment, tmp_path)
     assert "7.33" in out_of(command, tmp_path)
     sets = "from viscotack import datasets; print(datasets.load('punch_faces').num_rows)"
     assert out_of([environment, "-c", sets], tmp_path) == "174\n"
-
-
-@pytest.mark.outside
-def test_tests_of_the_sdist_run(folder, environment, tmp_path):
-    (sdist,) = folder.glob("*.tar.gz")
-    with tarfile.open(sdist) as archive:
-        archive.extractall(tmp_path, filter="data")
-    (source,) = tmp_path.iterdir()
-    test = [environment, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
-    for more in (["--collect-only"], SHORT):
-        chosen = [*test, "-m", "not slow and not outside", *more]
-        out_of(chosen, source, PYTHONPATH=str(source / "src"))

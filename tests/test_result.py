@@ -1,18 +1,12 @@
 import csv
-import json
 import zipfile
 
 import numpy as np
 import pytest
 
-from synthetic import GROUPS, SI, energies, jkr_crack_speed, jkr_detachment, jkr_result
-from viscotack import __version__
-from viscotack.problem import Groups
-from viscotack.protocol import AtForce, Dwell, LoadTo
+from synthetic import SI, energies, jkr_crack_speed, jkr_detachment, jkr_result
 from viscotack.result import (
     Event,
-    Outcome,
-    Result,
     ShallowStart,
     columns,
     load,
@@ -20,8 +14,6 @@ from viscotack.result import (
     save,
     write_csv,
 )
-from viscotack.result import result as module
-from viscotack.result.dead_load import time_held
 
 
 def full(**changes):
@@ -71,18 +63,6 @@ def test_a_saved_result_comes_back_whole(result, tmp_path):
         "versions",
     ):
         assert getattr(back, name) == getattr(result, name)
-
-
-def test_a_file_contains_no_code_and_states_its_writer(tmp_path):
-    save(jkr_result(), tmp_path / "run.npz")
-    with np.load(tmp_path / "run.npz", allow_pickle=False) as file:
-        header = json.loads(str(file["header"]))
-        assert all(file[name].dtype != object for name in file.files)
-    assert header["versions"] == {
-        "viscotack": __version__,
-        "numpy": np.__version__,
-        "scipy": header["versions"]["scipy"],
-    }
 
 
 def cut(path):
@@ -169,37 +149,6 @@ def test_another_kind_of_file_is_refused_with_its_reason(damage, reason, tmp_pat
         load(path)
 
 
-def test_every_flipped_byte_is_noticed_or_harmless(tmp_path):
-    path = tmp_path / "run.npz"
-    save(jkr_result(steps=20), path)
-    good = load(path)
-    whole = path.read_bytes()
-    rng = np.random.default_rng(5)
-    for place in rng.choice(len(whole), 300, replace=False):
-        data = bytearray(whole)
-        data[place] ^= 1 << int(rng.integers(8))
-        path.write_bytes(bytes(data))
-        try:
-            back = load(path)
-        except ValueError:
-            continue
-        np.testing.assert_array_equal(back.force, good.force)
-        assert back.problem == good.problem
-
-
-def test_a_file_of_a_newer_format_raises_an_error_to_update(tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "_FORMAT_VERSION", 2)
-    save(jkr_result(), tmp_path / "run.npz")
-    monkeypatch.undo()
-    with pytest.raises(ValueError, match="in a newer format; update viscotack"):
-        load(tmp_path / "run.npz")
-
-
-def test_a_missing_file_is_a_missing_file(tmp_path):
-    with pytest.raises(FileNotFoundError):
-        load(tmp_path / "nothing.npz")
-
-
 def test_a_failed_write_leaves_the_old_file_and_no_scraps(tmp_path, monkeypatch):
     path = tmp_path / "run.npz"
     save(jkr_result(), path)
@@ -266,70 +215,3 @@ def test_receding_speed_is_not_taken_across_a_jump():
     speed = receding_speed(time, radius)
     np.testing.assert_allclose(speed[:5], [1, 1, 1, 0.5, 0.5], rtol=1e-12)
     assert np.all(np.isnan(speed[5:]))
-
-
-@pytest.mark.parametrize(
-    ("status", "outcome"),
-    [
-        ("detached", Outcome.DETACHED),
-        ("still in contact at the end", Outcome.IN_CONTACT),
-        ("jumped at depth -4.61 h0", Outcome.JUMPED),
-        ("stopped because no equilibrium was found", Outcome.STOPPED),
-    ],
-)
-def test_a_status_message_states_its_outcome(status, outcome):
-    assert jkr_result(status=status).outcome is outcome
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"status": "fine"}, "status must begin with one of 'detached'"),
-        ({"force": np.ones(3)}, "equally long"),
-        ({"depth": np.full(201, np.nan)}, "depth of a result must be finite"),
-        ({"time": -np.arange(201.0)}, "time of a result must not decrease"),
-        ({"problem": {"tabor": 1}}, "problem must be a Problem or Groups"),
-    ],
-)
-def test_an_impossible_result_is_refused(change, words):
-    with pytest.raises(ValueError, match=words):
-        jkr_result(**change)
-
-
-def test_a_result_cannot_be_changed():
-    result = full()
-    with pytest.raises(ValueError, match="read-only"):
-        result.force[0] = 1
-    with pytest.raises(ValueError, match="read-only"):
-        result.fields["gap"][0] = 1
-    with pytest.raises(AttributeError):
-        result.status = "detached"
-
-
-def test_an_event_needs_numbers():
-    with pytest.raises(ValueError, match="energy of an event must be finite"):
-        Event("jump out of contact", 0.0, 0.0, 0.0, float("nan"))
-
-
-def test_groups_and_problem_are_kept_as_given():
-    assert jkr_result().problem is GROUPS
-    assert jkr_result(problem=SI).problem is SI
-
-
-def test_without_the_record_of_moves_a_hold_begins_where_the_force_is_that_of_the_end():
-    moves = (LoadTo(force=-1.5, duration=2.0), Dwell(duration=9.0, hold="force"))
-    problem = Groups(2.0, GROUPS.material, AtForce(0.0), rate=None, moves=moves)
-    parts = dict(
-        problem=problem,
-        time=np.array([0.0, 1.0, 2.0, 5.0, 8.5]),
-        depth=np.array([4.0, 3.0, 2.0, 1.0, -1.0]),
-        contact_radius=np.full(5, np.nan),
-        edge_speed=np.full(5, np.nan),
-        status="detached",
-    )
-    for number in (None, np.array([0, 0, 0, 1, 1])):
-        result = Result(force=np.array([0.0, -0.75, -1.5, -1.5, -1.5]), move=number, **parts)
-        assert time_held(result) == 6.5
-    # held from the beginning
-    result = Result(force=np.full(5, -1.5), **parts)
-    assert time_held(result) == 8.5

@@ -9,8 +9,6 @@ from front_ends import Http, Question, through_all
 from test_rough_file import BUMPS, MAP, SMALL
 from viscotack.campaign import CaseSettings, Store, inputs_of, measure, read_plan, run
 from viscotack.errors import InputError
-from viscotack.operations import ask
-from viscotack.problem import StatedSurface
 from viscotack.problem.record import from_dict, to_dict
 from viscotack.rough import pull, read_rough, read_rough_case
 
@@ -70,43 +68,6 @@ def test_a_map_that_has_changed_since_is_refused(folder):
         measure(case, CaseSettings())
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("surface.scatter", "surface.hurst", "no number 'surface.hurst'"),
-        ('"1 um"]', '"-1 um"]', "scatter must be at least 0"),
-        ("problem =", 'temperature = "0 degC"\nproblem =', "temperature of its material"),
-        ('surface.scatter = ["0 um", "1 um"]', "surface.seed = [1.5]", "seed must be a whole"),
-        ("bumps.toml", "measured.toml", "scatter"),
-    ],
-)
-def test_a_wrong_plan_is_refused(folder, old, new, words):
-    assert old in PLAN
-    Path("plan.toml").write_text(PLAN.replace(old, new))
-    with pytest.raises(InputError, match=words):
-        read_plan("plan.toml")
-
-
-def test_files_that_state_several_contacts_are_refused_in_words(folder):
-    Path("bumps.toml").write_text("[pad]\nradius = 1\n[array]\n")
-    with pytest.raises(InputError, match="a file of `viscotack array`"):
-        read_plan("plan.toml")
-
-
-@pytest.mark.parametrize(
-    ("numbers", "words"),
-    [
-        ({"kind": ("cones",)}, "kind must be one of"),
-        ({}, "either a kind"),
-        ({"kind": ("sphere",), "pixels": 16, "pixel": 1e-6}, "needs radius"),
-        ({"file": "a.npy", "kind": ("sphere",)}, "either a kind"),
-    ],
-)
-def test_a_surface_that_is_not_stated_is_refused(numbers, words):
-    with pytest.raises(InputError, match=words):
-        StatedSurface(**numbers)
-
-
 @pytest.mark.slow
 def test_all_front_ends_sweep_a_rough_surface(folder):
     rows = [{"surface.seed": 1.0}, {"surface.seed": 1.5}]
@@ -123,17 +84,6 @@ def test_all_front_ends_sweep_a_rough_surface(folder):
     assert "whole number" in first[1]["reason"]
     for rows in others:
         assert [row["outputs"] for row in rows] == [row["outputs"] for row in first]
-
-
-def test_a_record_does_not_read_files_of_a_server(folder):
-    record = to_dict(read_rough_case("measured.toml"))
-    assert ask("campaign inputs", problem=record).record()["surface.pixel"]["value"] == 1e-5
-    client = Http()
-    try:
-        answer = client("/api/campaign/inputs", json={"problem": record})
-    finally:
-        client.close()
-    assert answer.status_code == 422 and "was sent" in answer.text
 
 
 @pytest.mark.slow

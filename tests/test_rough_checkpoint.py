@@ -10,11 +10,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from test_rough_file import BUMPS, MAP, SMALL
 from viscotack.bem.grid import run as grid_run
 from viscotack.bem.grid.checkpoint import Checkpoint
-from viscotack.errors import InputError
-from viscotack.operations import ask
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retraction
 from viscotack.rough import RoughProblem, pull
 from viscotack.surfaces import self_affine
@@ -139,45 +136,3 @@ def test_a_relaxed_start_that_is_interrupted_continues(tmp_path, monkeypatch, st
     grid_run.relaxed(contact, begin)
     assert again == len(calls) - 9 - 8  # the eight states before the interruption were kept
     assert list(Checkpoint.opened(path, "key").parts) == ["start"]
-
-
-def test_a_run_that_met_its_time_limit_continues(tmp_path, whole, monkeypatch):
-    path, now = tmp_path / "run.npz", [0.0]
-    monkeypatch.setattr("viscotack.clock.perf_counter", lambda: now[0])
-
-    def late(share):
-        now[0] = 100.0 if share > 0.4 else 0.0
-
-    first = pull(problem(), maps=6, checkpoint=path, time_limit=10.0, progress=late)
-    assert "time limit" in first.status
-    assert len(first.time) < len(whole.time)
-    assert_same(pull(problem(), maps=6, checkpoint=path), whole)
-
-
-def test_a_checkpoint_of_something_else_is_refused(tmp_path):
-    path = tmp_path / "run.npz"
-    with pytest.raises(InputError, match="time limit"):
-        pull(problem(), checkpoint=path, time_limit=1e-9)
-    assert not path.exists()
-    other = replace(problem(), surface=problem().surface.scaled(0.5))
-    pull(other, accuracy=0.02, estimate_error=False, checkpoint=path)
-    with pytest.raises(InputError, match="of another problem"):
-        pull(problem(), accuracy=0.01, checkpoint=path)
-    with pytest.raises(InputError, match="of another problem"):
-        pull(other, accuracy=0.01, checkpoint=path)
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(InputError, match="is not a checkpoint"):
-        pull(other, accuracy=0.01, checkpoint=path)
-    np.savez(path, key=np.array("x"), main=np.zeros(3))
-    with pytest.raises(InputError, match="unexpected array"):
-        pull(other, accuracy=0.02, checkpoint=path)
-
-
-def test_the_command_keeps_its_run(tmp_path):
-    file = tmp_path / "bumps.toml"
-    file.write_text(SMALL.replace(MAP, BUMPS))
-    given = {"file": str(file), "accuracy": 0.02, "checkpoint": str(tmp_path / "run.npz")}
-    first = ask("rough", **given).record()
-    assert (tmp_path / "run.npz").exists()
-    assert ask("rough", **given).record() == first

@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.campaign.random_solids import LAST, STRETCHED, creep_spectrum, random_solid
+from viscotack.campaign.random_solids import STRETCHED, creep_spectrum, random_solid
 from viscotack.forecast.tiers import AT_ONCE
 from viscotack.materials.conversion import slowed
 from viscotack.surrogate import alike, linear_solids, physics, store
 from viscotack.theory import lennard_jones
 
-# Of the solid 7 with k = 0.1: how many times, first weight and time.
-NUMBER_7 = (35, 0.000893305063, 1e-05)
 UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
 SOLIDS = {
     "standard": vt.StandardSolid(**UNIT, glassy_modulus=20.0, tau0=1.0),
@@ -86,7 +84,7 @@ def test_a_power_law_has_the_same_answer_through_either_door():
 
 def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.train_solids import CHOSEN, parts, read
+    from research.training.train_solids import CHOSEN, parts, read
     from viscotack import datasets
 
     tests = read(datasets.load("solids"))
@@ -108,7 +106,7 @@ def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
 
 def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
     pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
-    from training import likeness
+    from research.training import likeness
 
     tests, creep = likeness.made_up(150, 50)
     found = linear_solids.like(store.shipped("solids"), *tests, creep)
@@ -162,17 +160,6 @@ def test_its_curve_ends_at_the_pull_off_and_has_a_band():
     assert 0 < answer.curve_band < answer.pull_off_force
 
 
-def test_a_solid_unlike_all_that_were_learned_from_is_refused_in_words():
-    # a step to either side of the test, of a solid that is hardly stiffer as a glass
-    solid = vt.Prony(**UNIT, branches=((0.6776, 0.1623), (0.5848, 329.8)))
-    with pytest.raises(vt.OutOfRange, match="is unlike that of all solids in the training data"):
-        vt.predict(sphere(solid, 0.06, 0.03, 1.0), budget=AT_ONCE)
-    with pytest.raises(vt.OutOfRange, match="is unlike that of all solids .* no theory applies"):
-        vt.predict(sphere(solid, 0.06, 0.03, 1.0))
-    # a hundred times slower it is a step like others
-    assert vt.predict(sphere(solid, 0.06, 0.03, 0.01), budget=AT_ONCE).inside
-
-
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
@@ -185,38 +172,7 @@ def test_what_is_out_of_range_is_said(changed, words):
         vt.predict(sphere(SOLIDS["prony"], **changed), budget=AT_ONCE)
 
 
-def test_a_damaged_file_is_refused(tmp_path):
-    content = bytearray(store.FILES["solids"].read_bytes())
-    content[len(content) // 2] ^= 1
-    path = tmp_path / "solids.npz"
-    path.write_bytes(content)
-    with pytest.raises(ValueError, match="is not the file of a surrogate, or is damaged"):
-        store.load(path)
-    path.write_bytes(b"")
-    with pytest.raises(ValueError, match="is not the file of a surrogate, or is damaged"):
-        store.load(path)
-
-
-def test_the_file_states_its_errors():
-    facts = store.facts(store.FILES["solids"])
-    even = facts["scores"]["judged by, drawn evenly"]
-    # of the sets that measure, the largest level counts: deep pulls with two maxima of the force;
-    # of 300 rows the share has a standard deviation of 0.017
-    assert 0.88 <= even["force"]["cover"] <= 0.98 and 0.88 <= even["work"]["cover"] <= 0.97
-    assert even["force"]["mse_log10"] < 1e-5 and even["work"]["mse_log10"] < 1e-4
-    chosen = facts["scores"]["judged by, chosen"]
-    assert chosen["force"]["mse_log10"] < 2e-5 and chosen["work"]["mse_log10"] < 2e-4
-    # judged by rows that no one learned from
-    assert facts["rows"]["judge"] > 700
-
-
 # Random solids -------------------------------------------------------------------------------
-
-
-def test_a_number_is_the_same_solid_everywhere():
-    weights, times = creep_spectrum(7, 0.1)
-    assert (len(weights), float(weights[0]), float(times[0])) == NUMBER_7
-    assert random_solid(7, 0.1) == random_solid(7.0, 0.1) != random_solid(8, 0.1)
 
 
 @pytest.mark.parametrize("number", [0, 3, 11, 26, STRETCHED])
@@ -226,38 +182,3 @@ def test_creep_of_a_random_solid_agrees_with_its_spectrum(number):
     t = np.geomspace(0.01 * times[0], 100 * times[-1], 40)
     creep = k + (1 - k) * (-np.expm1(-t[:, None] / times) @ weights)
     assert random_solid(number, k).creep(t) == pytest.approx(creep, rel=1e-7, abs=0)
-
-
-def test_numbers_from_a_million_on_are_stretched_exponentials():
-    for number in (STRETCHED, STRETCHED + 1):
-        order = 0.25 + 0.6 * np.random.Generator(np.random.PCG64(number)).random()
-        weights, times = creep_spectrum(number, 0.1)
-        t = np.geomspace(0.03, 3.0, 9)
-        left = np.exp(-t[:, None] / times) @ weights
-        # a thousandth of the spectrum is cut off at either end
-        assert left == pytest.approx(np.exp(-(t**order)), abs=2e-3)
-
-
-@pytest.mark.parametrize("number", [-1, 0.5, LAST + 1])
-def test_what_is_no_number_of_a_solid_is_refused(number):
-    with pytest.raises(ValueError, match="the number of a random solid is whole, 0 to 2,000,000"):
-        creep_spectrum(number, 0.1)
-
-
-def test_the_lists_of_the_set_begin_as_they_are_drawn_and_no_part_has_a_solid_of_another():
-    pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.train_solids import parts, read
-    from viscotack import datasets
-    from viscotack.datasets.drawing_solids import rows
-
-    for file, first, seed in (("solids.csv", 0, 23), ("stretched.csv", STRETCHED, 24)):
-        lines = datasets.plan_path("solids").with_name(file).read_text("utf-8").splitlines()
-        assert lines[1:9] == [",".join(row) for row in rows(8, first=first, seed=seed)]
-    table = datasets.load("solids").slice(395, 30)
-    tests = read(table)
-    masks = parts(tests)
-    assert np.all(np.sum(list(masks.values()), axis=0) == 1) and masks["other"].sum() == 5
-    for i in (0, 9, 20):
-        solid = random_solid(tests.number[i], tests.modulus_ratio[i])
-        creep = solid.creep(alike.TIMES / table.column("rate")[i].as_py())
-        assert tests.creep[i] == pytest.approx(creep, rel=1e-7, abs=0)

@@ -9,13 +9,12 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack import solve
 from viscotack.campaign.columns import KINDS
-from viscotack.errors import InputError
 from viscotack.result import trajectory
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import contact, line, physics, store
 from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, added, single, together
+from viscotack.surrogate.network import Networks, together
 from viscotack.surrogate.physics import INPUTS, SphereContact
 from viscotack.surrogate.store import shipped
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
@@ -83,22 +82,6 @@ def test_stacked_networks_equal_the_single_networks():
         np.tanh(x[:1] @ one.weights[0][0] + one.biases[0][0]) @ one.weights[1][0] + one.biases[1][0]
     )
     assert both[0, 0] == pytest.approx((hidden @ one.weights[2][0] + one.biases[2][0])[0])
-
-
-def test_added_networks_return_the_sum():
-    rng = np.random.default_rng(4)
-    one, other = random_networks(rng, 5, 7, 6, 2), random_networks(rng, 5, 3, 4, 2)
-    x = rng.normal(size=(30, 5))
-    assert added(one, other)(x) == pytest.approx(one(x) + other(x), rel=1e-12)
-    both = together([one, random_networks(rng, 5, 7, 6, 2)])
-    assert np.array_equal(single(both, 0)(x), one(x))
-
-
-def test_ranges_are_scaled_to_one():
-    assert physics.scaled(LOW[None]) == pytest.approx(-1)
-    # some rows are deeper than the range
-    assert physics.scaled(HIGH[None])[0] == pytest.approx([1, 1, 1, 1, 1], abs=0.02)
-    assert physics.scaled(np.sqrt(LOW * HIGH)[None])[0] == pytest.approx(0, abs=0.01)
 
 
 def test_the_force_of_a_start_and_what_stands_for_it_are_inverse():
@@ -201,37 +184,6 @@ def test_a_number_that_the_second_networks_contradict_is_doubtful_and_a_work_wit
     assert twice.doubtful(told_of([(0.0, 0.0)])).tolist() == [[False, True]]
 
 
-def test_joint_widths_are_the_single_ones_times_their_factor():
-    trust, told = constant_trust(1e-3), told_of([(0.0, 0.0)])
-    single, joint = (trust.widths(told, 0.9, joint=x) for x in (False, True))
-    assert np.array(joint) == pytest.approx(2 * np.array(single))
-
-
-def test_without_second_networks_no_number_is_doubtful():
-    whole, groups = random_surrogate(), random_groups(20)
-    others = {name: each for name, each in whole.networks.items() if name != "second"}
-    made = replace(whole, networks=others)
-    assert whole.doubtful(groups, whole.evaluate(groups)).any()
-    assert not made.doubtful(groups, made.evaluate(groups)).any()
-
-
-@pytest.mark.parametrize("made", [random_surrogate, shipped])
-def test_widths_are_smooth(made):
-    surrogate, groups = made(), random_groups(300, seed=8)
-    ahead = groups * 10 ** (1e-6 * np.random.default_rng(8).normal(size=groups.shape))
-    # how far a few networks are apart has corners
-    apart = {name: np.full(300, 1e-4) for name in ("force_spread", "work_spread")}
-
-    def widths(rows):
-        tests = surrogate.tests(rows)
-        told = tests.told_of_errors(replace(surrogate.evaluate(tests), **apart))
-        told[:, -2:] = 0.0
-        return np.array(surrogate.trust.widths(told, 0.9))
-
-    a, b = widths(groups), widths(ahead)
-    assert np.max(np.abs(b / a - 1)) < 1e-4
-
-
 @pytest.mark.parametrize("made", [random_surrogate, shipped])
 def test_derivatives_are_those_of_differences(made):
     surrogate, groups = made(), random_groups(200, seed=9)
@@ -245,12 +197,6 @@ def test_derivatives_are_those_of_differences(made):
         for name, slopes in zip(("pull_off_force", "work_to_pull_off"), found, strict=True):
             wanted = np.log(getattr(a, name) / getattr(b, name)) / (2 * step)
             assert slopes[:, i] == pytest.approx(wanted, abs=1e-7)
-
-
-@pytest.mark.parametrize("contact", ["solids", "short range"])
-def test_contacts_without_exact_derivatives_refuse_them(contact):
-    with pytest.raises(InputError, match=f"'{contact}' has no exact derivatives, because"):
-        store.shipped(contact).slopes([[30.0, 0.1, 0.8, 73.0, 316.23]])
 
 
 def test_a_formula_without_a_known_derivative_is_refused():
@@ -303,46 +249,6 @@ def test_a_surrogate_comes_back_from_its_file(tmp_path):
     a, b = (s.curves(groups, s.evaluate(groups)) for s in (one, again))
     assert np.array_equal(a.force, b.force)
     assert store.facts(path)["made"] == "today"
-
-
-def test_a_surrogate_of_every_contact_comes_back_from_the_one_form(tmp_path):
-    """Files of the package have three forms; all are written in one."""
-    random = np.random.default_rng(5)
-    for name in store.FILES:
-        one, path = shipped(name), tmp_path / f"{name}.npz"
-        store.save(one, path, {"made": "today"})
-        again, facts = store.load(path), store.facts(path)
-        assert again.contact is one.contact and facts["contact"] == name
-        assert facts["form"] == "viscotack surrogate 4"
-        assert set(again.networks) == set(one.networks)
-        for each, networks in one.networks.items():
-            inputs = random.normal(size=(3, networks.ends[0]))
-            assert np.array_equal(again.networks[each](inputs), networks(inputs))
-        for each, wanted in one.constants.items():
-            assert np.array_equal(again.constants[each], wanted)
-        if one.trust is not None:
-            assert np.array_equal(again.trust.levels, one.trust.levels)
-            assert np.array_equal(again.trust.joint, one.trust.joint)
-
-
-def test_a_correction_of_other_power_laws_is_refused(tmp_path):
-    path = tmp_path / "solids.npz"
-    solids = shipped("solids")
-    store.save(solids.having(work=random_surrogate().networks["work"]), path, {})
-    with pytest.raises(ValueError, match="corrects another surrogate of power laws"):
-        store.load(path)
-
-
-def test_what_is_known_of_tests_is_that_of_their_own_surrogate():
-    groups = random_groups(3)
-    tests = shipped().tests(groups)
-    assert shipped("sphere") is shipped()
-    force = shipped().evaluate(tests).pull_off_force
-    assert np.array_equal(force, shipped().evaluate(groups).pull_off_force)
-    with pytest.raises(ValueError, match="tests belong to another surrogate"):
-        random_surrogate().evaluate(tests)
-    with pytest.raises(ValueError, match="no intervals were measured for a short range"):
-        shipped("short range").intervals(groups, shipped().evaluate(groups))
 
 
 class Spring(Contact):
@@ -403,12 +309,6 @@ def test_a_damaged_or_foreign_file_is_refused(tmp_path):
         store.load(tmp_path / "one.npy")
 
 
-def test_the_shipped_file_is_small_and_states_its_errors():
-    assert store.SHIPPED.stat().st_size < 5e6
-    facts = store.facts()
-    assert {"sets", "rows", "recipe", "scores", "libraries"} <= set(facts)
-
-
 def test_the_shipped_surrogate_meets_its_required_accuracy():
     scores = store.facts()["scores"]
     at_random = scores["kept apart at random"]
@@ -424,9 +324,9 @@ def test_the_shipped_surrogate_meets_its_required_accuracy():
 
 def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training import drawing
-    from training.calibration import judged
-    from training.rows import certain, read
+    from research.training import drawing
+    from research.training.calibration import judged
+    from research.training.rows import certain, read
 
     rows = read("unseen")
     designs, new = np.array(drawing.designs_of("unseen", rows.groups)), certain("unseen")
@@ -481,8 +381,8 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_errors_on_test_rows_equal_those_in_the_file():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from training.calibration import given_of, judged
-    from training.train_sphere import parted
+    from research.training.calibration import given_of, judged
+    from research.training.train_sphere import parted
 
     apart = judged(shipped(), parted()[1])
     given = given_of(shipped().trust, apart)

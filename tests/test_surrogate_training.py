@@ -7,10 +7,10 @@ import pytest
 
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
-from training import train_punch as punches  # noqa: E402
-from training.fitting import Fit, Task, fit  # noqa: E402
-from training.rows import read  # noqa: E402
-from training.train_punch import parts  # noqa: E402
+from research.training import train_punch as punches  # noqa: E402
+from research.training.fitting import Fit, Task, fit  # noqa: E402
+from research.training.rows import read  # noqa: E402
+from research.training.train_punch import parts  # noqa: E402
 from viscotack.result import trajectory  # noqa: E402
 from viscotack.surrogate import contact, line, physics, store  # noqa: E402
 from viscotack.surrogate.network import added  # noqa: E402
@@ -109,7 +109,7 @@ def test_rows_without_weight_do_not_count():
 @pytest.mark.slow
 def test_a_shop_does_not_fit_twice(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from training.shop import Shop
+    from research.training.shop import Shop
 
     x = np.linspace(-1, 1, 50)[:, None]
     task = Task(x, x**2, np.ones_like(x))
@@ -147,7 +147,7 @@ def test_a_quantile_has_the_wanted_part_of_the_targets_below():
 
 
 def test_intervals_hold_the_share_that_they_promise():
-    from training.calibration import Apart, levels_of, scored, untested
+    from research.training.calibration import Apart, levels_of, scored, untested
 
     random = np.random.default_rng(0)
 
@@ -176,8 +176,8 @@ def test_intervals_hold_the_share_that_they_promise():
 @pytest.mark.slow
 def test_the_whole_training_runs_on_few_rows(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from training.make import make
-    from training.train_sphere import parted
+    from research.training.make import make
+    from research.training.train_sphere import parted
 
     found = make("sphere", tmp_path, workers=2, quick=True)
     made, rows = store.load(tmp_path / "shipped.npz"), parted()[1]
@@ -203,7 +203,7 @@ def test_rows_that_measure_and_judge_punches_stay_what_they_were_in_a_longer_set
 @pytest.mark.slow
 def test_the_training_of_punches_runs_on_few_rows(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from training.make import make
+    from research.training.make import make
 
     facts = make("punch", tmp_path, workers=2, quick=True)
     assert facts["rows"]["judging"] > 50

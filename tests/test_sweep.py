@@ -9,7 +9,6 @@ from command_line import exit_status
 from stated import case_text
 from viscotack import AtDepth, Groups, InputError, PowerLawProfile, Problem, StandardSolid
 from viscotack.operations import ask, operation
-from viscotack.operations.declare.answer import Caller
 from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.study import read_study, study_text
 from viscotack.problem.case_file import read_case
@@ -76,31 +75,6 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
     words = str(asked).splitlines()
     assert f"pull-off force {forces[0] * 1e6:.5g} uN" in words[0] and "must be positive" in words[2]
     assert words[3] == "2 of 3 cases done, 1 failed"
-
-
-def test_rows_are_told_as_they_come_and_whoever_is_told_may_end_it(quick):
-    asked = take(
-        operation("sweep"), {"problem": REDUCED, "cases": [{"rate": 1.0}, {"rate": 2.0}]}, Here()
-    )
-    told = []
-    answer = asked.answer(Caller(tell=told.append))
-    assert [one["share"] for one in told] == [0.5, 1.0]
-    assert [row for one in told for row in one["rows"]] == answer.record()["rows"]
-    assert [row["outputs"] for row in answer.found] == [
-        {"rate": rate, "accuracy": 2e-3} for rate in (1.0, 2.0)
-    ]
-
-    class Cancelled(Exception):
-        pass
-
-    def cancel(one):
-        told.append(one)
-        raise Cancelled
-
-    told.clear()
-    with pytest.raises(Cancelled):
-        asked.answer(Caller(tell=cancel))
-    assert len(told) == 1
 
 
 def test_a_case_that_failed_keeps_its_inputs_in_the_table(quick, tmp_path):
@@ -194,12 +168,6 @@ def test_an_exponent_goes_with_what_its_coefficient_follows_from(case):
     )
     with pytest.raises(InputError, match="another shape with every exponent"):
         ask("sweep", problem=tip, cases=[{"geometry.exponent": 1.5}])
-
-
-def test_the_table_that_is_read_is_not_written(case, tmp_path, capsys):
-    table = tmp_path / "cases.csv"
-    assert exit_status(["sweep", case, table, "--csv", table]) == 2
-    assert "is an input file" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("by_file", [True, False])

@@ -115,20 +115,6 @@ def test_a_scalar_gives_a_float_and_an_array_keeps_its_shape():
     assert type(jkr.contact_radius_at_depth(0, **CASE)) is float
 
 
-def test_arrays_of_parameters_broadcast():
-    w = np.array([0.01, 0.05])
-    many = dict(radius=1e-3, contact_modulus=1.3e6, work_of_adhesion=w)
-    forces = jkr.force(np.array([[1e-4], [2e-4]]), **many)
-    assert forces.shape == (2, 2)
-    assert forces[1, 1] == jkr.force(2e-4, **CASE)
-    pulls = maugis.pull_off_force(**CASE, strength=np.array([1e4, 1e5, 1e6]))
-    assert pulls[1] == pytest.approx(maugis.pull_off_force(**CASE, strength=1e5), rel=1e-14, abs=0)
-    works = maugis.work_to_pull_off(**CASE, strength=np.array([1e4, 1e5, 1e6]))
-    assert works[1] == pytest.approx(
-        maugis.work_to_pull_off(**CASE, strength=1e5), rel=1e-13, abs=0
-    )
-
-
 LJ = dict(radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
 DUGDALE = CASE | dict(strength=1e5)
 

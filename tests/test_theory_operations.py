@@ -127,20 +127,6 @@ def test_what_a_passport_states_is_not_stated_beside_it(name, passport):
         ask("theory punch", **given, **{name: STANDARD[name]})
 
 
-@pytest.mark.parametrize("material", ["elastic", "prony:branches.csv"])
-def test_a_time_is_refused_where_the_material_has_none_to_be_stated(
-    material, tmp_path, monkeypatch
-):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "branches.csv").write_text(FILES["branches.csv"])
-    given = PAD | ASKED | {"contact_modulus": "1 MPa", "material": material}
-    assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
-    with pytest.raises(
-        InputError, match="tau0 is not needed because the time unit is s; remove it"
-    ):
-        ask("theory punch", **given, tau0="1 ms")
-
-
 @pytest.mark.parametrize(
     ("word", "name", "given"),
     [
@@ -173,13 +159,3 @@ def test_a_problem_by_numbers_takes_a_passport_as_an_object(passport):
         ask("predict", problem=given | {"material": each}).record() for each in (str(file), found)
     )
     assert by_object == by_file
-
-
-def test_a_study_does_not_hold_a_passport_that_is_an_object(passport):
-    found, _ = passport
-    for asked in (
-        take(operation("material show"), {"passport": found}, Here()),
-        take(operation("advise"), {"problem": SPHERE | {"material": found}}, Here()),
-    ):
-        with pytest.raises(InputError, match="write the Passport to a file and give its name"):
-            study_text(asked)

@@ -1,14 +1,12 @@
 """The same answers in several threads, and in any order of questions."""
 
 import os
-import pickle
 import subprocess
 import sys
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
 
-import numpy as np
 import pytest
 
 import viscotack as vt
@@ -116,25 +114,6 @@ def test_simulations_and_predictions_in_threads_are_those_of_one_thread():
         assert list(threads.map(ask, cases + cases)) == expected + expected
 
 
-def test_what_one_caller_does_to_an_array_does_not_reach_the_next():
-    crack = SteadyCrack(SOLID, REST)
-    before = crack.at(0.0)
-    kept = [np.copy(x) for x in (before.position, before.gap, before.traction)]
-    for series in (before.position, before.gap, before.traction):
-        if series.flags.writeable:
-            series[:] = 7.0
-    after = crack.at(0.0)
-    assert all(map(np.array_equal, kept, (after.position, after.gap, after.traction)))
-
-
-def test_what_the_page_on_embedding_names_can_be_pickled(alone):
-    law, expected = alone
-    crack = SteadyCrack(SOLID, law)
-    crack.amplification(SPEEDS)
-    again = pickle.loads(pickle.dumps(crack))
-    assert again == crack and asked(law, SPEEDS[0]) == expected[0]
-
-
 def test_warnings_appear_again_after_two_threads_caught_them():
     entered = Barrier(2)
 
@@ -152,14 +131,3 @@ def test_warnings_appear_again_after_two_threads_caught_them():
             left = [found.result(), other.result()]
         warnings.warn("later", stacklevel=1)
     assert left == [["of True"], ["of False"]]
-
-
-def test_errors_have_the_bases_that_the_page_on_embedding_states():
-    assert issubclass(vt.InputError, ValueError)
-    assert issubclass(vt.OutOfRange, vt.InputError)
-    assert issubclass(vt.NotInstalled, vt.InputError)
-    assert issubclass(vt.NotInstalled, ModuleNotFoundError)
-    assert issubclass(vt.SimulationError, RuntimeError)
-    for ask in (vt.solve, vt.predict, vt.crack_contact):
-        with pytest.raises(TypeError, match="read_case"):
-            ask("lens.toml")

@@ -14,7 +14,6 @@ from front_ends import Http, Question, through_all
 from viscotack.app.cli import application
 from viscotack.errors import InputError
 from viscotack.forecast.uncertainty import TIER
-from viscotack.operations.uncertainty import deviation_of
 
 LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
 CASE = vt.read_case(LENS)
@@ -73,16 +72,6 @@ def test_an_error_of_all_times_is_that_of_the_only_time():
     assert one.first["material.tau0"] == pytest.approx(other.first["temperature"], rel=1e-9)
 
 
-def test_few_samples_alone_have_their_own_scatter():
-    """Drawn points then repeat the samples, which are all there is."""
-    works = 0.1 * np.exp(0.1 * np.random.default_rng(3).standard_normal(8))
-    sampled = {"traction": [elastic(work=float(w)).traction for w in works]}
-    found = vt.uncertainty(elastic(), sampled=sampled, samples=64)
-    assert found.interpolation_error < 1e-12
-    rest = found.first["traction"]
-    assert found.deviation * np.sqrt(rest) == pytest.approx(np.std(np.log(works)), rel=0.02)
-
-
 def test_indices_of_samples_are_the_same_for_another_seed():
     rng = np.random.default_rng(5)
     solids, laws = [], []
@@ -117,23 +106,6 @@ def test_indices_of_samples_are_the_same_for_another_seed():
     for name in both[0].first:
         assert abs(both[0].first[name] - both[1].first[name]) < 0.02
         assert abs(both[0].total[name] - both[1].total[name]) < 0.02
-
-
-@pytest.mark.parametrize(
-    "given, words",
-    [
-        ({"passport": "pdms-10-1"}, "uncertainty of this material is unknown"),
-        ({"temperature_uncertainty": "1 K"}, "needs passport"),
-        (
-            {"problem": {"indenter": "sphere", "tabor": 3.0, "modulus_ratio": 0.1, "exponent": 0.6,
-                         "preload": 10.0, "rate": 1.0}, "passport": "pdms-10-1"},
-            "in SI",
-        ),
-    ],
-)  # fmt: skip
-def test_what_a_passport_lacks_is_said(given, words):
-    with pytest.raises(InputError, match=words):
-        vt.ask("uncertainty", **({"problem": str(LENS)} | given))
 
 
 def test_the_temperature_of_a_passport_is_an_input(monkeypatch):
@@ -201,18 +173,6 @@ def test_a_wide_tier_is_an_input_of_its_own(monkeypatch, lens):
     assert variance > 0 and wide == pytest.approx(81 * variance, rel=0.03)
 
 
-def test_an_interval_down_to_zero_is_refused(monkeypatch):
-    from viscotack.forecast import uncertainty as module
-
-    def vague(problem, budget):
-        found = vt.predict(problem, budget=budget)
-        return replace(found, interval=(0.0, found.interval[1]))
-
-    monkeypatch.setattr(module, "predict", vague)
-    with pytest.raises(vt.OutOfRange, match="reaches down to 0, so that its width is unknown"):
-        vt.uncertainty(CASE, {RADIUS: 0.05}, samples=8)
-
-
 @pytest.mark.parametrize(
     "deviations, more, words",
     [
@@ -229,14 +189,6 @@ def test_an_interval_down_to_zero_is_refused(monkeypatch):
 def test_what_cannot_be_is_refused(deviations, more, words):
     with pytest.raises(InputError, match=words):
         vt.uncertainty(CASE, deviations, **more)
-
-
-def test_a_deviation_is_read_with_its_name():
-    assert deviation_of("geometry.radius 2 %") == ("geometry.radius", 0.02)
-    assert deviation_of(" protocol.speed 0.05") == ("protocol.speed", 0.05)
-    for text in ("geometry.radius", "geometry.radius two", ""):
-        with pytest.raises(InputError, match="its deviation"):
-            deviation_of(text)
 
 
 def test_every_door_answers_alike(tmp_path, monkeypatch):

@@ -1,13 +1,11 @@
 """A run is within what it was asked for, says that it is not, or is stopped."""
 
-import json
 from dataclasses import replace
 
 import pytest
 
-from command_line import exit_status
 from viscotack import SimulationError, load, save, summary
-from viscotack.bem import Settings, estimate
+from viscotack.bem import Settings
 from viscotack.bem.verdict import judged
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
@@ -18,7 +16,6 @@ from viscotack.traction import Exponential
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 PRESSED = AtDepth(3.0)
-CASE = ("simulate", "sphere", "--tabor", 1, "--material", "elastic", "--preload", 3, "--rate", 1)
 
 
 def case(material=ELASTIC, start=PRESSED, **options):
@@ -42,10 +39,6 @@ def test_a_result_says_whether_the_accuracy_was_met(asked, met, tmp_path):
     save(result, tmp_path / "result.npz")
     again = load(tmp_path / "result.npz")
     assert again.accuracy == asked and again.accuracy_met is met
-
-
-def test_without_an_estimate_nobody_knows_whether_it_was_met():
-    assert pulled(estimate_error=False).accuracy_met is None
 
 
 def test_a_force_ten_times_less_accurate_than_asked_is_not_given():
@@ -84,21 +77,6 @@ def test_a_force_that_theory_rules_out_is_not_given(problem, factor, stopped):
     other = judged(replace(result, force=factor * result.force))
     assert (other.outcome == "stopped") is stopped
     assert ("none that theory allows" in other.status) is stopped
-
-
-@pytest.mark.parametrize(
-    ("floor", "code", "said"),
-    [(0.2, 0, ""), (3.0, 0, "above the required 0.002"), (11.0, 1, "")],
-    ids=["met", "missed", "not resolved"],
-)
-def test_the_command_line_says_that_an_accuracy_was_missed(floor, code, said, capsys, monkeypatch):
-    monkeypatch.setattr(estimate, "_FLOOR", {"force": floor, "work": 1.0, "depth": 1.0})
-    status = exit_status([*CASE, "--json"])
-    out, err = capsys.readouterr()
-    answer = json.loads(out)
-    assert status == code and answer["accuracy_met"] is (floor < 1)
-    assert said in err and (not err) is (not said)
-    assert (answer["pull_off_force"] is None) is ("not resolved" in answer["status"]) is bool(code)
 
 
 def test_a_law_beyond_the_mesh_is_answered_by_theory():

@@ -10,7 +10,6 @@ from front_ends import Http, Question, through_all
 from viscotack.app.cli import application
 from viscotack.errors import InputError
 from viscotack.operations import ask
-from viscotack.pictures.window import draw_window
 from viscotack.series import read_window
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "window" / "kinetic_stamp.toml"
@@ -60,11 +59,6 @@ def test_a_file_states_contacts_speeds_and_preloads(small):
     assert found.donor is not None and found.receiver is not None
 
 
-def test_the_example_is_read():
-    found = read_window(EXAMPLE)
-    assert found.stamp.tabor > found.donor.tabor > 1
-
-
 @pytest.mark.slow
 def test_the_example_picks_fast_and_prints_slowly():
     record = ask("window", file=str(EXAMPLE)).record()
@@ -96,12 +90,6 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
         read_window(small)
 
 
-def test_a_stamp_alone_is_refused(small):
-    small.write_text(PULL + CONTACT.format(name="stamp", work="50 mJ/m^2"))
-    with pytest.raises(InputError, match="a window needs"):
-        read_window(small)
-
-
 def test_all_front_ends_answer_alike(small):
     client = Http()
     try:
@@ -126,10 +114,3 @@ def test_the_command_writes_tables_and_a_picture(small):
     assert {row["receiver_opens"] for row in rows} == {"stamp"}
     assert Path("c.csv").read_text().startswith("base,preload_N,critical_speed_m_per_s")
     assert Path("map.svg").stat().st_size > 5000
-
-
-def test_a_map_of_one_speed_and_tensile_preloads_is_drawn(small):
-    small.write_text(SMALL.replace('["1 mN", "100 uN"]', '["-10 uN", "1 mN"]'))
-    found = ask("window", file="small.toml").found
-    axes = draw_window(found).axes[0]
-    assert axes.get_yscale() == "linear"

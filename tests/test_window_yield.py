@@ -79,23 +79,6 @@ def test_the_chance_by_critical_works_is_the_share_of_drawn_viscoelastic_pairs(s
     assert share == pytest.approx(chance, abs=3 * sqrt(0.25 / 200))
 
 
-@pytest.mark.slow
-def test_a_faster_pull_picks_with_a_larger_probability():
-    cells = window_yield(
-        contact(),
-        donor=contact(ELASTIC, work=0.4),
-        receiver=contact(ELASTIC, work=0.6),
-        speeds=[1.5e-5, 1.9e-5, 2.4e-5],
-        preloads=[2e-3],
-        scatter=WindowScatter(stamp=0.05, donor=0.05),
-    )
-    pick = [cell.pick for cell in cells]
-    assert pick == sorted(pick)
-    assert 0.01 < pick[0] < 0.5 < pick[2] < 0.999
-    assert all(cell.print > 0.9 for cell in cells)
-    assert cells[1].transfer == cells[1].pick * cells[1].print
-
-
 def test_cells_that_steady_cracks_do_not_cover_have_the_reason_for_no_yield():
     (cell,) = window_yield(
         contact(gap=3e-5),
@@ -106,12 +89,6 @@ def test_cells_that_steady_cracks_do_not_cover_have_the_reason_for_no_yield():
     )
     assert cell.pick is None
     assert "simulate" in cell.why
-
-
-@pytest.mark.parametrize("deviations", [{}, {"first": 0.6}, {"second": -0.1}])
-def test_impossible_scatter_is_refused(deviations):
-    with pytest.raises(InputError, match="relative standard deviations"):
-        ContactScatter(**deviations)
 
 
 FEW = SMALL.replace('"1 um/s..100 um/s"', '"10 um/s"')
@@ -133,12 +110,6 @@ def test_a_file_with_scatter_has_columns_of_probabilities(folder):
     expected = NormalDist().cdf(log(50 / 20) / (0.2 * sqrt(2)))
     assert float(row["pick_probability"]) == pytest.approx(expected, abs=5e-3)
     assert float(row["transfer_probability"]) <= float(row["print_probability"])
-
-
-def test_scatter_without_a_number_is_refused(folder):
-    Path("small.toml").write_text(SMALL + "\n[scatter]\nreceiver = 0.2\n")
-    with pytest.raises(InputError, match="scatter"):
-        read_window("small.toml")
 
 
 WARM = "".join(
@@ -226,9 +197,3 @@ def test_an_aged_contact_pulls_off_as_the_simulation_with_its_dwell():
         for each in (problem, aged(problem, 10.0))
     ]
     assert forces[0] == pytest.approx(forces[1], rel=0.05)
-
-
-def test_dwells_without_an_interface_that_ages_are_refused(folder):
-    Path("small.toml").write_text(SMALL.replace("stiffness", 'dwells = "1 s"\nstiffness'))
-    with pytest.raises(InputError, match="an interface that ages"):
-        read_window("small.toml")

@@ -11,9 +11,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from httpx import Client
-
-from app_server import running
 
 HERE = Path(__file__).parent
 PLAN = """
@@ -46,15 +43,6 @@ def bare(program, folder):
     )
 
 
-def test_the_names_are_gone(tmp_path):
-    program = (
-        "import os, signal, viscotack.system as s;"
-        "print(hasattr(os, 'pread'), hasattr(signal, 'SIGUSR1'), s.lock.__code__.co_names)"
-    )
-    told = bare(["-c", program], tmp_path)
-    assert told.stdout.startswith("False False") and "msvcrt" in told.stdout, told.stderr
-
-
 def test_a_file_system_without_locks_is_used_without_them(tmp_path):
     program = """
 import os, viscotack.system as s
@@ -79,23 +67,6 @@ def test_a_campaign_runs_and_goes_on(cases, tmp_path):
     assert json.loads(told.stdout)["done"] == cases
     told = bare(["-m", "viscotack", "campaign", "verify", "c"], tmp_path)
     assert told.returncode == 0, told.stderr
-
-
-def test_the_page_answers_and_simulates():
-    sphere = {"tabor": 1.0, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 5.0, "rate": 10.0}
-    asked = {"problem": {"indenter": "sphere"} | sphere}
-    with (
-        running(environment=environment()) as (link, _),
-        Client(base_url=link, timeout=120) as client,
-    ):
-        assert "<html" in client.get("/").text
-        found = client.post("/api/predict", json=asked).json()
-        simulation = asked | {"accuracy": 0.02, "until": "pull-off"}
-        job = client.post("/api/jobs/simulate", json=simulation).json()
-        while not job["state"] == "done":
-            assert job["state"] in ("queued", "running"), job["error"]
-            job = client.get(f"/api/jobs/{job['id']}?wait=5").json()
-    assert job["answer"]["pull_off_force"] == pytest.approx(found["pull_off_force"], rel=0.05)
 
 
 def test_two_runs_do_not_share_a_folder(tmp_path):

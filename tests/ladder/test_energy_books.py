@@ -1,12 +1,11 @@
 """Energy books on the ladder: each term derived a second way, from series, law and spring."""
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from energy_books import compared
 from viscotack.bem import Settings, jumps
 from viscotack.bem.body import Body, State
 from viscotack.bem.machine import Hold
@@ -17,9 +16,6 @@ from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.traction import Exponential
-
-sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
-from energy_books import compared  # noqa: E402
 
 pytestmark = pytest.mark.march
 

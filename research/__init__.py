@@ -1,0 +1,1 @@
+"""Questions about the package that are asked again, one command each (README.md); not packaged."""

@@ -1,0 +1,200 @@
+"""What others published, done again: ``python -m research.replication --list``, ``figure``."""
+
+from pathlib import Path
+from time import perf_counter
+from typing import Annotated
+
+import typer
+from typer import Option
+
+from .archive import file_of
+from .bench import Hands, Numbers
+from .contents import CONTENTS
+from .figures.catalogue import Figure, figures
+from .gallery import GALLERY
+from .gallery import write as write_gallery
+from .kept import difference, kept, path_of, without_errors
+from .ledger.contents import named
+from .ledger.page import PAGE, page
+from .making import Maker, picture
+from .table import read_detachments
+from .whole import write_whole
+from .words import application, wrong_input
+
+app = application()
+
+_OUT = Path("out/replication")
+_Afresh = Annotated[
+    bool, Option("--afresh", help="Make the numbers again instead of taking those that are kept.")
+]
+_Workers = Annotated[
+    int, Option("--workers", metavar="N", min=1, help="Processes of this machine.")
+]
+_Folder = Annotated[
+    Path, Option("--out", metavar="DIR", help="Folder of the pictures; made if missing.")
+]
+_Archive = Annotated[
+    Path | None,
+    Option(
+        "--archive",
+        metavar="DIR",
+        help="A checkout of the authors' public archive, for what is made of its rows.",
+        show_default=False,
+    ),
+]
+
+
+@app.callback(invoke_without_command=True, no_args_is_help=True)
+def contents(
+    listed: Annotated[
+        bool, Option("--list", help="Each part: its command, what it says, how long it takes.")
+    ] = False,
+    every: Annotated[
+        bool, Option("--all", help="Every figure and table, and the ledger of claims.")
+    ] = False,
+    afresh: _Afresh = False,
+    workers: _Workers = 2,
+    out: _Folder = _OUT,
+    archive: _Archive = None,
+) -> None:
+    """Do again what others published about detachment, and say whether it holds.
+
+    Run it from the root of the checkout. Numbers of figures are kept in replication/kept, so that
+    a picture takes a second; --afresh makes them from nothing.
+
+    Example: python -m research.replication figure 4.6
+    """
+    if listed:
+        parts = [part.words() for part in CONTENTS]
+        typer.echo("\n\n".join([*parts, *(each.words() for each in figures())]))
+    if every:
+        with wrong_input():
+            _all(afresh, workers, out, archive)
+
+
+@app.command(no_args_is_help=True)
+def figure(
+    name: Annotated[str, typer.Argument(help="Number in the thesis: 4.6, table-5.1, A.3.")],
+    afresh: _Afresh = False,
+    keep: Annotated[
+        bool, Option("--keep", help="Keep what is made afresh in the repository.")
+    ] = False,
+    workers: _Workers = 2,
+    out: _Folder = _OUT,
+    svg: Annotated[bool, Option("--svg", help="SVG instead of PNG.")] = False,
+    archive: _Archive = None,
+) -> None:
+    """Draw a figure or a table, and say what it claims, needs and costs.
+
+    Example: python -m research.replication figure 4.6 --afresh
+    """
+    with wrong_input(), Hands(workers) as hands:
+        drawn = Figure(name)
+        before = kept(name) if path_of(name).exists() else None
+        maker = Maker(hands, afresh=afresh, store=keep, archive=archive, say=_progress)
+        path = picture(name, maker.of(name), out, ending="svg" if svg else "png")
+        typer.echo(drawn.words())
+    if afresh and before is not None:
+        typer.echo(f"  Beside the numbers that were kept: {_beside(maker, name, before)}")
+    typer.echo(f"wrote {path}")
+
+
+@app.command(no_args_is_help=True)
+def claim(
+    name: Annotated[str, typer.Argument(help="As the ledger has it: alpha, reduction.")],
+    afresh: _Afresh = False,
+    workers: _Workers = 2,
+    archive: _Archive = None,
+) -> None:
+    """Measure a claim of the ledger, and say whether its verdict stands.
+
+    Example: python -m research.replication claim alpha --afresh
+    """
+    with wrong_input(), Hands(workers) as hands:
+        one = named(name)
+        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
+        found, standing = one.judged(maker.of)
+        typer.echo(f"{one.says} ({one.place})")
+        typer.echo(f"  thesis: {one.thesis}\n  here: {found.said()}")
+        typer.echo(f"  {one.verdict}, {standing}: {one.evidence}")
+
+
+@app.command()
+def ledger(
+    written: Annotated[
+        bool, Option("--write", help="Write docs/replication.md instead of printing it.")
+    ] = False,
+) -> None:
+    """Measure all claims from theory and kept numbers, and say what became of them.
+
+    Example: python -m research.replication ledger --write
+    """
+    with wrong_input():
+        text = page(kept)
+        if written:
+            write_whole(PAGE, text)
+    typer.echo(f"wrote {PAGE}" if written else text)
+
+
+@app.command()
+def gallery() -> None:
+    """Write docs/gallery.md and its pictures from the kept numbers."""
+    with wrong_input():
+        write_gallery()
+    typer.echo(f"wrote {GALLERY}")
+
+
+def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
+    """Draw all there is, and measure all claims."""
+    began = perf_counter()
+    with Hands(workers) as hands:
+        made = out / "made" if afresh else None
+        maker = Maker(hands, afresh=afresh, archive=archive, progress=made, say=_progress)
+        for each in figures():
+            path = picture(each.name, maker.of(each.name), out)
+            beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
+            typer.echo(f"{path}{beside}")
+        if afresh and archive is not None:
+            _published(archive, out, workers)
+        text = page(maker.of)
+        write_whole(out / "research.replication.md", text)
+        typer.echo(f"{out / 'replication.md'}: every verdict stands")
+        spent = sum(maker.seconds.values()) if afresh else hands.seconds
+    typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
+
+
+def _published(archive: Path, out: Path, workers: int) -> None:
+    """Simulate all rows of the authors' table, and compare their page with the kept one."""
+    # needs the extra `campaign`
+    from .published import page as published
+    from .published.compare import compare
+
+    _progress("the published table ...")
+    began = perf_counter()
+    table = read_detachments(file_of(archive, "comb_1to9.csv"))
+    rows = compare(table, out / "published", workers=workers)
+    lines = published.changed(rows, Path(published.__file__).with_name("README.md").read_text())
+    time = sum(row[x]["wall_time_s"] for row in rows for x in ("ours", "best") if x in row)
+    typer.echo(
+        f"the published table: {len(rows):,} rows, {time:.0f} s in the workers, "
+        f"{perf_counter() - began:.0f} s by the clock, {len(lines)} lines of its page differ"
+    )
+    typer.echo("".join(f"  {line}\n" for line in lines), nl=False)
+
+
+def _beside(maker: Maker, name: str, before: Numbers) -> str:
+    """Return how far numbers made now are from those that were kept, and which most."""
+    now, before = without_errors(maker.of(name)), without_errors(before)
+    off = difference(now, before)
+    if off == float("inf"):
+        return "of another kind"
+    most = max(now, key=lambda key: difference(now[key], before[key])) if off else ""
+    return f"they differ by {off:.1e} at most{f', in {most!r}' if most else ''}"
+
+
+def _progress(words: str) -> None:
+    typer.echo(words, err=True)
+
+
+if __name__ == "__main__":
+    app(prog_name="python -m research.replication")

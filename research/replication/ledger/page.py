@@ -1,0 +1,175 @@
+"""The page of the ledger, docs/replication.md, written from what is measured."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from textwrap import fill
+
+import numpy as np
+
+from .claim import Of, Standing, Verdict
+from .contents import CHAPTERS, OWN, every, of_thesis
+
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "replication.md"
+_HEAD = (
+    "| claim | what the thesis says | thesis | here | apart | verdict | evidence | remeasured by "
+    "|\n|---|---|---|---|---|---|---|---|"
+)
+
+
+def page(of: Of) -> str:
+    """Return the ledger, from numbers of figures that are kept or made afresh."""
+    judged = {claim.name: claim.judged(of) for claim in every()}
+    standings = Counter(judged[claim.name][1] for claim in of_thesis())
+    parts = [_opening(standings), _derived_twice(of), _linear_curve(of), _BOUND, _READING]
+    for chapter, claims in CHAPTERS.items():
+        rows = "\n".join(claim.row(*judged[claim.name]) for claim in claims)
+        parts.append(f"## {chapter}\n\n{_HEAD}\n{rows}")
+    rows = "\n".join(claim.row(*judged[claim.name]) for claim in OWN)
+    parts.append(f"## Found here, beside the thesis\n\n{_HEAD}\n{rows}")
+    return "\n\n".join(parts) + "\n"
+
+
+def _opening(standings: Counter[Standing]) -> str:
+    counts = Counter(claim.verdict for claim in of_thesis())
+    said = ", ".join(f"{counts[verdict]} {_PLURAL[verdict]}" for verdict in Verdict)
+    text = (
+        f"{len(of_thesis())} claims of A. Maghami, PhD thesis (2025), each beside what is measured "
+        f"here: {said}; and {len(OWN)} that were found here. `python -m research.replication "
+        "ledger --write` writes this page from the kept numbers of the figures and from theory; "
+        "`python -m research.replication claim NAME` measures one of them, with "
+        "`--afresh` from nothing. A verdict stands on a number: where that leaves "
+        "its band, the command refuses to write, and a test compares this page with what is "
+        "measured."
+    )
+    counted = ", ".join(f"{standings[standing]} {standing}" for standing in Standing)
+    firm = f"How firmly they stand: {counted}. {_STANDINGS}"
+    paragraphs = "\n\n".join(fill(x, 108) for x in (text, firm, _ERRORS))
+    return f"# The thesis, claim by claim\n\n{paragraphs}"
+
+
+_PLURAL = {
+    Verdict.HOLDS: "hold",
+    Verdict.CORRECTED: "hold with correction",
+    Verdict.THEN: "hold as measured then",
+    Verdict.FAILS: "do not hold",
+    Verdict.OPEN: "cannot be decided",
+}
+_STANDINGS = (
+    "Proven is what follows from equations, from the printed text or from the authors' files, "
+    "without a simulation or a trained model, in its corrected form where it needs one; "
+    "consistent, what agrees with simulations, models or times within the band of its verdict; a "
+    "conjecture, what the published material does not decide; refuted, what does not hold."
+)
+_ERRORS = (
+    "Errors of simulations are the solver's own estimates, which cover the true error in nine of "
+    "ten cases and more ([performance](performance.md)). Figures are in the "
+    "[gallery](gallery.md); the authors' rows are judged [one by "
+    "one](../research/replication/published/README.md), and what models learn "
+    "from them [on a page of its own](../research/replication/learning/README.md)."
+)
+_READING = (
+    "Units: P̂ is P/(πRΔγ0) as in chapter 4; rates are rτ0/h0; k P/P_JKR is k times the force in "
+    "units of 1.5 πRΔγ0."
+)
+
+
+def _derived_twice(of: Of) -> str:
+    n = of("limits")
+    lens = n["lens"]
+    fast, limit = n["fast"], float(n["fast_theory"])
+    rows = [
+        "| claim | by simulation | by theory | difference | why |",
+        "|---|---|---|---|---|",
+        (
+            f"| stress of an elastic layer at b1, in σ0 √(a0/a) | {n['at_b1_limit']:.4f}, from "
+            f"a/a0 = 64, 256, 1024: {', '.join(f'{x:.3f}' for x in n['at_b1'])} | "
+            f"{n['at_b1_exact']:.4f}, exact compliance of the strip | "
+            f"{100 * (n['at_b1_limit'] / n['at_b1_exact'] - 1):+.2f} % | the crack of a finite "
+            "zone recedes by a part of the order √(a0/a) before the pull-off; what is left is the "
+            "extrapolation by a parabola |"
+        ),
+        (
+            "| fast limit of k P/P_JKR at μ = 3.24, k = 0.1 | "
+            f"{', '.join(f'{f:.4f} ({d:g} h0)' for d, f in zip(n['depth'], fast, strict=True))} | "
+            f"{limit:.4f}, f(μk^(1/3)) by superposition | {100 * (fast[-1] / limit - 1):+.2f} % | "
+            "the theory is that of an infinitely large start; the difference falls with the power "
+            "-1.5 of the depth |"
+        ),
+        (
+            "| pull-off of the PDMS lens with h0 = 30.8 nm at 1, 10, 100, 1000 µm/s, mN | "
+            f"{', '.join(f'{x:.3f}' for x in lens['simulated'])} | "
+            f"{', '.join(f'{x:.3f}' for x in lens['crack'])}, a contact whose edge is the steady "
+            "crack | "
+            f"{', '.join(f'{100 * x:+.2f}' for x in lens['simulated'] / lens['crack'] - 1)} % | "
+            "at μ = 103 the zone is 1e-4 of the contact: both have the same limit; the theory "
+            f"states a band of {100 * np.max(lens['band']):.1f} % |"
+        ),
+    ]
+    return (
+        "## Three claims derived twice\n\nNumbers of `python -m research.replication figure "
+        "limits`; no constant is fitted on either side.\n\n" + "\n".join(rows)
+    )
+
+
+# Largest deviations at nine speeds of what is consistent with the curve, and of a conjecture.
+_CONSISTENT, _CONJECTURE = 0.05, 0.15
+
+
+def _linear_curve(of: Of) -> str:
+    """Return the table of what may have given the thesis's linear curve."""
+    n = of("linear-curve")
+    rows, counts = [], Counter()
+    for i in np.argsort(n["rms"]):
+        most = max(abs(float(n["least"][i])), abs(float(n["most"][i])))
+        word = "refuted"
+        if most <= _CONJECTURE:
+            word = "consistent" if most <= _CONSISTENT else "conjecture"
+        counts[word] += 1
+        force = n["force"][i]
+        rows.append(
+            f"| {n['explanation'][i]} | {force[0]:.2f} to {force[-1]:.2f} | "
+            f"{100 * n['least'][i]:+.1f} to {100 * n['most'][i]:+.1f} % | {word} |"
+        )
+    words = ", ".join(f"{counts[word]} {word}" for word in ("consistent", "conjecture", "refuted"))
+    text = (
+        "The thesis gives its linear curve, 4.26 to 10.9 mN at 1 to 1000 µm/s, for h0 = 30.8 nm. "
+        "The curve itself is not published: here it is the quotient of two printed fits, Eq. 4.28 "
+        "over 1 + (v/v1)^(1/2), so that its own error is not known. "
+        "`python -m research.replication figure linear-curve` tries what may have given "
+        "it: simulations of the lens with three ranges; "
+        "simulations at the Tabor number 2.05 of the quasi-static test, 3.24 or 15.8, in which the "
+        "range is only the unit of the rate; and Eq. 4.21 at the crack speed of Eq. 4.24 for four "
+        f"ratios of critical to peak stress. Within {100 * _CONSISTENT:.0f} % at all nine speeds "
+        f"an explanation is consistent, within {100 * _CONJECTURE:.0f} % a conjecture, otherwise "
+        f"refuted; none is proven: {words}."
+    )
+    head = "| explanation | force, mN | off the curve | |\n|---|---|---|---|"
+    return f"## What the linear curve of Figure 4.10 is\n\n{fill(text, 108)}\n\n{head}\n" + (
+        "\n".join(rows)
+    )
+
+
+_BOUND = """\
+## A bound on the work that holds at all rates
+
+Eq. 43 is an estimate of the fast end and is exceeded 2.4 times between (`upper-bound-between`). For
+forces of short range there is a bound at every rate and for every linear spectrum. In the units of
+Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
+
+1. Inside a contact that only recedes from rest the opening has been zero at all times, so that its
+   pressure is that of the relaxed solid at a hereditary depth D = δ0 − r ∫ψ dt, ψ falling from 1/k
+   to 1 ([the steady crack](steady_crack.md)). As ψ ≥ 1, the drive moves no farther than D does.
+2. The edge takes G = (a² − D)²/2a = Γ(v) with 1 ≤ Γ ≤ 1/k. At a given D no radius above that of
+   Γ = 1/k is possible, and the force P = 2aD − (2/3)a³ falls with the radius, dP/da = 2(D − a²),
+   which is below 0: the tension is at most that of JKR with the energy Δγ0/k at the same D.
+3. That JKR curve is in tension from its zero of the force to its least depth, beyond which there is
+   no equilibrium. The work to pull-off, from zero force on, is at most that of this curve all the
+   way:
+
+       W ≤ 1.156939 μ π^(2/3) k^(−5/3)    [1.5 πRΔγ0 h0]
+
+It is not sharp: a relaxed bulk and a fast crack do not go together. In the 17,378 rows of the
+shipped sets that start in compression the largest share of it is 0.67 where μk^(1/3) > 1
+(`bound-at-all-rates`). Forces of long range, which pull outside the contact, are not covered."""

@@ -1,6 +1,0 @@
-"""Train a surrogate of the package: ``python -m training CONTACT --out DIR``."""
-
-from .make import main
-
-if __name__ == "__main__":
-    main()
