@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import os
 from pathlib import Path
@@ -12,7 +11,6 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.bounded import open_regular, read_bytes
-from viscotack.files.whole import Target, write_whole
 
 from .heights import MOST, HeightMap
 from .topography import read_topography
@@ -70,13 +68,6 @@ def read_map(
         return HeightMap(heights * (1.0 if unit is None else unit), pixel, periodic)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
-
-
-def write_map(surface: HeightMap, target: Target) -> None:
-    """Write the heights [m] of a map as an array (.npy), whole or not at all."""
-    held = io.BytesIO()
-    np.save(held, surface.heights, allow_pickle=False)
-    write_whole(target, held.getvalue())
 
 
 def _array(path: Path) -> npt.NDArray:
