@@ -72,23 +72,3 @@ def huge(asked, tell, context):
 def niceness(asked, tell, context):
     print("what a task prints is no message")
     return psutil.Process().nice()
-
-
-def process_of(path):
-    """Return the number of the process that calls it, and the number of bytes of a file."""
-    return os.getpid(), Path(path).stat().st_size
-
-
-def misread(path):
-    """Do what the text of a file says, as a reader that meets a damaged file."""
-    match Path(path).read_text(encoding="utf-8").strip("\0"):
-        case "fill":
-            return np.ones(100_000_000).sum()
-        case "end":
-            os._exit(1)
-        case "wait":
-            time.sleep(1000)
-        case "link":
-            raise FileNotFoundError(2, "no such file", "other.csv")
-        case words:
-            raise InputError(f"{path}: {words}")

@@ -1,7 +1,8 @@
 """Tests of the operation ``array``: its file, command, tables, picture, payload and yield."""
 
 import csv
-from math import inf
+from dataclasses import replace
+from math import inf, isnan, pi, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -9,11 +10,23 @@ import pytest
 from typer.testing import CliRunner
 
 from front_ends import Http, Question, through_all
+from viscotack import (
+    AtForce,
+    Elastic,
+    LennardJones,
+    Problem,
+    Retraction,
+    Sphere,
+    StandardSolid,
+)
 from viscotack.app.cli import application
+from viscotack.design.holding import held_load
 from viscotack.errors import InputError
 from viscotack.operations import ask
-from viscotack.pads import Hold, holding, pull_array, read_array
+from viscotack.pads import Hold, PadArray, grid, holding, pull_array, read_array
 from viscotack.pictures.array import draw_array
+from viscotack.theory import jkr
+from viscotack.traction import GentSchultz
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "array"
 SMALL = """
@@ -185,3 +198,33 @@ def test_viscoelastic_pads_creep_off_under_a_weight_that_a_fast_pull_holds(small
     assert 0.7e-3 < heavy.lasting < 2.5e-3
     assert 0.01 < heavy.time < 100
     assert light.time == inf
+    # a simulated load beyond the instantaneous strength falls at once
+    assert holding(stated.array, pulled, Hold(25e-3), **how).time == 0
+
+
+def test_a_weight_above_the_pull_off_force_is_held_up_to_the_instantaneous_strength():
+    E, R, w = 2e6 / 0.75, 3e-3, 0.1
+    solid = StandardSolid(rubbery_modulus=2e6, glassy_modulus=4e7, tau0=0.04, poisson_ratio=0.5)
+    rest = Retraction(AtForce(3e-3), 1e-6)
+    pad = Problem(solid, LennardJones(w, 1e-7), Sphere(R), rest)
+    array, how = PadArray(pad, grid(1, 1, 0.02)), {"speed": 1e-6, "preload": 3e-3}
+    pulled = pull_array(array, **how)
+
+    def time(load, of=array):
+        return holding(of, pulled, Hold(load / 9.80665), **how).time
+
+    P = pulled.pull_off_force
+    # a crack contact that is loaded in 1 s holds 6.39 and 3.92 s longer, and creeps meanwhile
+    assert [time(1.01 * P), time(1.2 * P)] == pytest.approx([6.39 + 0.32, 3.92 + 0.31], rel=0.005)
+    assert held_load(pad, time(3 * P)) == pytest.approx(3 * P, rel=0.005)
+    # the relaxed contact with the modulus of the first instant, 20 times that at rest
+    a3 = jkr.contact_radius_at_force(3e-3, radius=R, contact_modulus=E, work_of_adhesion=w) ** 3
+    strength = sqrt(8 * pi * E * a3 * 20 * w) - 4 * E * a3 / (3 * R)
+    assert held_load(pad, 1e-9) == pytest.approx(strength, rel=0.01)
+    assert time(0.95 * strength) > 0 and time(1.1 * strength) == 0
+    # elastic pads under a growing interface creep above their force at rest
+    elastic = Elastic(rubbery_modulus=2e6, poisson_ratio=0.5)
+    growing = GentSchultz(w, 1e-7, reference_speed=1e-6, exponent=0.4)
+    array = replace(array, pad=replace(pad, material=elastic, traction=growing))
+    assert time(1e-3, array) == inf
+    assert isnan(time(2e-3, array))

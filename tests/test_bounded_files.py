@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import tack_files
-from pool_tasks import misread, process_of
 from viscotack import load as load_result
 from viscotack.campaign import apart as campaign_apart
 from viscotack.campaign.apart import check_apart
@@ -22,8 +21,6 @@ from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import read_bytes
 from viscotack.files.text import read_rows, read_text
 from viscotack.files.toml import parse_toml, read_toml
-from viscotack.lab import apart as apart_module
-from viscotack.lab.apart import SMALL, limited
 from viscotack.lab.lab_file import load
 from viscotack.lab.tack import survey
 from viscotack.lab.workbook_layout import sheets
@@ -56,8 +53,7 @@ BOOK = {
         'relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>'
     ),
 }
-HEAD = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
-TAIL = "</sheetData></worksheet>"
+HEAD = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main">'
 
 
 def cell(place, inside="<v>1</v>", kind=""):
@@ -66,65 +62,45 @@ def cell(place, inside="<v>1</v>", kind=""):
     return f'<row r="{row}"><c r="{place}"{kind}>{inside}</c></row>'
 
 
-def text_of(length):
-    """Return the inside of a cell with a text."""
-    return f"<is><t>{'x' * length}</t></is>"
-
-
-def workbook(path, rows, parts=()):
-    """Write a workbook with one sheet that states no dimension."""
+def workbook(path, rows, dimension=""):
+    """Write a workbook with one sheet."""
     packed = io.BytesIO()
+    stated = f'<dimension ref="{dimension}"/>' if dimension else ""
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in (BOOK | dict(parts)).items():
+        for name, content in BOOK.items():
             archive.writestr(name, content)
-        archive.writestr("xl/worksheets/sheet1.xml", HEAD + rows + TAIL)
+        sheet = f"{HEAD}{stated}<sheetData>{rows}</sheetData></worksheet>"
+        archive.writestr("xl/worksheets/sheet1.xml", sheet)
     path.write_bytes(packed.getvalue())
     return load(path)
 
 
-STRING = ' t="inlineStr"'
 BOMBS = {
-    "a cell at the last place": (cell("A1") + cell("XFD1048576"), "1048576 rows"),
-    "a wide row": (cell("XFD1"), "16384 columns"),
-    "a far row": (cell("A1048576"), "1048576 rows"),
-    "many rows times many columns": (cell("SF1") + cell("A150000"), "150000 rows and 500 columns"),
-    "rows without numbers": ("<row><c><v>1</v></c></row>" * 200_001, "200001 rows"),
-    "cells without places": ("<row>" + "<c><v>1</v></c>" * 501 + "</row>", "501 columns"),
-    "a long text": (cell("A1", text_of(150_000), STRING), "more than 40,000 characters"),
-    "a text of many megabytes": (cell("A1", text_of(20_000_000), STRING), "40,000 characters"),
-    "an attribute of many megabytes": (f'<row r="1" x="{"y" * 5_000_000}"/>', "of more than 1 MB"),
-    "a comment of many megabytes": (f"<!--{'y' * 5_000_000}-->", "of more than 1 MB"),
+    "a wide row": cell("XFD1"),
+    "a far row": cell("A1048576"),
+    "many rows times many columns": cell("SF1") + cell("A150000"),
+    "cells without places": "<row>" + "<c><v>1</v></c>" * 501 + "</row>",
 }
 
 
 @pytest.mark.parametrize("name", BOMBS)
-def test_a_workbook_that_would_fill_the_memory_is_refused_at_once(name, tmp_path):
-    rows, words = BOMBS[name]
-    file = workbook(tmp_path / "bomb.xlsx", rows)
-    del rows
+def test_a_sheet_of_too_many_cells_is_refused_before_it_fills_the_memory(name, tmp_path):
+    file = workbook(tmp_path / "bomb.xlsx", BOMBS[name])
     tracemalloc.start()
     try:
-        with pytest.raises(InputError, match=words):
+        with pytest.raises(InputError, match=file.path):
             sheets(file)
         most = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
-    assert most < 20e6
+    assert most < 100e6
 
 
-def test_entities_that_grow_are_refused(tmp_path):
-    book = tmp_path / "bomb.xlsx"
-    kinds = "".join(f'<!ENTITY a{i + 1} "{f"&a{i};" * 10}">' for i in range(9))
-    parts = {"xl/sharedStrings.xml": f'<!DOCTYPE x [<!ENTITY a0 "ha">{kinds}]><x>&a9;</x>'}
-    with pytest.raises(InputError, match="document type"):
-        sheets(workbook(book, cell("A1"), parts))
-
-
-def test_a_sheet_without_a_dimension_is_read(tmp_path):
-    rows = cell("A1", text_of(3), STRING) + cell("C3", "<f>1+1</f><v>2</v>")
-    assert sheets(workbook(tmp_path / "a.xlsx", rows)) == {
-        "a": [["xxx", "", ""], ["", "", ""], ["", "", "2.0"]]
-    }
+@pytest.mark.parametrize("dimension", ["", "A1", "A1:XFD1048576"])
+def test_a_sheet_is_read_whatever_dimension_it_states(dimension, tmp_path):
+    rows = cell("A1", "<is><t>xxx</t></is>", ' t="inlineStr"') + cell("C3", "<f>1+1</f><v>2</v>")
+    file = workbook(tmp_path / "a.xlsx", rows, dimension)
+    assert sheets(file) == {"a": [["xxx", "", ""], ["", "", ""], ["", "", "2.0"]]}
 
 
 def test_a_name_that_stands_twice_behind_a_long_array_is_refused_in_time(monkeypatch):
@@ -194,83 +170,13 @@ def test_a_sweep_of_too_many_rows_is_refused_while_they_are_read(tmp_path):
         ask("sweep", problem={"indenter": "sphere"}, cases=file)
 
 
-def test_small_text_is_read_in_this_process_and_other_files_in_a_child(tmp_path):
-    contents = {"a.csv": b"1,2\n", "b.csv": "1,2\n".encode("utf-16"), "c.xlsx": b"PK\x03\x04\0\0"}
-    contents["d.csv"] = b"1,2\n" * (SMALL // 4 + 1)
-    found = {}
-    with limited() as call:
-        for name, content in contents.items():
-            file = tmp_path / name
-            file.write_bytes(content)
-            process, size = call(process_of, file)
-            assert size == len(content)
-            found[name] = process
-    here = os.getpid()
-    assert found["a.csv"] == found["b.csv"] == here
-    assert found["c.xlsx"] == found["d.csv"] != here
-
-
-@pytest.mark.parametrize(
-    ("size", "parts", "compression", "is_small"),
-    [
-        (10_000, {}, zipfile.ZIP_DEFLATED, True),
-        (60_000, {}, zipfile.ZIP_DEFLATED, False),
-        (10_000, {"xl/a.xml": "x" * 1_000_000}, zipfile.ZIP_DEFLATED, False),
-        # these parts are not scanned, and a workbook may name them as sheets
-        (10_000, {"xl/worksheets/a.bin": "x"}, zipfile.ZIP_DEFLATED, False),
-        # these unpack to more than 1,032 times their size
-        (10_000, {}, zipfile.ZIP_LZMA, False),
-    ],
-)
-def test_a_small_workbook_is_read_in_this_process(size, parts, compression, is_small, tmp_path):
-    file = tmp_path / "a.xlsx"
-    with zipfile.ZipFile(file, "w", compression) as archive:
-        for name, content in (BOOK | parts).items():
-            archive.writestr(name, content)
-        archive.writestr("xl/stored.xml", "x" * size, zipfile.ZIP_STORED)
-    with limited() as call:
-        assert (call(process_of, file)[0] == os.getpid()) == is_small
-
-
-@pytest.mark.parametrize("part", ["xl/other/sheet1.xml", "xl/theme/theme1.xml"])
-def test_a_far_cell_is_refused_in_every_part(part, tmp_path):
-    file = tmp_path / "a.xlsx"
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in BOOK.items():
-            archive.writestr(name, content.replace("worksheets/sheet1.xml", part[3:]))
-        archive.writestr(part, HEAD + cell("XFD1048576") + TAIL)
-    with pytest.raises(InputError, match="a sheet has 1048576 rows"):
-        sheets(load(file))
-
-
-def test_a_reader_that_exceeds_its_limits_is_ended_and_the_next_file_is_read(tmp_path, monkeypatch):
-    said = {
-        "fill": "reading takes more than 150 MB of memory",
-        "end": "the process that reads it ended with status 1",
-        "wait": "reading takes more than 0 s",
-        "damaged": "damaged",
-    }
-    file = tmp_path / "file.xlsx"
-    with limited() as call:
-        for order, words in said.items():
-            file.write_text(f"{order}\0")
-            monkeypatch.setattr(apart_module, "_SECONDS", 0.1 if order == "wait" else 600.0)
-            with pytest.raises(InputError) as error:
-                call(misread, file)
-            assert str(error.value) == f"{file}: {words}"
-        file.write_text("link\0")
-        with pytest.raises(FileNotFoundError) as missing:
-            call(misread, file)
-    assert missing.value.filename == "other.csv"
-
-
 def test_files_beside_a_bomb_are_evaluated(tmp_path):
     test = tack_files.made()
     for name in ("a.jpk-force", "c.jpk-force"):
         (tmp_path / name).write_bytes(tack_files.jpk(test))
     with zipfile.ZipFile(tmp_path / "b.jpk-force", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("segments/0/segment-header.properties", "a=1")
-        for number in range(190):
+        for number in range(210):
             archive.writestr(f"segments/0/{number}", bytes(1_000_000))
     found = survey([tmp_path])
     assert [one.record.source.path[-11:] for one in found.evaluations] == [
@@ -278,7 +184,7 @@ def test_files_beside_a_bomb_are_evaluated(tmp_path):
         "c.jpk-force",
     ]
     ((path, reason),) = found.reasons
-    assert path.endswith("b.jpk-force") and reason == "reading takes more than 154 MB of memory"
+    assert path.endswith("b.jpk-force") and "200 MB" in reason
 
 
 def test_zeros_that_unpack_to_gigabytes_are_not_unpacked(tmp_path):

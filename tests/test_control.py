@@ -17,8 +17,8 @@ from typer.testing import CliRunner
 import viscotack as vt
 from front_ends import Http, Question, through_all
 from viscotack.app.cli import application
-from viscotack.bem.live import LiveContact
 from viscotack.bem.settings import Settings
+from viscotack.bem.stepwise import SteppedSimulation
 from viscotack.control import (
     Release,
     c_header,
@@ -102,12 +102,12 @@ def test_a_contact_moved_in_pieces_is_the_one_of_a_history(stiffness):
     posed = posed_contact(PAD, settings)
     least = settings.first_travel * posed.contact.travel / rate
     part = part_of(posed, settings, least * unit.time, 60 / rate * unit.time)
-    contact = LiveContact(part, spring, least_step=least, settings=settings)
-    seen = [contact.now]
-    while not contact.apart and len(seen) < 2000:
-        seen.append(contact.move(-rate, piece))
-    assert contact.apart
-    assert contact.tension == pytest.approx(vt.pull_off_force(whole), rel=0.002)
+    simulation = SteppedSimulation(part, spring, least_step=least, settings=settings)
+    seen = [simulation.now]
+    while not simulation.apart and len(seen) < 2000:
+        seen.append(simulation.move(-rate, piece))
+    assert simulation.apart
+    assert simulation.tension == pytest.approx(vt.pull_off_force(whole), rel=0.002)
     before = whole.depth >= vt.pull_off(whole).depth
     depth, force = np.array([(x.depth, x.force) for x in seen]).T
     ours = np.interp(-whole.depth[before], -depth, force)

@@ -79,7 +79,6 @@ def test_units_are_distinguished_from_words():
 def test_size_and_angle_make_both_moduli(file, name, unit):
     sweeps = read_dma(file(lab_files.polar(name, unit)))
     assert_the_film(sweeps, rtol=1e-13)
-    assert 'moduli from "|E*| (MPa)" and the loss angle' in notes(sweeps)
 
 
 def test_an_angle_that_is_none_is_refused(file):

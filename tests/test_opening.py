@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscotack.protocol import AtDepth, LoadTo, Retract
-from viscotack.result import Outcome, observables, opening, sensitivities
+from viscotack.result import Outcome, observables, opening
 
 MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)
 
@@ -50,28 +50,6 @@ def test_a_minimum_is_smooth_within_a_move_of_the_drive(
 )
 def test_the_minimum_of_a_cubic_is_found_without_cancellation(c, b, a, place):
     assert opening._valley(c, b, a) == pytest.approx(place, rel=1e-14, nan_ok=True)
-
-
-@pytest.mark.parametrize(
-    ("kind", "time", "refused"),
-    [
-        ("jump into contact", 0.5, False),
-        ("jump out of contact", 1.0, True),
-        ("jump out of contact", 2.5, True),
-        ("jump out of contact", 2.8, False),
-        ("turn", 2.0, False),
-    ],
-)
-def test_a_jump_between_the_turn_and_the_pull_off_refuses_the_slope_of_the_work(
-    kind, time, refused, monkeypatch
-):
-    events = [SimpleNamespace(kind=kind, time=time)]
-    result = SimpleNamespace(time=np.arange(4.0), events=events)
-    monkeypatch.setattr(sensitivities, "_never", lambda result, slopes: "")
-    monkeypatch.setattr(sensitivities, "pull_off", lambda result: SimpleNamespace(time=2.5))
-    monkeypatch.setattr(sensitivities, "spans", lambda result: [SimpleNamespace(turn=1)])
-    found = sensitivities._refused(result, None, ["pull_off_force", "work_to_pull_off"])
-    assert list(found) == ["work_to_pull_off"] * refused
 
 
 def test_the_ligament_of_a_punch_that_opens_at_once_is_the_one_just_before(monkeypatch):

@@ -299,7 +299,7 @@ def test_a_table_is_refused_before_anything_is_predicted(tmp_path, monkeypatch, 
     out = tmp_path / "out.csv"
     assert "has the columns why already" in wrong(capsys, again, "--csv", out)
     for same in (cases, tmp_path / "." / "cases.CSV", link):
-        assert "is an input file" in wrong(capsys, cases, "--csv", same)
+        assert "cannot write" in wrong(capsys, cases, "--csv", same)
     assert cases.read_text() == text and not out.exists()
 
 

@@ -17,7 +17,6 @@ from viscotack.materials import (
     StandardSolid,
 )
 from viscotack.problem import Groups, Problem, plane, ranges, revolution
-from viscotack.problem.changed import changed
 from viscotack.problem.inputs import check_exponent, check_paths, inputs_of, replaced
 from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
@@ -333,23 +332,6 @@ def test_a_range_ends_at_its_ends_within_rounding():
     assert ranges.outside({"a": 1.0, "b": 2.0}, both) == ""
     said = "a is 0.5, verified from 1 to 2; b is 3, verified from 1 to 2"
     assert ranges.outside({"a": 0.5, "b": 3.0}, both) == said
-
-
-def test_a_number_is_changed_to_both_sides_within_its_range():
-    solid = replace(MATERIALS[1], poisson_ratio=0.5)
-    found = {x.name: x for x in changed(lens(material=solid))}
-    tau = found["material.tau0"]
-    assert (tau.down, tau.up, tau.value) == (-1e-4, 1e-4, 0.02)
-    assert tau.low.material.tau0 == pytest.approx(0.02 * 0.9999, rel=1e-14)
-    assert tau.high.material.tau0 == pytest.approx(0.02 * 1.0001, rel=1e-14)
-    assert tau.step == pytest.approx(math.log(1.0001 / 0.9999), rel=1e-12)
-    assert tau.base == lens(material=solid).groups()
-    assert [x.tabor for x in tau.groups] == [tau.base.tabor] * 2
-    most = found["material.poisson_ratio"]
-    assert (most.down, most.up) == (-1e-4, 0.0)
-    assert most.high == lens(material=solid) != most.low
-    with pytest.raises(ValueError, match="'material.tau1' is not an input .* material.tau0"):
-        changed(lens(material=solid), ["material.tau1"])
 
 
 def test_paths_of_numbers_are_checked_with_what_there_is():

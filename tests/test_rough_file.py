@@ -191,7 +191,7 @@ def test_a_map_that_is_too_coarse_is_refused_unless_forced(small):
     small.write_text(SMALL.replace('pixel = "10 um"', 'pixel = "60 um"'))
     with pytest.raises(InputError, match="2 are needed"):
         ask("rough", file="small.toml")
-    answer = ask("rough", file="small.toml", force=True)
+    answer = ask("rough", file="small.toml", anyway=True)
     assert "pixels" in answer.notes[0]
 
 

@@ -1,6 +1,7 @@
 """Tests of two contacts in series: which opens first, and maps of speed and preload."""
 
 from dataclasses import replace
+from math import gamma, pi, sqrt
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from viscotack import (
     GentSchultz,
     Layer,
     LennardJones,
+    PowerLawProfile,
     Problem,
     Retraction,
     Sphere,
@@ -72,6 +74,23 @@ def test_the_weaker_of_two_elastic_contacts_opens(elastic_pair, side):
     work = edge_of_work(donor, stamp) * (1 + side * 1e-3)
     # 0.1 % beside the edge is inside the bands, but the nominal answer is that of the forces
     assert which_opens(donor, with_work(stamp, work)).nominal == (1 if side < 0 else 0)
+
+
+@pytest.mark.parametrize("gap", [2.1e-8, 1.45e-8, 1e-9])
+def test_a_slender_elastic_tip_of_any_short_range_is_that_of_jkr(gap):
+    """Sneddon's cubic tip with the singular edge of JKR: its largest tension over the radius."""
+    A, w, E = 2e4, 0.05, 3e6 / 0.75
+    tip = replace(contact(ELASTIC, work=w, gap=gap), geometry=PowerLawProfile(A, 3))
+    assert tip.groups().effective_tabor > 94
+    a, depth = np.geomspace(1e-5, 1e-2, 100_001), A * sqrt(pi) * gamma(2.5) / gamma(2)
+    tension = np.max(np.sqrt(8 * pi * w * E * a**3) - 2 * E * depth * 3 / 4 * a**4)
+    sphere = contact(ELASTIC, gap=1e-8)
+    found = [
+        which_opens(tip, with_work(sphere, part * tension / (1.5 * pi * 5e-3)))
+        for part in (0.98, 1.02)
+    ]
+    assert [each.opened for each in found] == [1, 0]
+    assert found[1].tension == pytest.approx(tension, rel=1e-3)
 
 
 @pytest.mark.parametrize("side", [-1, 1])

@@ -1,17 +1,14 @@
 """Interfaces whose tension grows with the time in contact: laws, limits, energies, order."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import viscotack as vt
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
-from viscotack.problem.law_table import law_from_words
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell, Retract
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Dugdale, Exponential, LennardJones, ages
+from viscotack.traction import Dugdale, LennardJones
 from viscotack.traction.resting import OverRest, reduced
 
 REST = LennardJones(0.05, 20e-9)
@@ -112,42 +109,6 @@ def test_tiers_that_do_not_know_ages_refuse_them(law):
             ask(problem)
 
 
-def test_words_files_and_records_know_an_ageing_law(tmp_path):
-    law = law_from_words("logarithmic-ageing:10,0.4:exponential:0.25")
-    assert law == vt.LogarithmicAgeing(1, 1, 10, 0.4, base=Exponential(1, 1, 0.25))
-    path = tmp_path / "case.toml"
-    path.write_text("""
-[material]
-model = "elastic"
-rubbery_modulus = "1.458 MPa"
-poisson_ratio = 0.5
-
-[interface]
-law = "saturating-ageing"
-work_of_adhesion = "0.05 J/m^2"
-equilibrium_gap = "20 nm"
-reference_time = "2 min"
-largest_growth = 0.5
-
-[sphere]
-radius = "1 mm"
-
-[protocol]
-preload_force = "1.5 mN"
-speed = "100 um/s"
-""")
-    problem = vt.read_case(path)
-    assert ages(problem.traction) and problem.traction.reference_time == 120.0
-    assert vt.from_dict(vt.to_dict(problem)) == problem
-    # an elastic solid has no time of its own, and takes that of the interface
-    assert problem.scales().time == 120.0
-    assert problem.groups().traction.reference_time == pytest.approx(1.0)
-    back = problem.groups().in_si(
-        radius=1e-3, contact_modulus=2e6, equilibrium_gap=1e-8, time_unit=7.0, poisson_ratio=0.5
-    )
-    assert back.traction.reference_time == pytest.approx(7.0)
-
-
 # --- limits
 
 
@@ -234,7 +195,3 @@ def test_a_finer_run_confirms_the_stated_error():
     fine = pull_off_force(pressed(law, 0.5, material=SOLID, speed=30.0, accuracy=3e-4))
     assert usual.error_estimate is not None
     assert abs(pull_off_force(usual) / fine - 1) < usual.error_estimate["force"] < 1e-2
-
-
-def test_a_law_keeps_its_kind_when_its_work_is_replaced():
-    assert replace(LOG, work_of_adhesion=0.1).growth_after(2.0) == LOG.growth_after(2.0)

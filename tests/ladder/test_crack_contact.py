@@ -291,16 +291,6 @@ def test_what_the_theory_cannot_answer_is_refused_with_the_reason():
         crack_contact(pad)
 
 
-def test_thousands_of_cases_at_once_lie_between_slow_and_fast():
-    crack, profile = SteadyCrack(standard(), REDUCED), profile_of(Sphere(1.0))
-    crack.amplification(1e6)
-    rng = np.random.default_rng(0)
-    tabor, rate = 10 ** rng.uniform(0.5, 5, 4000), 10 ** rng.uniform(-1, 3, 4000)
-    curves = recede(crack, profile, radius=rng.uniform(3.5, 8, 4000), rate=rate, tabor=tabor)
-    pulled = -curves.force.min(axis=0) / (1.5 * np.pi)
-    assert np.all((pulled > 0.99) & (pulled < 10.01))
-
-
 def test_a_history_that_takes_too_many_steps_is_out_of_range(monkeypatch):
     monkeypatch.setattr("viscotack.theory.crack.contact.history._MOST_STEPS", 5)
     press = Approach(100.0, AtDepth(200.0))
@@ -347,14 +337,6 @@ def test_an_edge_that_moves_at_once_is_refused_in_words_where_the_zone_is_large(
         crack_contact(replace(groups, geometry=Cone(1.0)))
 
 
-def test_steps_at_one_time_before_the_pull_off_do_not_stop_a_fast_retraction():
-    solid = StandardSolid(rubbery_modulus=1.0, glassy_modulus=300.0, tau0=1.0, poisson_ratio=0.0)
-    common = {"tabor": 815.192, "material": solid, "start": AtForce(0.402701)}
-    # warnings are errors: a slope between steps at one time was a division by zero
-    forces = [crack_contact(Groups(**common, rate=v)).pull_off_force for v in (1e6, 2e6, 4e6)]
-    assert forces == pytest.approx([forces[0]] * 3, rel=1e-3)
-
-
 @pytest.mark.parametrize(("travel", "rate"), [(-1.0, 0.2), (0.0, 0.2), (0.1, 0.25), (5.0, 0.0)])
 def test_the_rate_of_an_edge_is_of_second_order_unless_it_turns(travel, rate):
     # mean rate 0.2 in this step, `travel` in the one before: 0.1 to 0.2 in mean goes on to 0.25,
@@ -388,34 +370,6 @@ def bare(kind, **parts):
     for name, part in parts.items():
         setattr(made, f"_{name}", part)
     return made
-
-
-def test_a_radius_lies_in_the_interval_of_its_annuli():
-    s = np.append(0.0, np.arange(0.25, 2.1, 0.25))
-    contact = bare(Contact, s=s, inner=0.25, apart=0.25)
-    for radius in (0.01, 0.25, 0.26, 0.5, 0.51, 1.99, 2.0):
-        i, last = contact.interval(radius), contact.last_inside(radius)
-        assert s[i] <= radius <= s[i + 1]
-        assert s[last] < radius <= s[last + 1]
-    assert contact.last_inside(0.0) == contact.last_inside(-1.0) == -1
-    assert contact.interval(3.0) == len(s) - 2
-
-
-def test_a_memory_linear_in_the_gap_is_integrated_without_error():
-    s = np.array([0.0, 0.5, 1.0, 1.25, 2.0])
-    g, total = s**2, s**3 / 3
-    profile = SimpleNamespace(depth=lambda a: a**2, total=lambda a: a**3 / 3)
-    of = SimpleNamespace(
-        _profile=profile, _s=s, _g=g, _whole=total,
-        _ds=np.diff(s), _dg=np.diff(g), _total=np.diff(total),
-    )  # fmt: skip
-    step = bare(history._Step, of=of)
-    memory = 3 - 2 * g
-    cumulated = step._cumulated(memory)
-    assert cumulated == pytest.approx(3 * s - 2 * total, rel=1e-14)
-    for i, a in ((1, 0.75), (2, 1.25), (3, 1.5)):
-        found = step._memory_at(a, memory, cumulated, i)
-        assert found == pytest.approx((3 - 2 * a**2, 3 * a - 2 / 3 * a**3), rel=1e-14)
 
 
 @pytest.mark.parametrize("value", [-0.9, -0.1, 0.3, 5.0])
@@ -484,15 +438,6 @@ def test_surfaces_apart_close_from_nothing_where_they_touch(touches, edge):
     assert step.edge() == edge
 
 
-def test_surfaces_touch_above_the_creep_that_is_left_or_under_a_load():
-    for control, value, touches in (
-        ("force", 0.1, True), ("force", 0.0, False), ("force", -0.1, False),
-        ("depth", 0.4, True), ("depth", 0.3, False), ("depth", 0.2, False),
-    ):  # fmt: skip
-        out = np.array([0.3, 9.0])
-        assert bare(history._Step, control=control, value=value, out=out)._touches() is touches
-
-
 def test_an_edge_opens_with_the_lift_over_the_instantaneous_compliance():
     of = SimpleNamespace(_profile=SimpleNamespace(depth=lambda a: a**2))
     step = bare(history._Step, of=of, c=0.5)
@@ -520,41 +465,6 @@ def test_an_edge_that_could_open_and_close_keeps_its_way_unless_it_is_slow(trave
     of = SimpleNamespace(_profile=SimpleNamespace(depth=lambda a: a**2))
     step = bare(history._Step, of=of, before=SimpleNamespace(travel=travel, radius=2.0))
     assert step._goes_on_opening(drive) is opens
-
-
-@pytest.mark.parametrize("root", [0.3, 0.5, 0.93])
-@pytest.mark.parametrize("power", [1, 3, 5])
-def test_the_root_between_a_negative_and_a_positive_end_is_found(root, power):
-    calls = []
-
-    def excess(x):
-        calls.append(x)
-        return x**power - root**power
-
-    for ends, sign in (((0.0, 1.0), 1), ((1.0, 0.0), -1)):
-        found = history._bisected(lambda x, sign=sign: sign * excess(x), *ends)
-        assert excess(found) == pytest.approx(0.0, abs=1e-9)
-    # faster than halving down to 1e-10
-    assert len(calls) < 60
-
-
-def test_a_move_has_ended_at_its_end():
-    state = SimpleNamespace(depth=2.0, force=3.0, radius=4.0)
-    for speed in (1.0, -1.0):
-        for name, now in vars(state).items():
-            for way, reached in ((0.0, True), (-speed, True), (speed, False)):
-                drive = Drive("drive", speed, 1.0, (name, now + 0.1 * way))
-                assert history._reached(state, drive) is reached
-
-
-def test_steps_are_limited_by_the_drive_or_by_what_relaxes():
-    for modes, longest in ((0, np.inf), (2, 0.5)):
-        chain = SimpleNamespace(times=np.ones(modes))
-        contact = bare(Contact, chain=chain)
-        assert contact._longest(Drive("drive", 0.0, 10.0)) == longest
-        assert contact._longest(Drive("drive", -7.0, 10.0)) == pytest.approx(0.01, rel=1e-14)
-        assert contact._slowest(Drive("drive", 0.0, 10.0)) == 10.0
-        assert contact._slowest(Drive("drive", -8.0, 10.0)) == 0.125
 
 
 def test_the_tension_left_is_that_of_the_opening_speed_of_the_edge():
@@ -604,21 +514,6 @@ def test_of_two_contacts_the_one_opens_that_recedes_further(gone, last, opened, 
     radii = tuple(a / 4.0 if b == b else np.nan for a, b in zip((3.0, 2.0), last, strict=True))
     assert found.radius == pytest.approx(radii, nan_ok=True)
     assert found.held == pytest.approx(held, nan_ok=True)
-
-
-@pytest.mark.parametrize("end", [0.3, 0.999999999])
-def test_the_end_of_a_move_is_found_by_halving_to_a_millionth(end):
-    tried = []
-
-    def state_after(state, drive, given, begin, dt, least):
-        tried.append(dt)
-        return SimpleNamespace(depth=dt, force=0.0, radius=0.0), False
-
-    contact, beyond = bare(Contact, tried=state_after), SimpleNamespace(depth=1.0)
-    drive = Drive("drive", 1.0, 1.0, ("depth", end))
-    dt, found = contact._to_the_end(None, drive, 0.0, 0.0, 1.0, beyond)
-    assert end <= dt == found.depth <= end * (1 + 1e-6) + 1e-9
-    assert 18 < len(tried) < 24
 
 
 @pytest.mark.parametrize(

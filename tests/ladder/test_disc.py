@@ -8,7 +8,6 @@ import pytest
 import viscotack as vt
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of
-from viscotack.operations import ask
 from viscotack.theory import disc, profiles
 from viscotack.theory.elastic import indenter
 
@@ -96,11 +95,6 @@ def test_a_disc_with_a_short_range_pulls_off_like_kendall():
     assert (4 * found[1] - found[0]) / 3 == pytest.approx(1.0, abs=5e-3)
 
 
-def test_kendall_by_the_finest_two():
-    found = [pulled(groups(tabor, traction=DUGDALE), 3e-3) for tabor in (8.0, 16.0)]
-    assert (4 * found[1] - found[0]) / 3 == pytest.approx(1.0, abs=2e-3)
-
-
 def test_a_rounded_edge_pulls_like_its_own_jkr_contact():
     a = np.linspace(0.85, 1.0, 3001)
     force = indenter.force(a, shape=ROUNDED, contact_modulus=1.0, work_of_adhesion=1.0)
@@ -150,26 +144,6 @@ def test_a_disc_comes_down_dwells_and_pulls_as_from_rest():
 def test_what_a_disc_is_not_is_refused(make, words):
     with pytest.raises(vt.InputError, match=words):
         make()
-
-
-def test_a_case_file_and_flags_state_a_disc(tmp_path):
-    tables = {
-        "material": {"model": "elastic", "rubbery_modulus": "0.75 MPa", "poisson_ratio": 0.5},
-        "interface": {
-            "law": "dugdale",
-            "work_of_adhesion": "50 mJ/m^2",
-            "equilibrium_gap": "1 um",
-        },
-        "disc": {"radius": "1 mm"},
-        "protocol": {"preload_force": "1 mN", "speed": "1 um/s"},
-    }
-    answer = ask("simulate", problem=tables, until="pull-off", accuracy=1e-2).record()
-    kendall = disc.pull_off_force(contact_radius=1e-3, **SOLID)
-    assert answer["pull_off_force_N"] == pytest.approx(kendall, rel=0.02)
-    assert answer["tabor"] == pytest.approx(np.sqrt(50.0), rel=1e-9)
-    flags = {"indenter": "disc", "tabor": answer["tabor"], "material": "elastic", "law": "dugdale"}
-    by_flags = ask("simulate", problem=flags | {"preload": 0.0}, accuracy=1e-2).record()
-    assert by_flags["pull_off_force"] == pytest.approx(answer["pull_off_force"], rel=1e-3)
 
 
 def test_a_disc_pressed_deep_or_with_a_steep_edge_is_beyond_small_strain():

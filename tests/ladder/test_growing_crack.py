@@ -1,15 +1,12 @@
 """Cracks and contacts whose interface grows with the opening speed: limits, heat, simulation."""
 
-import json
 from functools import lru_cache
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from typer.testing import CliRunner
 
 import viscotack as vt
-from viscotack.app.cli import application
 from viscotack.errors import OutOfRange
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
@@ -20,12 +17,11 @@ from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
 from viscotack.theory.crack.contact import (
     GrowingCracks,
-    NeighbourEdges,
     growing,
     profile_of,
     recede,
 )
-from viscotack.theory.crack.steady import NeighbourCrack, _grown, _mesh, _start, comparison
+from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
 from viscotack.traction import Eyring, GentSchultz, LennardJones
 from viscotack.traction.growing import reference_speed
 
@@ -201,18 +197,6 @@ def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed
     np.testing.assert_allclose(fitted, found.amplification, rtol=0.1)
 
 
-def test_the_command_splits_the_energy_of_a_crack():
-    words = "theory steady-crack --modulus-ratio 0.1 --law gent-schultz:1,0.5 --speed 1 --speed -1"
-    done = CliRunner().invoke(application(), [*words.split(), "--material", "sls", "--json"])
-    answer = json.loads(done.stdout)
-    gamma, heat, interface = (
-        np.array(answer[name]) for name in ("amplification", "heat", "interface_heat")
-    )
-    assert gamma[0] == pytest.approx(1 + heat[0] + interface[0], rel=2e-3) and interface[0] > 0.5
-    assert interface[1] == 0 and gamma[1] < 1
-    assert answer["persson_brener_off"] == [None, None]
-
-
 def test_the_energy_at_an_edge_is_not_read_of_other_tests():
     groups = Groups(tabor=0.5, material=ELASTIC, start=AtDepth(1.0), rate=1.0)
     result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=1e-2)
@@ -224,16 +208,6 @@ def test_energies_that_grow_by_a_power_of_the_speed_have_its_reference_speed_and
     speed = np.geomspace(1e-3, 50.0, 9)
     found = energies_of_edges._gent_schultz(speed, 1 + (speed / 0.3) ** 0.45)
     assert found == pytest.approx((0.3, 0.45), rel=1e-6)
-
-
-def test_the_words_on_an_edge_are_those_of_its_energies():
-    said = energies_of_edges._words(6.0, 2.0, energies_of_edges.LARGEST_STRAIN, True)
-    assert said == (
-        "the energy of the edge is up to 6 works of adhesion; the bulk accounts for 2",
-        "the interface contributes a factor of 3",
-    )
-    for strain, count in ((None, 1), (1.001 * energies_of_edges.LARGEST_STRAIN, 2)):
-        assert len(energies_of_edges._words(6.0, 2.0, strain, False)) == count
 
 
 def test_the_reference_speed_reproduces_the_given_growth():
@@ -305,26 +279,3 @@ def test_an_infinite_reference_speed_of_a_lattice_is_an_interface_that_does_not_
     plain = np.asarray(SteadyCrack(SOLID, REST).amplification(speed))
     np.testing.assert_allclose(edges.amplification(speed[:, None])[:, 0], plain, rtol=1e-3)
     np.testing.assert_allclose(edges.interface_work(speed[:, None])[:, 0], 1.0, rtol=1e-12)
-
-
-@pytest.mark.slow
-def test_a_solid_beside_has_the_growing_cracks_of_its_own(lattice):
-    solid = StandardSolid(rubbery_modulus=1.0, glassy_modulus=13.0, tau0=1.0, poisson_ratio=0.0)
-    speed = np.geomspace(0.1, 30.0, 6)
-    beside = NeighbourCrack(SteadyCrack(SOLID, REST), solid)
-    own = SteadyCrack(solid, GentSchultz(1, 1, 1.0, 0.5)).amplification(speed)
-    known = lattice.edges([1.0], [0.5])
-    found = NeighbourEdges(known, SteadyCrack(SOLID, REST), beside).amplification(speed[:, None])
-    np.testing.assert_allclose(found[:, 0], own, rtol=0.02)
-    # a third more of the glassy modulus is not nothing
-    assert np.max(np.abs(known.amplification(speed[:, None])[:, 0] / own - 1)) > 0.01
-
-
-@pytest.mark.slow
-def test_what_a_lattice_does_not_hold_is_refused(lattice):
-    with pytest.raises(ValueError, match="must lie within the lattice, 0.3 to 0.6"):
-        lattice.edges(1.0, 0.9)
-    with pytest.raises(ValueError, match="exceeds the lattice"):
-        lattice.edges(1e-4, 0.4)
-    with pytest.raises(ValueError, match="at least four ascending exponents"):
-        GrowingCracks(SOLID, (0.1, 3.0), (1.0, 1.0), [0.3, 0.4])

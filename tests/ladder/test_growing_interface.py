@@ -12,10 +12,9 @@ from viscotack.bem import Settings
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
-from viscotack.problem.law_table import law_from_words
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Dugdale, Exponential, Eyring, GentSchultz, LennardJones, grows
+from viscotack.traction import Dugdale, Eyring, GentSchultz, LennardJones
 from viscotack.traction.resting import reduced
 
 REST = LennardJones(0.1523, 200e-9)
@@ -116,44 +115,6 @@ def test_what_is_no_growing_law_is_refused():
 
 
 # --- in words, files, records
-
-
-def test_flags_files_and_records_know_a_growing_law(tmp_path):
-    law = law_from_words("gent-schultz:10,0.4:exponential:0.25")
-    assert law == GentSchultz(1, 1, 10, 0.4, base=Exponential(1, 1, 0.25))
-    with pytest.raises(ValueError, match="write eyring:REFERENCE_SPEED,SENSITIVITY"):
-        law_from_words("eyring:1")
-    path = tmp_path / "case.toml"
-    path.write_text("""
-[material]
-model = "elastic"
-rubbery_modulus = "1.458 MPa"
-poisson_ratio = 0.5
-
-[interface]
-law = "gent-schultz"
-base = "exponential"
-decay = 0.3
-work_of_adhesion = "0.1523 J/m^2"
-equilibrium_gap = "200 nm"
-reference_speed = "213.5 um/s"
-exponent = 0.4154
-
-[sphere]
-radius = "5.19 mm"
-
-[protocol]
-preload_force = "1.5 mN"
-speed = "100 um/s"
-""")
-    problem = vt.read_case(path)
-    assert grows(problem.traction) and problem.traction.base.decay == 0.3
-    assert problem.traction.reference_speed == pytest.approx(213.5e-6)
-    assert vt.from_dict(vt.to_dict(problem)) == problem
-    # an elastic solid has no time of its own, and takes that of the interface
-    assert problem.scales().time == pytest.approx(200e-9 / 213.5e-6)
-    assert problem.groups().traction.reference_speed == pytest.approx(1.0)
-    assert problem.groups().rate == pytest.approx(100 / 213.5)
 
 
 def test_groups_go_to_si_and_back():
@@ -285,11 +246,3 @@ def test_a_finer_run_confirms_the_stated_error():
     fine = pull_off_force(unloaded(law, tabor=2.0, depth=5.0, accuracy=4e-4))
     off = abs(pull_off_force(usual) / fine - 1)
     assert off < usual.error_estimate["force"] < 1e-2
-
-
-def test_results_keep_the_heat_of_the_interface(tmp_path):
-    result = unloaded(GentSchultz(1, 1, 1.0, 0.5), accuracy=1e-2)
-    vt.save(result, tmp_path / "grown.npz")
-    again = vt.load(tmp_path / "grown.npz")
-    assert again.problem == result.problem
-    np.testing.assert_array_equal(again.energy.interface_heat, result.energy.interface_heat)

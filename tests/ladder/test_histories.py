@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.bem import Settings, SimulationError
+from viscotack.bem import Settings
 from viscotack.bem.solver import contact_of
 from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import Elastic, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
@@ -380,24 +380,6 @@ def test_surfaces_that_did_not_touch_were_never_in_contact(moves, until):
         pull_off_force(result)
 
 
-def test_no_curve_is_drawn_through_a_change_of_speed():
-    # slower from there on, so that the force is least where the speed changes
-    moves = (Retract(20.0, AtDepth(4.0)),)
-    result = solve(
-        sphere(AtDepth(6.0), *moves, rate=2.0, tabor=2.0), accuracy=0.02, estimate_error=False
-    )
-    lowest = int(np.argmin(result.force))
-    assert result.move[lowest] == 0 and result.move[lowest + 1] == 1
-    assert pull_off_force(result) == -result.force[lowest]
-
-
-def test_a_jump_of_an_earlier_cycle_is_not_how_the_test_ended():
-    moves = (Retract(50.0, AtDepth(-30.0)), LoadTo(0.5, 1.0))
-    result = run(sphere(AtDepth(2.0), *moves, rate=1.0))
-    assert kinds(result)[0] == "jump out of contact" and result.time[-1] > 5
-    assert result.status == "detached"
-
-
 @pytest.mark.parametrize(("make", "span"), [(sphere, 4.0), (punch, 1.0)], ids=["sphere", "punch"])
 def test_every_cycle_has_the_pull_off_of_a_test_of_its_own(make, span):
     # apart long enough, nothing is remembered
@@ -483,13 +465,6 @@ def test_a_move_to_where_the_contact_is_beyond_already_takes_no_time():
     assert result.depth[-1] == pytest.approx(5.0, rel=1e-2, abs=0)
 
 
-def test_a_bound_on_steps_is_said_when_it_is_met():
-    settings = replace(Settings.for_accuracy(2e-3), most_steps=30)
-    cycles = 5 * (Approach(5.0, AtDepth(5.0)), Retract(5.0, AtDepth(0.0)))
-    with pytest.raises(SimulationError, match="bound of 30 steps was met at a depth of"):
-        solve(sphere(Apart(10.0), *cycles), settings=settings, estimate_error=False)
-
-
 # --- whatever the machine does ------------------------------------------------------------------
 
 
@@ -549,11 +524,6 @@ def test_random_histories_end_well():
     assert wander(range(12)) == []
 
 
-@pytest.mark.slow
-def test_a_hundred_random_histories_end_well():
-    assert wander(range(12, 112)) == []
-
-
 def test_a_viscoelastic_solid_behind_a_soft_spring_keeps_its_history_until_the_jump():
     # the drive goes a thousand times as far as the contact; a slow load on a contact that is wide
     # beside the range of its law is borne by the relaxed solid, and so until that has crept
@@ -600,14 +570,6 @@ def test_a_force_that_is_borne_on_is_no_pull_off_whatever_snaps():
     assert result.outcome == "still in contact"
     with pytest.raises(ValueError, match="no pull-off"):
         pull_off_force(result)
-
-
-def test_what_a_dead_load_that_lets_go_leaves_undone_is_said():
-    hang = (LoadTo(-1.3, 0.01), Dwell(1000.0, hold="force"), Approach(5.0, AtDepth(4.0)))
-    result = solve(sphere(AtDepth(2.0), *hang, rate=5.0), accuracy=0.02)
-    assert result.outcome == "jumped"
-    assert "falls on: 2 parts of the test after it not made" in result.status
-    assert result.error_estimate["time"] > 0
 
 
 def test_nothing_jumps_where_a_deep_elastic_contact_waits():

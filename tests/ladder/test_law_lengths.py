@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from viscotack.bem import equilibrium
 from viscotack.bem.flank import flank_share
 from viscotack.bem.interface import AtNodes, OnPanels, interface, resolved
 from viscotack.materials import Elastic, StandardSolid
@@ -13,7 +12,6 @@ from viscotack.protocol import AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.theory import maugis
 from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
-from viscotack.traction.law import energy_and_traction
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
@@ -129,22 +127,3 @@ def test_the_flank_of_a_tip_is_the_integral_over_its_area(exponent):
     third_power = exponent / (1.5 * exponent - 1)
     assert flank_share(LennardJones(1.0, 1.0), 1e3, exponent) == pytest.approx(third_power)
     assert flank_share(Dugdale(1.0, 1.0), gap, exponent) == 1
-
-
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
-def test_energy_and_traction_of_one_evaluation_are_those_of_two(law):
-    quick = isinstance(law, LennardJones | Exponential)
-    energy, traction = law.energy_and_traction(GAPS) if quick else energy_and_traction(law, GAPS)
-    np.testing.assert_array_equal(energy, law.energy(GAPS))
-    np.testing.assert_array_equal(traction, law.traction(GAPS))
-
-
-@pytest.mark.march
-def test_kept_factors_change_forces_by_little_more_than_round_off(monkeypatch):
-    law = LennardJones(1.0, 1.0)
-    kept = pulled(law, 1.0, SOLID)
-    monkeypatch.setattr(equilibrium, "_KEPT", 0.0)
-    newton = pulled(law, 1.0, SOLID)
-    assert kept.statistics["newton_iterations"] > newton.statistics["newton_iterations"]
-    assert pull_off_force(kept) == pytest.approx(pull_off_force(newton), rel=1e-6)
-    assert kept.energy_residual == pytest.approx(newton.energy_residual, rel=0.1)

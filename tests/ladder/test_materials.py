@@ -368,17 +368,6 @@ def test_solids_tend_to_the_elastic_one_as_the_moduli_meet(kind):
         assert slope(gap, distances) == pytest.approx(1, abs=2e-3)
 
 
-@pytest.mark.parametrize("kind", POWER_LAWS)
-def test_equal_moduli_are_elastic(kind):
-    solid = power_law(kind, exponent=0.7, k=1.0)
-    t = np.array([0, 1e-9, 1, np.inf])
-    assert_allclose(solid.relaxation(t), E0, rtol=1e-15)
-    assert_allclose(solid.creep(t), 1 / E0, rtol=1e-15)
-    assert_allclose(solid.complex_modulus(t), E0, rtol=1e-15)
-    modes = solid.retardation_modes(shortest=1e-6, longest=1.0, tolerance=1e-3)
-    assert (modes.instantaneous, modes.weights) == (1, ())
-
-
 power = st.floats(-6, 6)
 
 

@@ -23,12 +23,6 @@ def test_a_square_holds_at_least_its_inscribed_disc_and_at_most_the_disc_around_
     assert high == pytest.approx(around * np.sqrt(2 / np.pi), rel=1e-12)
 
 
-def test_bounds_scale_as_length_to_three_halves_and_know_no_order_of_the_sides():
-    one = np.array(bounds(3e-4, half_width=1e-4, **SOLID))
-    assert np.array(bounds(12e-4, half_width=4e-4, **SOLID)) == pytest.approx(8 * one, rel=1e-12)
-    assert np.array(bounds(1e-4, half_width=3e-4, **SOLID)) == pytest.approx(one, rel=1e-12)
-
-
 def test_a_stiffness_of_the_square_from_the_literature_lies_within_that_of_its_ellipses():
     # capacity of a square of side 1: 0.3667896 (Read, J. Comput. Phys. 133 (1997));
     # a disc has 2/pi times its radius

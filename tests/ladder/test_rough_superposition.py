@@ -6,7 +6,6 @@ import pytest
 import viscotack as vt
 from viscotack.errors import InputError
 from viscotack.geometry import Layer
-from viscotack.operations import ask
 from viscotack.pads import superposed
 from viscotack.protocol import Apart, AtDepth, AtForce, Dwell, Retraction
 from viscotack.rough import RoughProblem, pull
@@ -130,36 +129,3 @@ def test_other_problems_are_refused():
     layer = RoughProblem(**common, protocol=straight, body=Layer(thickness=1e-4))
     with pytest.raises(InputError, match="half-space"):
         superposed(layer)
-
-
-def test_the_command_answers_by_superposition(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "b.toml").write_text(
-        """
-        [surface]
-        kind = "bumps"
-        pixels = 32
-        pixel = "10 um"
-        radius = "100 um"
-        spacing = "160 um"
-        height = "10 um"
-        [material]
-        model = "elastic"
-        rubbery_modulus = "3 MPa"
-        poisson_ratio = 0.5
-        [interface]
-        law = "lennard-jones"
-        work_of_adhesion = "50 mJ/m^2"
-        equilibrium_gap = "1 um"
-        [protocol]
-        preload_force = "10 uN"
-        speed = "50 um/s"
-        """
-    )
-    answer = ask("rough", file="b.toml", theory="superposition")
-    assert answer.record()["touching"] == 4
-    answer.files["csv"](tmp_path / "b.csv")
-    answer.pictures["plot"]().savefig(tmp_path / "b.png")
-    assert "position_m,force_N" in (tmp_path / "b.csv").read_text()
-    with pytest.raises(InputError, match="belong to the simulation"):
-        ask("rough", file="b.toml", theory="superposition", moments=5)

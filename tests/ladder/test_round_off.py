@@ -30,9 +30,6 @@ def power_law(modulus_ratio, exponent=0.6):
     )
 
 
-POWER_LAW = power_law(0.1)
-
-
 def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, **options):
     return Groups(tabor=tabor, material=material, start=start, rate=rate, moves=moves, **options)
 
@@ -101,47 +98,6 @@ CASES = {
     "cone": cone(5.0),
 }
 
-LONG = (
-    {
-        f"{name}-{k:g}": behind_spring(k, **options)
-        for k in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-        for name, options in {
-            "spring": {},
-            "slow-spring": {"rate": 0.1},
-            "elastic-spring": {"material": ELASTIC},
-            "small-spring": {"tabor": 0.5, "rate": 10.0},
-            "large-spring": {"tabor": 5.0, "material": POWER_LAW},
-            "punch-spring": {"make": punch, "load": 0.1},
-        }.items()
-    }
-    | {
-        f"{name}-{title}": case
-        for title, material in {"elastic": ELASTIC, "solid": SOLID, "power-law": POWER_LAW}.items()
-        for name, case in {
-            "dugdale": dugdale(material),
-            "hung": hung(1.3, tabor=3.24, material=material),
-            "borne": hung(0.9, material=material),
-            "cycles": cycles(2, material=material),
-            "in-and-out-5": there_and_back(tabor=5.0, material=material),
-            "in-and-out-8": there_and_back(tabor=8.0, material=material),
-            "cone": cone(5.0, material),
-            "flat": cone(5.0, material, exponent=3.0),
-        }.items()
-    }
-    | {
-        f"retraction-{rate:g}-{k:g}": sphere(
-            AtDepth(10.0), rate=rate, tabor=1.5, material=power_law(k, 0.5)
-        )
-        for rate in (1e-2, 1.0, 1e2, 1e5)
-        for k in (1e-1, 1e-2, 1e-4)
-    }
-    | {
-        f"punch-{thickness:g}-{rate:g}": punch(AtDepth(0.5), rate=rate, thickness=thickness)
-        for thickness in (1.0, 3.24, 32.0)
-        for rate in (0.1, 10.0, 1e3)
-    }
-)
-
 
 def lasting(result):
     """Return what a test is about, and the least error stated of it over the accuracy.
@@ -187,9 +143,3 @@ def test_a_way_down_that_takes_too_long_is_looked_for_later(monkeypatch):
 @pytest.mark.parametrize("name", CASES)
 def test_other_noise_changes_nothing_either(name):
     compare(CASES[name], [1], accuracy=5e-3)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", LONG)
-def test_noise_changes_no_other_march(name):
-    compare(LONG[name], range(3), accuracy=2e-3)

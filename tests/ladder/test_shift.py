@@ -14,7 +14,6 @@ from viscotack.materials.passport import Evidence, Passport
 from viscotack.materials.shift import (
     WLF,
     Arrhenius,
-    FittedShift,
     TabulatedShift,
     wlf_decades,
 )
@@ -177,24 +176,6 @@ def test_a_step_of_storage_has_the_loss_of_the_closed_form():
     expected = 1e6 / np.pi * np.log(1 / np.tanh(np.abs(np.log(omega)) / 2))
     far = [0, 1, 2, 5, 6]
     assert_allclose(loss_from_storage(omega, storage)[far], expected[far], rtol=1e-6)
-
-
-def test_words_state_the_constants_of_a_law_and_their_errors():
-    wlf, activated = WLF(reference_temperature=300.0, c1=8.5, c2=101.6), Arrhenius(300.0, 85e3)
-    assert wlf.words() == "WLF with c1 = 8.5, c2 = 101.6 K at 300 K"
-    assert activated.words() == "Arrhenius with 85 kJ/mol"
-    found = FittedShift(wlf, (0.12, 3.4), 0.05, worst=(280.0, 0.2))
-    assert found.words() == (
-        "WLF with c1 = 8.5 +- 0.12, c2 = 101.6 +- 3.4 K at 26.85 C; 0.05 decades off the table on "
-        "average"
-    )
-    assert (
-        FittedShift(activated, (2e3,), 0.01)
-        .words()
-        .startswith("Arrhenius with 85.0 +- 2.0 kJ/mol;")
-    )
-    # a passport does not keep the row that fits worst
-    assert found == FittedShift(wlf, (0.12, 3.4), 0.05)
 
 
 def test_the_loss_scales_with_the_storage_and_not_with_a_constant():

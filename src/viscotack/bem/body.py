@@ -19,7 +19,6 @@ from viscotack.bem.growth import Frozen, Opening, Stepped, bend, driven
 from viscotack.bem.interface import Faces
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
-from viscotack.bem.origin import ByNodes, ByStep, Origin
 from viscotack.bem.shut import pressed_shut
 from viscotack.bem.span import least_gap, room
 from viscotack.bem.surface import Surface
@@ -100,7 +99,6 @@ class State:
     rates: Rates
     trail: tuple[Passed, ...]
     extra: Extra | None = None  # None if the law depends on the gap alone
-    origin: Origin | None = None  # only where derivatives are wanted
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,15 +127,13 @@ class Body:
     """Constant data of a run: the contact and the retardation modes of the solid.
 
     The traction law of the contact is that at rest. `growing` is the law itself if its tension
-    grows with the opening speed or with the time in contact, otherwise None. The states of a
-    `traced` body know their origin (:mod:`.tangent`).
+    grows with the opening speed or with the time in contact, otherwise None.
     """
 
     contact: Contact
     modes: Modes
     weights: npt.NDArray
     growing: Any = None
-    traced: bool = False
 
     @property
     def runs(self) -> bool:
@@ -220,8 +216,6 @@ class Body:
         memory = state.memory.advanced(s, state.relaxed, e, state.nodal, -faces.tension)
         time, depth = state.seen.time + s.length, balance.depth
         after = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds, state.trail)
-        if self.traced:
-            after = replace(after, origin=ByStep(state, s, faces))
         error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released, bent)
 
@@ -272,8 +266,6 @@ class Body:
         faces = balance.faces if bonds is None else surface.interface.at(self.law(bonds), gap)
         time = state.seen.time
         moved = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds)
-        if self.traced:
-            moved = replace(moved, origin=ByNodes(state))
         return replace(moved, trail=state.trail) if len(state.trail) > 1 else moved
 
     def law(self, bonds: Opening | Contacted | None) -> Any:

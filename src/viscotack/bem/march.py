@@ -25,7 +25,7 @@ from viscotack.bem.later import over
 from viscotack.bem.machine import Leg
 from viscotack.bem.memory import step
 from viscotack.bem.mesh import Grading, Mesh
-from viscotack.bem.place import Follower, Place, Run
+from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import opening
 from viscotack.bem.settings import Settings
 from viscotack.bem.span import separated
@@ -54,15 +54,13 @@ def march(
     profiles: bool = False,
     progress: Callable[[float], None] | None = None,
     watch: Callable[[Snapshot], None] | None = None,
-    follower: Follower | None = None,
 ) -> History:
     """Integrate a relaxed body through all legs and return the history.
 
     `until` is "pull-off" (stop after the largest tension of the last leg, see :mod:`.later`) or
     "detached" (stop when the surfaces have separated). `stiffness` is the spring stiffness of the
     machine [output force/h0]. The traction law of the contact is that at rest; `growing` is the law
-    itself if its tension grows with the opening speed or the time in contact, otherwise None. A
-    `follower` is carried along with the march (:mod:`.tangent`).
+    itself if its tension grows with the opening speed or the time in contact, otherwise None.
 
     The outcome is one of these words:
 
@@ -73,8 +71,8 @@ def march(
     - "unheld": no contact exists that can carry the dead load.
     """
     history = History(SMALLEST_ENERGY * contact.span, stiffness)
-    body = Body(contact, modes, np.asarray(modes.weights), growing, traced=follower is not None)
-    run = Run(body, settings, legs, profiles, history, follower)
+    body = Body(contact, modes, np.asarray(modes.weights), growing)
+    run = Run(body, settings, legs, profiles, history)
     return through(run, first_place(run, start, grading), until, progress, watch)
 
 
@@ -150,8 +148,6 @@ def _begun(run: Run, at: Place, number: int) -> Place:
     if leg.dead_load and leg.rate == 0 and not before.edge > 0:
         run.history.outcome = "unheld"  # unstable: attraction grows as the surfaces approach
         return begun
-    if run.follower is not None:
-        run.follower.begun(begun)
     turns = number > 0 and leg.outwards and not at.leg.outwards
     if turns and begun.seen.edge > 0:
         lattice = replace(begun.mesh, lattice=begun.seen.edge)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ulp
-from typing import Protocol
 
 from viscotack.bem.body import Body, State
 from viscotack.bem.books import Books, History, Lowest, Profile, Snapshot
@@ -69,18 +68,6 @@ class Place:
         return self.leg.hold(self.began, elapsed, self.state.surface.unit)
 
 
-class Follower(Protocol):
-    """What is carried along with a run, see :class:`viscotack.bem.tangent.Tangents`."""
-
-    def kept(self, at: Place) -> None:
-        """Follow the run to a recorded state."""
-        ...
-
-    def begun(self, at: Place) -> None:
-        """Follow the run to the beginning of a leg."""
-        ...
-
-
 @dataclass(frozen=True, eq=False)
 class Run:
     """Constant data of a run: body, settings and legs; and the history under construction."""
@@ -90,7 +77,6 @@ class Run:
     legs: tuple[Leg, ...]
     profiles: bool
     history: History
-    follower: Follower | None = None
 
     def keep(self, at: Place) -> None:
         """Append the present state to the history."""
@@ -102,5 +88,3 @@ class Run:
         if self.profiles:
             pressure = state.nodal / state.surface.area
             history.profiles.append(Profile(state.surface.position, pressure, state.gap))
-        if self.follower is not None:
-            self.follower.kept(at)

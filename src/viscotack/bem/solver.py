@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
 from typing import Any
@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from viscotack.bem.ageing import finer
-from viscotack.bem.body import Body
 from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.contacts.contact import Contact, Relaxed
@@ -27,20 +26,16 @@ from viscotack.bem.march import march
 from viscotack.bem.mesh import Grading
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
-from viscotack.bem.tangent import Direction, Tangents, mode_slopes, null_direction
 from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.clock import TimeUp, met
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, Disc, FlatPunch, HalfSpace, PowerLawProfile, Sphere, detail
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups
-from viscotack.problem.changed import Changed, changed
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import peaks
-from viscotack.result.sensitivities import Slopes, with_errors
-from viscotack.result.sensitivities import sensitivities as slopes_of
 from viscotack.traction import effective_range, has_rest
 
 # Called with the completed fraction of the work, 0 to 1.
@@ -78,7 +73,6 @@ def simulate(
     throw: bool,
     progress: Progress,
     watch: Watch,
-    sensitivities: bool | Iterable[str] = False,
 ) -> Result:
     """Simulate a problem, also given by its dimensionless groups, for any range of adhesion.
 
@@ -89,21 +83,18 @@ def simulate(
     share = _MAIN if estimate_error else 1.0
     contact = contact_of(groups)
     check_bounds(problem, groups, contact)
-    changes = _changes(problem, groups, sensitivities)
-    coarse: list[Result] = []
 
     def light(marched: Groups, seen: Progress = None, *, whole: bool = False) -> Result:
         # after moves the force may have a minimum before pull-off: end both runs at the same event
         end = until if groups.moves else "detached" if whole else "pull-off"
         coarser = settings.coarser(COARSER)
-        coarse.append(_run(problem, marched, coarser, end, False, seen, changes=changes))
-        return coarse[-1]
+        return _run(problem, marched, coarser, end, False, seen)
 
     try:
         beginning = None if whole else _beginning(groups, contact, settings, light)
         marched = groups if beginning is None else _from(groups, beginning.start.depth)
-        own = _part(progress, 0.0, share)
-        result = _run(problem, marched, settings, until, fields, own, watch, changes=changes)
+        own = part_of(progress, 0.0, share)
+        result = _run(problem, marched, settings, until, fields, own, watch)
     except TimeUp as limit:
         raise InputError(
             f"{limit} before the relaxed start was found; give more time, or ask for less accuracy"
@@ -111,7 +102,7 @@ def simulate(
     if estimate_error and result.outcome is not Outcome.STOPPED:
         result = estimated(
             result,
-            lambda: light(groups, _part(progress, share, 1.0), whole=len(peaks(result)) > 1),
+            lambda: light(groups, part_of(progress, share, 1.0), whole=len(peaks(result)) > 1),
             beginning,
             contact.travel,
             settings.accuracy,
@@ -119,9 +110,6 @@ def simulate(
         if result.error_estimate is None and (limit := met()):
             status = out_of_time(limit, "while the error was estimated")
             result = replace(result, status=status)
-    if result.sensitivities and result.error_estimate and coarse[-1].sensitivities:
-        found = with_errors(result.sensitivities, coarse[-1].sensitivities)
-        result = replace(result, sensitivities=found)
     result = replace(
         result,
         shallow_start=None if beginning is None else beginning.start,
@@ -133,7 +121,7 @@ def simulate(
     return result
 
 
-def _part(progress: Progress, begin: float, end: float) -> Progress:
+def part_of(progress: Progress, begin: float, end: float) -> Progress:
     """Return a callback for the progress of one part of the work; reported values never fall."""
     if progress is None:
         return None
@@ -156,8 +144,6 @@ def _run(
     fields: bool,
     progress: Progress,
     watch: Watch = None,
-    *,
-    changes: Sequence[Changed] = (),
 ) -> Result:
     contact = contact_of(groups)
     start, legs = begun(groups, contact, settings)
@@ -167,14 +153,7 @@ def _run(
     spring = spring_travel(start, depths, groups.moves, groups.stiffness, k, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact, spring)
     modes = modes_of_run(groups.material, legs, longest, settings)
-    window = _FASTEST * min(leg.least_step for leg in legs), longest
-    directions, missing = _directions(changes, groups, modes, window, settings)
     grading, growing = discretised(groups, contact, modes, longest, max(depths), settings)
-    tangents = None
-    if directions:
-        body = Body(contact, modes, np.asarray(modes.weights), growing)
-        null = null_direction(contact, legs, groups.start, modes)
-        tangents = Tangents(body, [*directions.values(), null])
 
     def seen(step: Snapshot) -> None:
         if watch is not None:
@@ -193,64 +172,9 @@ def _run(
         profiles=fields,
         progress=progress,
         watch=None if watch is None else seen,
-        follower=tangents,
     )
     result = _result(problem, groups, contact, history, modes, fields)
-    result = replace(result, accuracy=settings.accuracy).posed(groups)
-    if tangents is None or result.outcome is Outcome.STOPPED:
-        return result
-    rows = np.array(tangents.rows)
-    rows[:, 3] /= contact.edge_unit
-    slopes = Slopes(list(directions), rows, tangents.reason, missing)
-    return replace(result, sensitivities=slopes_of(result, slopes)).posed(groups)
-
-
-def _changes(problem: Case, groups: Groups, sensitivities: bool | Iterable[str]) -> list[Changed]:
-    """Return the problem with each wanted input changed by a little, or refuse."""
-    if sensitivities is False:
-        return []
-    if has_rest(groups.traction):
-        raise InputError(
-            "there are no derivatives for an interface that grows or ages: its bonds are not "
-            f"differentiated: {groups.traction}; take a law that depends on the gap alone"
-        )
-    if groups.in_plane_strain:
-        raise InputError(
-            "there are no derivatives for a flat punch: its nodes move with its ends, which are "
-            "inputs"
-        )
-    return changed(problem, None if sensitivities is True else sensitivities)
-
-
-def _directions(
-    changes: Sequence[Changed],
-    groups: Groups,
-    modes: Modes,
-    window: tuple[float, float],
-    settings: Settings,
-) -> tuple[dict[Changed, Direction], dict[str, str]]:
-    """Return the change of a march by each input, and the inputs without a derivative."""
-    found, missing = {}, {}
-    replaced = bool(changes) and groups.start != changes[0].base.start
-    for change in changes:
-        pair = change.groups
-        if replaced:  # by a shallower start, whose depth has no influence
-            pair = replace(pair[0], start=groups.start), replace(pair[1], start=groups.start)
-        step = float(np.log1p(change.up) - np.log1p(change.down))
-        low, high = (contact_of(each) for each in pair)
-        legs = [
-            legs_of(each.moves, each.rate, each.stiffness, contact, settings)
-            for each, contact in zip(pair, (low, high), strict=True)
-        ]
-        solids = (pair[0].material, pair[1].material)
-        try:
-            creep = mode_slopes(modes, solids, step, window)
-        except ArithmeticError as reason:
-            missing[change.name] = str(reason)
-            continue
-        starts = (pair[0].start, pair[1].start)
-        found[change] = Direction(step, (low, high), (legs[0], legs[1]), starts, *creep)
-    return found, missing
+    return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
 def relaxed_start(groups: Groups, contact: Contact, settings: Settings) -> Relaxed:

@@ -32,7 +32,6 @@ from viscotack.bem.frame import (
 from viscotack.bem.machine import Leg
 from viscotack.bem.memory import Memory, step
 from viscotack.bem.mesh import Mesh
-from viscotack.bem.origin import ByNodes, ByTravel
 from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import around_edge, lost, opening
 from viscotack.bem.span import least_gap, room
@@ -288,12 +287,6 @@ def _after(
     after = run.body.state(
         time, found.depth, edge, surface, found.faces, e, memory, rates, None, at.state.trail
     )
-    if run.body.traced:
-        # an elastic solid has no memory of the way
-        moves = along(x, way.begin + way.travel)
-        origin = ByTravel(at.state, dt, way, passage, moves, nodes.modes)
-        elastic_one = ByNodes(at.state)
-        after = replace(after, origin=origin if run.body.weights.size else elastic_one)
     return after, bend
 
 

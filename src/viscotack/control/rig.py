@@ -8,8 +8,8 @@ from math import inf
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.bem.live import LiveContact
 from viscotack.bem.settings import Settings
+from viscotack.bem.stepwise import SteppedSimulation
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
 from viscotack.problem import Problem, Scales
@@ -106,33 +106,33 @@ def let_go(
             posed = posed_contact(problem, settings)
             first = settings.first_travel * posed.contact.travel * unit.length / fastest
             least = min(first, release.period)
-            contact = LiveContact(
+            simulation = SteppedSimulation(
                 part_of(posed, settings, least, longest),
                 release.stiffness * unit.length / unit.force,
                 least_step=least / unit.time,
                 settings=settings,
             )
-            rows = _driven(contact, release, unit, longest)
+            rows = _driven(simulation, release, unit, longest)
         except TimeUp as limit:
             raise InputError(f"{limit} before the contact detached; give more time") from None
     time, drives, depth, forces, moved = np.array(rows).T
     return Released(
-        time, drives, depth, forces, moved, contact.tension * unit.force, release.wanted
+        time, drives, depth, forces, moved, simulation.tension * unit.force, release.wanted
     )
 
 
 def _driven(
-    contact: LiveContact, release: Release, unit: Scales, longest: float
+    simulation: SteppedSimulation, release: Release, unit: Scales, longest: float
 ) -> list[tuple[float, ...]]:
     """Return time, drive, depth, force and speed of the drive at every tick until it detached."""
-    rows, now = [], contact.now
+    rows, now = [], simulation.now
     drive = now.depth * unit.length + now.force * unit.force / release.stiffness
     for tick in range(int(longest / release.period) + 1):
-        depth, force = contact.now.depth * unit.length, contact.now.force * unit.force
+        depth, force = simulation.now.depth * unit.length, simulation.now.force * unit.force
         moves = release.drive_speed(drive, force)
         rows.append((tick * release.period, drive, depth, force, moves))
-        contact.move(moves * unit.time / unit.length, release.period / unit.time)
+        simulation.move(moves * unit.time / unit.length, release.period / unit.time)
         drive += moves * release.period
-        if contact.apart or (release.past and -force < _GONE * release.tension):
+        if simulation.apart or (release.past and -force < _GONE * release.tension):
             return rows
     raise InputError(f"the contact did not detach within {longest:.3g} s")

@@ -73,9 +73,10 @@ def held_load(problem: Problem, time: float) -> float:
             start.force / (R * w), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
         )
     )
-    # tensions in R dg, radii in beta
-    load = 1.5 * pi * np.geomspace(1 + _EXCESS, _MOST * crack.largest, _LOADS)
+    # tensions in R dg, radii in beta; above the strongest radius the edge runs at once
     a = first * np.geomspace(1.0, _LAST, _RADII)
+    strongest = np.max(np.sqrt(8 * pi * _MOST * crack.largest * a**3) - 4 / 3 * a**3)
+    load = np.geomspace(1.5 * pi * (1 + _EXCESS), strongest, _LOADS)
     energy = (4 / 3 * a**3 + load[:, None]) ** 2 / (8 * pi * a**3)
     least = energy.min(axis=1)
     if not mu * least[0] ** (-1 / 3) >= LEAST_TABOR:

@@ -1,7 +1,12 @@
-"""Files are read within a limit of size, and only those that end: no devices, no pipes."""
+"""Files are read within a limit of size, and only those that end: no devices, no pipes.
+
+Every file that is opened here is noted, so that a command does not write over what it has read.
+"""
 
 import os
 import stat
+from contextlib import suppress
+from pathlib import Path
 from typing import IO
 
 from viscotack.errors import InputError
@@ -16,6 +21,8 @@ LONGEST_LINE = 1_000_000
 # less.
 _UNPACKED, _UNPACKED_PER_BYTE = 50e6, 50.0
 _AT_ONCE = 1 << 20
+# Device and number of the files and folders that the command has read.
+_READ: set[tuple[int, int]] = set()
 
 
 def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
@@ -27,7 +34,31 @@ def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
             f"{os.fspath(path)} is no regular file: it is a device, a pipe or a socket; save what "
             "it gives in a file"
         )
+    note_read(path)
     return open(path, "rb")
+
+
+def note_read(path: str | os.PathLike[str]) -> None:
+    """Note a file or folder as an input, for `was_read`."""
+    with suppress(OSError, ValueError):  # it is not there, which its reader reports
+        found = os.stat(path)
+        _READ.add((found.st_dev, found.st_ino))
+
+
+def was_read(path: str | os.PathLike[str]) -> bool:
+    """Whether a file, by whatever name or link, was read or lies in a folder that was."""
+    place = Path(os.path.realpath(path))
+    for each in (place, *place.parents):
+        with suppress(OSError):
+            found = os.stat(each)
+            if (found.st_dev, found.st_ino) in _READ:
+                return True
+    return False
+
+
+def forget_reads() -> None:
+    """Forget what was read, when a command begins."""
+    _READ.clear()
 
 
 def read_bytes(path: str | os.PathLike[str], most: int) -> bytes:

@@ -1,8 +1,8 @@
 """Atomic writing of files: complete or not at all.
 
-If the target is a regular file or does not exist, a finished draft replaces it; for a symbolic link
-the draft replaces the file that the link points to. A terminal, a null device, a pipe, or a file to
-which standard output or standard error is redirected is written to directly.
+If the target is a regular file or does not exist, a finished draft replaces it; a symbolic link to
+a file is refused. A terminal, a null device, a pipe, or a file to which standard output or standard
+error is redirected is written to directly.
 """
 
 import errno
@@ -76,8 +76,7 @@ def writing_whole(target: Target) -> Iterator[IO[bytes]]:
             with open(handle, "wb", closefd=False) as file:
                 yield file
         elif found is None or stat.S_ISREG(found.st_mode):
-            place = Path(os.path.realpath(path))
-            with _draft(place, None if found is None else found.st_mode, os.replace) as file:
+            with _draft(path, None if found is None else found.st_mode, os.replace) as file:
                 yield file
         else:
             with open(path, "wb") as file:
@@ -125,7 +124,7 @@ def check_target(target: str | os.PathLike[str]) -> None:
     try:
         found = _found(path)
         if _own_stream(found) is None and (found is None or stat.S_ISREG(found.st_mode)):
-            draft = _draft_beside(Path(os.path.realpath(path)))
+            draft = _draft_beside(path)
             try:
                 draft.touch(exist_ok=False)
             finally:
@@ -164,14 +163,15 @@ def same_file(one: str | os.PathLike[str], other: str | os.PathLike[str]) -> boo
 
 def _found(path: Path) -> os.stat_result | None:
     """Return the status of an existing target, None if missing; NotWritten if not writable."""
-    try:
-        found = os.stat(path)
-    except FileNotFoundError:
-        folder = Path(os.path.realpath(path)).parent
-        if not folder.is_dir():
-            shown = folder if path.is_symlink() else path.parent
-            words = f"cannot write {path}: folder {shown} does not exist"
-            raise NotWritten(errno.ENOENT, words) from None
+    found = os.stat(path) if path.exists() else None
+    is_file = found is None or stat.S_ISREG(found.st_mode)
+    if path.is_symlink() and is_file and _own_stream(found) is None:
+        words = f"cannot write {path}: it is a link to {os.path.realpath(path)}; give that name"
+        raise NotWritten(errno.ELOOP, words)
+    if found is None:
+        if not path.parent.is_dir():
+            words = f"cannot write {path}: folder {path.parent} does not exist"
+            raise NotWritten(errno.ENOENT, words)
         return None
     if stat.S_ISDIR(found.st_mode):
         words = f"cannot write {path}: it is a folder; give a file name"
@@ -246,8 +246,7 @@ def _not_written(path: Path, error: OSError) -> NotWritten:
     if error.errno in _FULL:
         words = f"no space left for {path} ({why}); the old file is intact: free space and repeat"
     elif error.errno in _CLOSED:
-        folder = Path(os.path.realpath(path)).parent if path.is_symlink() else path.parent
-        words = f"cannot write {path}: cannot create a file in the folder {folder} ({why})"
+        words = f"cannot write {path}: cannot create a file in the folder {path.parent} ({why})"
     else:
         words = f"cannot write {path}: {why}"
     return NotWritten(error.errno, words)

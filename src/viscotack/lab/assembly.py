@@ -12,25 +12,27 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .columns import Columns
-from .diagnosis import cause, has_sweep
+from .diagnosis import cause, form_of, has_sweep
 from .grouping import GAP, grouped
 from .joining import numbered_on
 from .lab_file import LabFile
 from .options import Options
 from .sweeps import FrequencySweeps, Source
-from .tables import Table
+from .tables import Table, refuse_pooled
 from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
 _ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
 _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is wrong
 _FLAG = re.compile(r"(--[a-z-]+) ([\w/]+)")  # an option and its first value
-_TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
+# Relative differences of tan(delta) and |E*| from the moduli, in addition to rounding: a larger one
+# is noted, because instruments average over cycles, and refused.
+_TOLERANCE, _DAMAGED = 0.02, 0.1
 
 
 def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
-    parts, states, notes = [], [], list(file.notes)
+    parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
         columns = Columns(file, table, given)
         if not table.rows or not has_sweep(columns):
@@ -42,11 +44,14 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
             notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
             continue
         parts.append(part)
+        read.append(columns)
         notes += columns.notes
     if states and not parts:
         raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
         raise no_such_test(file, tables, given, "dma")
+    used = [columns.columns_in_use for columns in read]
+    refuse_pooled(file, [columns.table for columns in read], used, [c.states for c in read])
     if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
     source = source_of(file, format, notes)
@@ -78,17 +83,22 @@ def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
 
 def _part(columns: Columns, given: Options) -> FrequencySweeps:
     """Return the sweeps of one table."""
-    parts = ("storage", "loss") if "storage" in columns else ("magnitude",)
-    by_angle = "loss" not in columns or "storage" not in columns
-    angle = ("phase",) if by_angle and "tan_delta" not in columns else ()
+    form = form_of(columns)
+    assert form is not None, "checked by the caller"
+    if "viscosity" in form[0] and columns.kind(*form) is None and given.kind is None:
+        given = replace(given, kind="G")
+        columns.notes.append(f'"{columns.name(form[0])}" is taken as a viscosity in shear')
     frequency = () if "angular_frequency" in columns else ("frequency",)
-    refuse_what_is_lacking(columns, given, parts, "temperature", *frequency, *parts, *angle)
-    kind = kind_of(columns, given, *parts)
+    refuse_what_is_lacking(columns, given, form, "temperature", *frequency, *form)
+    kind = kind_of(columns, given, *form)
+    omega = columns.angular_frequency()
     values: dict[str, Any] = {
         "temperature": temperatures(columns, given),
-        "angular_frequency": columns.angular_frequency(),
+        "angular_frequency": omega,
     }
-    values["storage"], values["loss"] = _moduli(columns)
+    values["storage"], values["loss"] = _moduli(columns, form, omega)
+    kelvins = np.nan_to_num(np.round(values["temperature"]))
+    columns.states = list(zip(kelvins, np.round(100 * np.log(omega)), strict=True))
     if "sweep" in columns:
         values["sweep"] = columns.numbers("sweep")
     refuse_stiffer_than_diamond(columns, values["storage"])
@@ -111,19 +121,27 @@ def _part(columns: Columns, given: Options) -> FrequencySweeps:
     return FrequencySweeps(**values, kind=kind)
 
 
-def _moduli(columns: Columns) -> tuple[Array, Array]:
-    """Return storage and loss modulus [Pa], from any two columns that determine them."""
-    if "storage" not in columns:
-        size, angle = columns.si("magnitude"), np.arctan(_tangent(columns))
-        columns.notes.append(f'moduli from "{columns.name("magnitude")}" and the loss angle')
-        return size * np.cos(angle), size * np.sin(angle)
-    storage = columns.si("storage")
-    if "loss" not in columns:
-        columns.notes.append("loss modulus from tan(delta)")
-        return storage, storage * _tangent(columns)
-    loss = columns.si("loss")
-    _agree(columns, storage, loss)
-    return storage, loss
+def _moduli(columns: Columns, form: tuple[str, str], omega: Array) -> tuple[Array, Array]:
+    """Return storage and loss modulus [Pa], from two columns that determine them."""
+    one, other = form
+    if form == ("storage", "loss"):
+        storage, loss = columns.si(one), columns.si(other)
+        _agree(columns, storage, loss)
+        return storage, loss
+    columns.notes.append(f'moduli from "{columns.name(one)}" and "{columns.name(other)}"')
+    size = columns.si(one)
+    if one == "storage":
+        return size, size * _tangent(columns)
+    if one == "dynamic_viscosity":  # eta' = G''/omega, eta'' = G'/omega
+        return columns.si(other) * omega, size * omega
+    if one == "storage_compliance":
+        loss = columns.si(other)
+        square = size**2 + loss**2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return size / square, loss / square
+    angle = np.arctan(_tangent(columns))
+    size = size * omega if one == "complex_viscosity" else size
+    return size * np.cos(angle), size * np.sin(angle)
 
 
 def _tangent(columns: Columns) -> Array:
@@ -146,6 +164,7 @@ def refuse_what_is_lacking(
 ) -> None:
     """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
+    columns.refuse_contradiction(*quantities)
     if columns.kind(*moduli) is None and given.kind is None:
         lacking.append(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
@@ -222,12 +241,20 @@ def _agree(columns: Columns, storage: Array, loss: Array) -> None:
 
 def _same(columns: Columns, name: str, factor: float, expected: Array, slack: Array) -> None:
     found = factor * columns.numbers(name, needed=False)
-    slack = slack + factor * columns.resolution(name) + _TOLERANCE * np.abs(expected)
-    for row in np.flatnonzero(np.abs(found - expected) > slack):
+    slack = slack + factor * columns.resolution(name)
+    off = np.abs(found - expected)
+    for row in np.flatnonzero(off > slack + _DAMAGED * np.abs(expected)):
         raise columns.error(
             f'"{columns.name(name)}" is {found[row]:g}, but storage and loss modulus give '
             f"{expected[row]:g}; a number is damaged or a unit is wrong",
             int(row),
+        )
+    rows = np.flatnonzero(off > slack + _TOLERANCE * np.abs(expected))
+    if rows.size:
+        worst = float(np.max(off[rows] / np.abs(expected[rows])))
+        columns.notes.append(
+            f'"{columns.name(name)}" differs by up to {100 * worst:.2g} % from that of storage and '
+            "loss modulus, as where an instrument averages it over cycles; it is not used"
         )
 
 

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -13,18 +13,29 @@ from viscotack.errors import InputError
 
 from .arrays import KINDS
 from .lab_file import LabFile
-from .numbers import decimal_mark, half_digit, number, plain_numbers
+from .numbers import (
+    CLOCK,
+    decimal_mark,
+    half_digit,
+    number,
+    plain_numbers,
+    seconds,
+    without_fillers,
+)
 from .options import Options
 from .quantities import (
     POSSIBLE,
     Heading,
     bare,
     in_kelvin,
+    is_clock_unit,
     kelvin,
     kind_of_geometry,
+    nearness_to_sample,
     no_unit,
     radians_per_second,
     recognise,
+    same_unit,
     scale,
     unit_within,
 )
@@ -41,8 +52,12 @@ _UNITS = {
     "compliance": "1/Pa",
     "time": "s",
     "step_time": "s",
+    "dynamic_viscosity": "Pa*s",
+    "elastic_viscosity": "Pa*s",
+    "complex_viscosity": "Pa*s",
+    "storage_compliance": "1/Pa",
+    "loss_compliance": "1/Pa",
 }
-
 
 # the option that sets the unit of a column without one
 _FLAGS = {
@@ -51,6 +66,8 @@ _FLAGS = {
     "s": "--time-unit s or min",
 }
 _IN_FILE = "written in the heading or below it"
+SAME_TEMPERATURE = 0.5  # K: largest difference of two columns of one temperature
+_LARGEST_POWER = 100.0  # of a logarithm
 _HELD = 0.05  # relative to the level of a step; instruments hold it better than this
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
 
@@ -73,7 +90,7 @@ class Columns:
         self.notes: list[str] = list(table.notes)
         self._found = {name: [at] for name, at in self._chosen_by_caller().items()}
         for index, text in enumerate(table.headings):
-            heading = recognise(text)
+            heading = recognise(text, table.units[index])
             if heading is None or heading.quantity in options.chosen:
                 continue
             # instruments head columns of waves and temperatures that they did not measure
@@ -83,6 +100,8 @@ class Columns:
                 continue
             self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
+        # of each row: what was measured, such as temperature and frequency; set by the reader
+        self.states: Sequence[tuple[float, ...]] = ()
         self._chosen: dict[str, tuple[int, Heading]] = {}
         used = [index for columns in self._found.values() for index, _ in columns]
         self._cells = Cells(file, table, options.decimal, used, self.notes)
@@ -102,12 +121,12 @@ class Columns:
             taken = [other for other, (at, _) in found.items() if at == index]
             if taken:
                 raise self.error(f'--columns has "{text}" as {taken[0]} and as {quantity}')
-            heading = recognise(text)
+            heading = recognise(text, self.table.units[index])
             own = (heading and heading.unit) or self.table.units[index] or unit_within(text)
-            if unit and own and bare(own) != unit:
+            if unit and own and not same_unit(own, unit):
                 raise self.error(f'the file states {own} for "{text}", but --columns {unit}')
-            kind = heading.kind if heading else None
-            found[quantity] = index, Heading(quantity, kind, own or unit)
+            kind, base = (heading.kind, heading.base) if heading else (None, None)
+            found[quantity] = index, Heading(quantity, kind, own or unit, base)
         return found
 
     @property
@@ -155,16 +174,35 @@ class Columns:
 
     def numbers(self, quantity: str, *, needed: bool = True) -> Array:
         """Return a column in the unit of the file; rows without a needed number are rejected."""
-        index, _ = self._column(quantity)
+        index, heading = self._column(quantity)
         values = self._cells.numbers(index)
+        if heading.base is not None:
+            self.notes.append(f'"{self.name(quantity)}": the logarithm is undone')
+            for row in np.flatnonzero(np.abs(values) > _LARGEST_POWER):
+                raise self.error(
+                    f'{values[row]:g} in "{self.name(quantity)}" is no logarithm', int(row)
+                )
+            values = heading.base**values
         if needed:
             self.keep &= ~np.isnan(values)
         return values
 
     def resolution(self, quantity: str) -> Array:
         """Return half a unit of the last digit written, in the unit of the file."""
-        index, _ = self._column(quantity)
-        return np.array([half_digit(cells[index]) for _, cells in self.table.rows])
+        index, heading = self._column(quantity)
+        digits = np.array([half_digit(cells[index]) for _, cells in self.table.rows])
+        if heading.base is None:
+            return digits
+        return digits * math.log(heading.base) * self.numbers(quantity, needed=False)
+
+    @property
+    def columns_in_use(self) -> set[int]:
+        """Indices of the columns with a meaning."""
+        return {index for columns in self._found.values() for index, _ in columns}
+
+    def is_clock(self, quantity: str) -> bool:
+        """Return whether a column has times such as 00:01:30."""
+        return self._cells.is_clock(self._column(quantity)[0])
 
     def has_unit(self, quantity: str) -> bool:
         """Return whether the file states the unit of a column."""
@@ -239,7 +277,9 @@ class Columns:
             factor, offset = kelvin(self._temperature_unit())
         except ValueError as error:
             raise self._located("temperature", error) from None
-        kelvins = self.numbers("temperature") * factor + offset
+        # where every row has a gap, the temperature is unknown, and no row is lost
+        known = not np.all(np.isnan(self.numbers("temperature", needed=False)))
+        kelvins = self.numbers("temperature", needed=known) * factor + offset
         for row in np.flatnonzero((kelvins <= POSSIBLE[0]) | (kelvins >= POSSIBLE[1])):
             raise self.error(
                 f"a temperature of {kelvins[row]:g} K is impossible; check its unit",
@@ -256,11 +296,25 @@ class Columns:
         found = {name: self._angular(name) for name in names}
         if len(found) == 2:
             both = found["angular_frequency"], found["frequency"]
-            for row in np.flatnonzero(np.abs(both[0] - both[1]) > 0.01 * np.abs(both[0])):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                # half a digit of each, in rad/s
+                digits = [
+                    self.resolution(name) * np.abs(found[name] / self.numbers(name))
+                    for name in names
+                ]
+            apart = np.abs(both[0] - both[1])
+            for row in np.flatnonzero(apart > 0.01 * np.abs(both[0]) + digits[0] + digits[1]):
                 raise self.error(
                     f'"{self.name("angular_frequency")}" is {both[0][row]:g} rad/s but '
                     f'"{self.name("frequency")}" gives {both[1][row]:g} rad/s',
                     int(row),
+                )
+            if np.any(apart > 0.01 * np.abs(both[0])):
+                coarse = int(np.nanmedian(digits[0]) < np.nanmedian(digits[1]))
+                found.pop(names[coarse])
+                self.notes.append(
+                    f'"{self.name(names[1 - coarse])}" is used; it agrees with '
+                    f'"{self.name(names[coarse])}" within the digits written'
                 )
         omega = next(iter(found.values()))
         for row in np.flatnonzero(omega <= 0):
@@ -319,12 +373,41 @@ class Columns:
 
     def _column(self, quantity: str) -> tuple[int, Heading]:
         """Return the column of a quantity; if several columns agree, the first one."""
+        if quantity == "temperature" and quantity not in self._chosen:
+            self._chosen[quantity] = self._of_sample()
         if quantity not in self._chosen:
             first, *others = self._found[quantity]
             for other in others:
                 self._refuse_other(quantity, first, other)
             self._chosen[quantity] = first
         return self._chosen[quantity]
+
+    def _of_sample(self) -> tuple[int, Heading]:
+        """Return the column of the temperature of the sample; ask where several may be it."""
+        names, places = self.table.headings, self._found["temperature"]
+        best = max(nearness_to_sample(names[index]) for index, _ in places)
+        first, *others = sorted(places, key=lambda at: nearness_to_sample(names[at[0]]) != best)
+        for other in others:
+            apart = np.abs(self._kelvins(first) - self._kelvins(other))
+            if not np.any(apart > SAME_TEMPERATURE):
+                self.notes.append(f'two equal columns; "{names[first[0]]}" is used')
+            elif nearness_to_sample(names[other[0]]) == best:
+                raise self._two_columns("temperature", first, other)
+            else:
+                self.notes.append(
+                    f'"{names[first[0]]}" is the temperature; "{names[other[0]]}" differs by up '
+                    f"to {np.nanmax(apart):.3g} K and is not used"
+                )
+        return first
+
+    def _kelvins(self, column: tuple[int, Heading]) -> Array:
+        """Return the temperatures of a column [K]; nan where its unit is unknown."""
+        index, heading = column
+        unit = heading.unit or self.table.units[index] or self.options.temperature_unit or ""
+        if no_unit(unit):
+            return np.full(len(self.table.rows), math.nan)
+        factor, offset = kelvin(unit)
+        return self._cells.numbers(index) * factor + offset
 
     def _refuse_other(
         self, quantity: str, first: tuple[int, Heading], other: tuple[int, Heading]
@@ -334,18 +417,52 @@ class Columns:
         units = {bare(heading.unit or self.table.units[index]) for index, heading in (first, other)}
         if len(kinds) < 2 and len(units) == 1:
             values = [self._cells.numbers(index) for index, _ in (first, other)]
-            # temperatures in degrees Celsius: a relative difference has no meaning
-            slack = 0.5 if quantity == "temperature" else 0.01 * np.abs(values[0])
+            slack = 0.01 * np.abs(values[0])
             if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
                 return
-        chosen = f'--columns "{quantity}={first[0] + 1}"'
-        cure = "set --kind E or --kind G" if len(kinds) > 1 else self.file.command(chosen)
-        raise self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {cure}')
+        if len(kinds) > 1:
+            raise self.error(
+                f'two columns of one quantity: "{names[0]}" and "{names[1]}"; set --kind E or '
+                "--kind G"
+            )
+        raise self._two_columns(quantity, first, other)
+
+    def _two_columns(
+        self, quantity: str, first: tuple[int, Heading], other: tuple[int, Heading]
+    ) -> InputError:
+        names = [self.table.headings[index] for index, _ in (first, other)]
+        chosen = self.file.command(f'--columns "{quantity}={first[0] + 1}"')
+        return self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {chosen}')
 
     def _unit(self, quantity: str) -> str:
         index, heading = self._column(quantity)
+        if self._cells.is_clock(index):
+            return "s"
         return heading.unit or self.table.units[index]
+
+    def refuse_contradiction(self, *quantities: str) -> None:
+        """Refuse a unit of the caller that no column needs and that the file contradicts."""
+        options = self.options
+        for said, flag, targets in (
+            (options.modulus_unit, "--modulus-unit", ("Pa",)),
+            (options.time_unit, "--time-unit", ("s",)),
+            (options.temperature_unit, "--temperature-unit", ("K",)),
+        ):
+            targeted = [
+                name
+                for name in quantities
+                if name in self
+                and _UNITS.get(name, "K" if name == "temperature" else "1") in targets
+            ]
+            if said is None or any(no_unit(self._unit(name)) for name in targeted):
+                continue
+            for name in targeted:
+                if not same_unit(self._unit(name), said):
+                    raise self.error(
+                        f'the file states {bare(self._unit(name))} for "{self.name(name)}", but '
+                        f"{flag} is {said}"
+                    )
 
     def _located(self, quantity: str, error: ValueError) -> ValueError:
         text = str(error)
@@ -382,16 +499,31 @@ class Cells:
 
     def numbers(self, index: int) -> Array:
         """Return a column in the unit of the file; nan for gaps."""
+        values, filled = without_fillers(self._numbers(index))
+        if filled:
+            name = self._table.headings[index]
+            self._notes.append(f'"{name}": {filled} numbers such as -9999 are gaps')
+        return values
+
+    def is_clock(self, index: int) -> bool:
+        """Return whether a column has clock times: hh:mm:ss, or mm:ss where its unit says so."""
+        cells = (cells[index].strip() for _, cells in self._table.rows)
+        first = next(filter(None, cells), "")
+        unit = unit_within(self._table.headings[index]) or self._table.units[index]
+        return bool(CLOCK.fullmatch(first)) or (":" in first and is_clock_unit(unit))
+
+    def _numbers(self, index: int) -> Array:
         rows = self._table.rows
         cells = [cells[index] for _, cells in rows]
         values = plain_numbers(cells)
         if values is not None and self._said != ",":
             return values
-        mark = self._mark()
+        clock = self.is_clock(index)
+        mark = "" if clock else self._mark()
         values = np.empty(len(cells))
         for row, text in enumerate(cells):
             try:
-                values[row] = number(text, mark)
+                values[row] = seconds(text) if clock else number(text, mark)
             except ValueError as error:
                 name = self._table.headings[index]
                 raise self._file.error(f'column "{name}": {error}', rows[row][0]) from None

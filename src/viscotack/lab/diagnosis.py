@@ -13,6 +13,15 @@ from .columns import Columns
 from .grouping import GAP
 
 _SWEPT = 0.05  # relative range of a frequency or a temperature that is swept
+# Pairs of columns that determine the complex modulus, the most direct ones first.
+_FORMS = (
+    ("storage", "loss"),
+    *((size, angle) for size in ("storage", "magnitude") for angle in ("tan_delta", "phase")),
+    ("dynamic_viscosity", "elastic_viscosity"),
+    ("storage_compliance", "loss_compliance"),
+    ("complex_viscosity", "tan_delta"),
+    ("complex_viscosity", "phase"),
+)
 TESTS = ("dma", "relaxation", "creep", "shifts")
 
 
@@ -96,12 +105,13 @@ def _sweeps(columns: Columns) -> bool:
 
 def has_sweep(columns: Columns) -> bool:
     """Return whether the columns hold a frequency and two numbers that give a complex modulus."""
-    if not ("frequency" in columns or "angular_frequency" in columns):
-        return False
-    angle = "phase" in columns or "tan_delta" in columns
-    return ("storage" in columns and ("loss" in columns or angle)) or (
-        "magnitude" in columns and angle
-    )
+    swept = "frequency" in columns or "angular_frequency" in columns
+    return swept and form_of(columns) is not None
+
+
+def form_of(columns: Columns) -> tuple[str, str] | None:
+    """Return the two columns from which a complex modulus follows, or None."""
+    return next((form for form in _FORMS if all(name in columns for name in form)), None)
 
 
 def cause(tables: Sequence[Columns], wanted: str, kind: str | None) -> str:

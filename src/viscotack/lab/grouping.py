@@ -1,12 +1,21 @@
-"""Assign points to frequency sweeps where a file does not number the sweeps."""
+"""Assign points to frequency sweeps, and refuse to pool sweeps that contradict each other."""
+
+from itertools import combinations
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
+from viscotack.errors import InputError
+
+from .sweeps import FrequencySweeps
 
 # K least difference between two sweeps; chambers hold the temperature within a few tenths
 GAP = 1.0
+# K: sweeps closer than this must agree; a ramp may pass through neighbouring temperatures
+_ONE_TEMPERATURE = 0.3
+_UNLIKE = 0.1  # relative difference of sweeps of one state that is refused, if beyond their scatter
+_COMPARED = 3  # points that sweeps need to be compared
 
 
 def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[np.int64], str]:
@@ -84,3 +93,51 @@ def _runs(angular_frequency: Array) -> npt.NDArray[np.int64]:
         elif step:
             direction = step
     return numbers
+
+
+def refuse_unlike(sweeps: FrequencySweeps) -> None:
+    """Raise an error if sweeps at one temperature differ by more than their scatter.
+
+    They are then of several samples, positions or states, which are no one material.
+    """
+    parts = _passes(sweeps)
+    for (T, x, y), (other, u, v) in combinations(parts, 2):
+        if abs(T - other) > _ONE_TEMPERATURE or np.isnan(T) != np.isnan(other):
+            continue
+        inside = (x >= u[0] - 1e-9) & (x <= u[-1] + 1e-9)
+        if inside.sum() < _COMPARED:
+            continue
+        off = y[inside] - np.interp(x[inside], u, v)
+        apart, scatter = abs(float(np.median(off))), float(np.std(off))
+        if apart > max(np.log1p(_UNLIKE), 3 * scatter / np.sqrt(off.size)):
+            where = "unknown temperature" if np.isnan(T) else f"{T - 273.15:.4g} C"
+            raise InputError(
+                f"{sweeps.source.path or 'the sweeps'}: sweeps at {where} differ by "
+                f"{100 * np.expm1(apart):.2g} %: several samples or states, or a temperature that "
+                "the file does not state; fit each by itself, or choose one by --where "
+                '"Sample=A" or --table'
+            )
+
+
+def _passes(sweeps: FrequencySweeps) -> list[tuple[float, Array, Array]]:
+    """Return temperature, log10 of frequency and ln of the modulus of each run of frequencies.
+
+    A sweep in which a frequency occurs repeatedly has several runs; a ramp of the temperature none.
+    """
+    found = []
+    size = np.log(np.hypot(sweeps.storage, sweeps.loss))
+    keys = np.round(1000 * np.log(sweeps.angular_frequency)).astype(np.int64)
+    for number in np.unique(sweeps.sweep):
+        own = np.flatnonzero(sweeps.sweep == number)
+        temperature = sweeps.temperature[own]
+        if np.ptp(temperature) > GAP:
+            continue
+        order = own[np.argsort(keys[own], kind="stable")]
+        begins = np.flatnonzero(np.diff(keys[order], prepend=keys[order[0]] - 1))
+        turn = np.arange(order.size) - np.repeat(begins, np.diff(begins, append=order.size))
+        for each in range(int(turn.max()) + 1):
+            points = order[turn == each]
+            if points.size >= _COMPARED:
+                x = np.log10(sweeps.angular_frequency[points])
+                found.append((float(np.mean(temperature)), x, size[points]))
+    return found

@@ -8,7 +8,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
-from .grouping import GAP
+from .grouping import GAP, refuse_unlike
 from .kramers_kronig import causal_misfit
 from .shifting import BEST, shift_factors, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
@@ -65,8 +65,8 @@ def master_curve(
     Raises
     ------
     ValueError
-        If temperatures are unknown, a law is undefined at one of them, or overlap does not
-        determine the shifts.
+        If temperatures are unknown, a law is undefined at one of them, overlap does not
+        determine the shifts, or sweeps at one temperature contradict each other.
 
     References
     ----------
@@ -84,6 +84,7 @@ def master_curve(
     >>> [f"{omega:.3g}" for omega in curve.angular_frequency]
     ['6.28', '3.07e+09']
     """
+    refuse_unlike(sweeps)
     if reference_temperature is None:
         return _unshifted(sweeps, shift)
     if np.any(np.isnan(sweeps.temperature)):

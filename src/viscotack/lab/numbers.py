@@ -12,7 +12,14 @@ from viscotack.errors import InputError
 _NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
 _PLAIN = re.compile(r"[0-9.eE+\- ]*")
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}([.,][0-9]{3})+")
-_MISSING = {"", "-", "--", "---", "----", "*", "***", "nan", "na", "n/a", "#n/a", "none", "null"}
+_MISSING = {
+    "", "-", "--", "---", "----", "*", "***", "nan", "na", "n/a", "n.a.", "#n/a", "none", "null",
+    "missing", "#div/0!", "#value!", "#num!", "#wert!", "#zahl!", "1.#qnan", "-1.#ind", "1.#inf",
+}  # fmt: skip
+# written by loggers where nothing was measured
+_FILLERS = (-999.0, -9999.0, -99999.0)
+CLOCK = re.compile(r"([0-9]+):([0-5]?[0-9]):([0-5]?[0-9](?:[.,][0-9]+)?)")
+_MINUTES = re.compile(r"([0-9]+):([0-5]?[0-9](?:[.,][0-9]+)?)")
 
 
 def number(text: str, mark: str) -> float:
@@ -50,6 +57,40 @@ def number(text: str, mark: str) -> float:
     if math.isinf(value):
         raise InputError(f"the number {text[:40]!r} is too large")
     return value
+
+
+def seconds(text: str) -> float:
+    """Return the seconds of a clock time, ``hh:mm:ss`` or ``mm:ss``; nan for a gap.
+
+    Examples
+    --------
+    >>> seconds("01:02:03.5"), seconds("2:03")
+    (3723.5, 123.0)
+    """
+    match = CLOCK.fullmatch(text.strip()) or _MINUTES.fullmatch(text.strip())
+    if match is None and text.strip().casefold() in _MISSING:
+        return math.nan
+    if match is None:
+        raise InputError(f"expected a time such as 00:01:30, got {text[:40]!r}")
+    total = 0.0
+    for part in match.groups():
+        total = 60 * total + float(part.replace(",", "."))
+    return total
+
+
+def without_fillers(values: Array) -> tuple[Array, int]:
+    """Replace -999, -9999 and -99999 by nan where all other numbers are far above; count them.
+
+    Examples
+    --------
+    >>> without_fillers(np.array([1.0, -9999, 3])), without_fillers(np.array([-9998.0, -9999]))
+    ((array([ 1., nan,  3.]), 1), (array([-9998., -9999.]), 0))
+    """
+    for filler in _FILLERS:
+        filled = values == filler
+        if filled.any() and not np.any(values[~filled] < filler / 10):
+            return np.where(filled, math.nan, values), int(filled.sum())
+    return values, 0
 
 
 def is_number(cell: str) -> bool:

@@ -14,6 +14,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Material
 
+from .grouping import refuse_unlike
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Source
 
 Data = MasterCurve | FrequencySweeps | RelaxationTest | CreepTest
@@ -160,6 +161,8 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         )
     if len(data) < 3:
         raise InputError(f"a fit needs at least 3 points, got {len(data)}")
+    if isinstance(data, FrequencySweeps):
+        refuse_unlike(data)
     tension = data.in_tension(poisson_ratio)
     temperature, temperatures = _temperatures(data)
     if isinstance(tension, MasterCurve | FrequencySweeps):

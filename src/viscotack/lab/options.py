@@ -55,6 +55,8 @@ class Options:
     columns : str, optional
         Quantities, each with the heading or the number (from 1) of its column and, if the file
         does not state it, a unit: ``"time=1 [s]; modulus=G(t) raw [kPa]"``.
+    where : str, optional
+        Rows to read, by the heading and the content of a column: ``"Sample=A; Position=2"``.
     table : str, optional
         Number (from 1) of one of several tables in a file, or the name of its sheet.
 
@@ -80,6 +82,7 @@ class Options:
     decimal: str | None = None
     step_start: float = 0.0
     columns: str | None = None
+    where: str | None = None
     table: str | None = None
 
     def __post_init__(self):

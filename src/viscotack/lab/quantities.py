@@ -7,7 +7,8 @@ second, and tensile (E) and shear (G) moduli, are never confused silently.
 import math
 import re
 import unicodedata
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from viscotack.errors import InputError
@@ -43,6 +44,13 @@ _WORDS = {
     "log10_shift": "logat log(at) logshift logshiftfactor",
     "shift": "at shiftfactor",
     "vertical_shift": "bt verticalshiftfactor",
+    # other forms of the complex modulus
+    "dynamic_viscosity": "dynamicviscosity dynamischeviskosität viscositédynamique",
+    "elastic_viscosity": "elasticviscosity viscositéélastique",
+    "complex_viscosity": "complexviscosity complexdynamicviscosity komplexeviskosität "
+    "viscositécomplexe",
+    "storage_compliance": "storagecompliance speichernachgiebigkeit",
+    "loss_compliance": "losscompliance verlustnachgiebigkeit",
     # not read, but they identify flow curves and start-up tests
     "shear_rate": "shearrate strainrate scherrate scherrate rate gammadot",
     "viscosity": "viscosity shearviscosity viskosität eta η apparentviscosity",
@@ -57,25 +65,67 @@ _BY_LETTER = {
     "J": "compliance",
 }
 _GREEK = "ωδητσγɣ"
+# words of temperature inside headings, and what stands beside them: the sample, or what is never it
+_TEMPERATURE = re.compile(
+    r"temperatu(re|ra|ur|r)?|температур\w?|温度|溫度|온도|teplota|temp$|^temp"
+)
+_OF_SAMPLE = (
+    "sample", "specimen", "proben", "echantillon", "muestra", "campione", "material", "actual",
+    "act", "ist", "measured", "gemessene", "образца", "样品", "試料", "시료",
+)  # fmt: skip
+_OF_ROOM = (
+    "set", "soll", "target", "setpoint", "consigne", "nominal", "command", "ambient", "room",
+    "raum", "umgebungs",
+)  # fmt: skip
+_OF_RIG = (
+    "oven", "ofen", "furnace", "chamber", "kammer", "plate", "platten", "bath", "bad", "probe",
+    "lower", "upper", "bottom", "top", "air", "gas", "environment", "test", "stage", "tool",
+)  # fmt: skip
+# differences, rates and constants in a unit of temperature are no temperatures of a test
+_NO_TEMPERATURE = re.compile(
+    r"δ|delta|diff|devia|abweich|std|error|uncert|toler|rate$|^rate|glass|^tg|^dt|^tt(g|0|r)|ramp|ref"
+)
+_LOGARITHM = re.compile(
+    r"(?P<base>log_?10|log|lg|ln)\s*(?:\((?P<inside>.+?)\)|[\s_](?P<bare>.+?))"
+    r"\s*(?P<unit>[\[(][^()\[\]]*[\])])?",
+    re.IGNORECASE,
+)
 # symbols that also state tension or shear
-_BY_SYMBOL = {
-    f"{letter}{mark}": (name, kind)
-    for kind, letter in (("E", "e"), ("G", "g"))
-    for name, marks in {
-        "storage": ("'", "stor", "storage", "prime", "p"),
-        "loss": ("''", "loss", "doubleprime", "dprime", "pp"),
-        "magnitude": ("*", "complex", "abs"),
-        "modulus": ("(t)", "relax"),
-    }.items()
-    for mark in marks
-} | {
-    "|e*|": ("magnitude", "E"),
-    "|g*|": ("magnitude", "G"),
-    "j(t)": ("compliance", "G"),
-    "jcreep": ("compliance", "G"),
-    "d(t)": ("compliance", "E"),
-    "dcreep": ("compliance", "E"),
-}
+_BY_SYMBOL: Mapping[str, tuple[str, str | None]] = (
+    {
+        f"{letter}{mark}": (name, kind)
+        for kind, letter in (("E", "e"), ("G", "g"))
+        for name, marks in {
+            "storage": ("'", "stor", "storage", "prime", "p"),
+            "loss": ("''", "loss", "doubleprime", "dprime", "pp"),
+            "magnitude": ("*", "complex", "abs"),
+            "modulus": ("(t)", "relax"),
+        }.items()
+        for mark in marks
+    }
+    | {
+        f"{bar}{eta}{mark}{bar}": (name, None)
+        for eta in ("η", "eta")
+        for bar, mark, name in (
+            ("", "'", "dynamic_viscosity"),
+            ("", "''", "elastic_viscosity"),
+            ("", "*", "complex_viscosity"),
+            ("|", "*", "complex_viscosity"),
+        )
+    }
+    | {
+        "|e*|": ("magnitude", "E"),
+        "|g*|": ("magnitude", "G"),
+        "j'": ("storage_compliance", "G"),
+        "j''": ("loss_compliance", "G"),
+        "d'": ("storage_compliance", "E"),
+        "d''": ("loss_compliance", "E"),
+        "j(t)": ("compliance", "G"),
+        "jcreep": ("compliance", "G"),
+        "d(t)": ("compliance", "E"),
+        "dcreep": ("compliance", "E"),
+    }
+)
 # lower-case symbols denote permittivities; a tensile modulus has a capital E
 _DIELECTRIC = {"e'", "e''", "ep", "epp"}
 _KIND_WORDS = {
@@ -109,20 +159,24 @@ _LOWER = {
     "hz": "Hz", "khz": "kHz", "pa": "Pa", "kpa": "kPa", "mpa": "MPa", "gpa": "GPa",
     "1/pa": "1/Pa", "rads": "rad/s", "c": "C", "degc": "degC", "k": "K", "pct": "%",
 }  # fmt: skip
+_PASCAL_SECOND = re.compile(r"Pa[-.·⋅ ]?s(ec)?")
 _PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
 
 
 @dataclass(frozen=True)
 class Heading:
-    """Meaning of a heading: quantity, kind of modulus if stated, and unit."""
+    """Meaning of a heading: quantity, kind of modulus if stated, unit, and base of logarithms."""
 
     quantity: str
     kind: str | None
     unit: str
+    base: float | None = field(default=None, repr=False)
 
 
-def recognise(text: str) -> Heading | None:
+def recognise(text: str, unit: str = "") -> Heading | None:
     """Return the meaning of a heading, or None for an unknown one.
+
+    `unit` is the one below the heading: any column in degrees is one of temperatures.
 
     Examples
     --------
@@ -130,9 +184,21 @@ def recognise(text: str) -> Heading | None:
     Heading(quantity='storage', kind='E', unit='MPa')
     >>> recognise("Kreisfrequenz")
     Heading(quantity='angular_frequency', kind=None, unit='')
+    >>> recognise("Sample temperature (°C)").quantity, recognise("log10(G') [Pa]").base
+    ('temperature', 10.0)
     >>> recognise("Normal force (N)") is None
     True
     """
+    heading = _recognised(text)
+    if heading is None and _is_degree(bare(unit)) and not _NO_TEMPERATURE.search(plain(text)):
+        return Heading("temperature", None, "")
+    # "GP in 1/s" of HAAKE RheoWin is gamma with a point, not a modulus
+    if heading and heading.kind and bare(heading.unit or unit) in _PER_SECOND:
+        return Heading("shear_rate", None, heading.unit)
+    return heading
+
+
+def _recognised(text: str) -> Heading | None:
     text = text.strip()
     if len(text) > 1 and text[0] == text[-1] == '"':
         text = text[1:-1].strip()
@@ -148,8 +214,73 @@ def recognise(text: str) -> Heading | None:
             if rest is not None and rest[0] == name[0]:
                 return Heading(name[0], name[1] or rest[1], "")
             # "Stress (step)" and "G*/sin(delta)" are other quantities
-            return Heading(*name, match[2].strip()) if _may_be_unit(match[2]) else None
-    return _with_suffix(text)
+            own = Heading(*name, match[2].strip())
+            return own if _may_be_unit(match[2]) else _temperature(text)
+    return _with_suffix(text) or _logarithm(text) or _temperature(text)
+
+
+def _logarithm(text: str) -> Heading | None:
+    """Return the meaning of the heading of logarithms, such as ``log10(G' [Pa])``."""
+    match = _LOGARITHM.fullmatch(text)
+    heading = recognise(match["inside"] or match["bare"]) if match else None
+    # "Log time" is a time of recording
+    if match is None or heading is None or (match["bare"] and heading.quantity == "time"):
+        return None
+    base = math.e if match["base"].casefold() == "ln" else 10.0
+    return replace(heading, unit=heading.unit or bare(match["unit"] or ""), base=base)
+
+
+def _temperature(text: str) -> Heading | None:
+    """Return the heading of any temperature, such as ``T_sample``, ``Ofentemperatur [°C]``."""
+    name, unit, mark = _without_degree(text)
+    beside = _beside_temperature(name)
+    if _NO_TEMPERATURE.search(plain(name)):
+        return None
+    # "A/C" is a ratio
+    if unit and (mark is not _SLASH or len(unit) > 1 or beside is not None):
+        return Heading("temperature", None, unit)
+    known = beside is not None and beside in (*_OF_SAMPLE, *_OF_ROOM, *_OF_RIG, "s")
+    return Heading("temperature", None, "") if known and not unit else None
+
+
+def _without_degree(text: str) -> tuple[str, str, re.Pattern[str] | None]:
+    """Split a heading into its words, its unit of temperature, if any, and how that stands."""
+    for pattern in (BRACKET, IN, _SLASH):
+        match = pattern.fullmatch(text.strip())
+        if match and _is_degree(match[2].strip()):
+            return re.sub(r"[\[\]()]", " ", match[1]), match[2].strip(), pattern
+    return re.sub(r"[\[\]()]", " ", text), "", None
+
+
+def _beside_temperature(name: str) -> str | None:
+    """Return what a heading says beside the word for temperature; None without that word."""
+    match = re.fullmatch(r"T([_ .].+|s)", name.strip())
+    if match:
+        return plain(match[1])
+    word = plain(name)
+    return _TEMPERATURE.sub("", word) if _TEMPERATURE.search(word) else None
+
+
+def nearness_to_sample(text: str) -> int:
+    """Return 3 for a temperature of the sample, 2 for one without a word, 1 of the rig, 0 set.
+
+    Examples
+    --------
+    >>> [nearness_to_sample(text) for text in ("T_sample", "T [K]", "Ofentemperatur", "T set (K)")]
+    [3, 2, 1, 0]
+    """
+    name = re.sub(r"_(deg)?[CKck]$", "", _without_degree(text)[0])
+    beside = _beside_temperature(name) or ""
+    if beside == "s" or any(beside.startswith(w) or beside.endswith(w) for w in _OF_SAMPLE):
+        return 3
+    named = _named(name.strip())
+    if named is not None and named[0] == "temperature":
+        return 2
+    return 0 if any(beside.startswith(w) or beside.endswith(w) for w in _OF_ROOM) else 1
+
+
+def _is_degree(unit: str) -> bool:
+    return unit in _CELSIUS | _FAHRENHEIT - {"F"} | {"K"}
 
 
 def _with_suffix(text: str) -> Heading | None:
@@ -158,8 +289,12 @@ def _with_suffix(text: str) -> Heading | None:
         name, unit = _named(text[: place.start()]), text[place.end() :]
         unit = unit.replace("_per_", "/").replace("_", "/")
         unit = _LOWER.get(unit, unit)
-        if name is not None and unit and is_unit(unit):
+        if not unit or not is_unit(unit):
+            continue
+        if name is not None:
             return Heading(*name, unit)
+        if _is_degree(unit) and (len(unit) > 1 or _beside_temperature(text[: place.start()])):
+            return Heading("temperature", None, unit)
     return None
 
 
@@ -196,6 +331,8 @@ def is_unit(text: str) -> bool:
     """
     unit = bare(text)
     if unit in _CELSIUS | _FAHRENHEIT | _NO_UNIT | _DEGREES | _PER_SECOND | {"%", "K", "rpm"}:
+        return True
+    if is_clock_unit(unit):
         return True
     for target in ("Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "N*m", "m", "1"):
         try:
@@ -244,7 +381,7 @@ def _named(text: str) -> tuple[str, str | None] | None:
 
 def plain(text: str) -> str:
     """Normalise a heading: lower case without spaces, underscores, hyphens, dots and accents."""
-    text = text.translate(_QUOTES).replace("γ\u0307", "gammadot")
+    text = text.translate(_QUOTES).replace("ɣ", "γ").replace("γ\u0307", "gammadot")
     text = unicodedata.normalize("NFKD", text).casefold()
     return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")
 
@@ -282,7 +419,41 @@ def scale(unit: str, target: str) -> float:
         return 0.01
     if unit in _DEGREES and target == "rad":
         return math.pi / 180
+    if target == "Pa*s":
+        unit = _PASCAL_SECOND.sub("Pa*s", unit)
     return parse(f"1 {unit}", target)
+
+
+def same_unit(one: str, other: str) -> bool:
+    """Return whether two units are equal, however they are written.
+
+    Examples
+    --------
+    >>> same_unit("N/mm²", "MPa"), same_unit("°C", "degC"), same_unit("um", "mm")
+    (True, True, False)
+    """
+    one, other = bare(one), bare(other)
+    if one == other or ("rad" in one) != ("rad" in other):
+        return one == other
+    for target in ("K", "Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "m", "1"):
+        try:
+            if target == "K":
+                return kelvin(one) == kelvin(other)
+            return math.isclose(scale(one, target), scale(other, target))
+        except ValueError:
+            continue
+    return False
+
+
+def is_clock_unit(unit: str) -> bool:
+    """Return whether a unit is a form of clock times, such as ``hh:mm:ss`` or ``[mm:ss]``.
+
+    Examples
+    --------
+    >>> is_clock_unit("hh:mm:ss"), is_clock_unit("s")
+    (True, False)
+    """
+    return re.fullmatch(r"(h+:)?m(m|in)?:s+([.,]\w+)?", bare(unit), re.IGNORECASE) is not None
 
 
 def kelvin(unit: str) -> tuple[float, float]:

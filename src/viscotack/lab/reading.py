@@ -30,7 +30,7 @@ from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, format_of, load, refuse_unknown
 from .options import Options
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
-from .tables import Table, pieces
+from .tables import Table, pieces, where
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
@@ -418,7 +418,7 @@ def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
     parts = [part for table in whole for part in pieces(table)]
     pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
     numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
-    tables, others = _selected(file, numbered, given)
+    tables, others = _selected(file, where(file, numbered, given.where), given)
     return replace(file, notes=(*said, *file.notes, *cut, *others)), found, tables
 
 

@@ -26,7 +26,7 @@ from .grouping import levels
 from .lab_file import LabFile
 from .options import Options
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
-from .tables import Table
+from .tables import Table, refuse_pooled
 from .unit_checks import doubtful_modulus
 
 Test = TypeVar("Test", RelaxationTest, CreepTest)
@@ -178,6 +178,11 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
         columns, given, [name for name in needed if name in columns], timed, "temperature", *needed
     )
     time = columns.si(timed) - given.step_start
+    if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
+        raise columns.error(
+            f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s, as a time of day does; '
+            "state when the step was applied with --step-start"
+        )
     if not given.step_start and timed == "time":
         _refuse_late_start(columns, time)
     kind = kind_of(columns, given, *needed)
@@ -193,6 +198,9 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     if wanted == "modulus":
         refuse_stiffer_than_diamond(columns, values)
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
+    kelvins = np.nan_to_num(np.round(temperature))
+    states = list(zip(kelvins, np.round(time, 9), strict=True))
+    refuse_pooled(file, [columns.table], [columns.columns_in_use], [states])
     keep = kept(columns, time, values)
     return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
 

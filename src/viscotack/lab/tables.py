@@ -14,7 +14,16 @@ from viscotack.errors import InputError
 
 from .lab_file import LabFile
 from .numbers import is_number
-from .quantities import POSSIBLE, Heading, bare, in_kelvin, is_unit, no_unit, recognise
+from .quantities import (
+    POSSIBLE,
+    Heading,
+    bare,
+    in_kelvin,
+    is_unit,
+    no_unit,
+    plain,
+    recognise,
+)
 
 _STATED = re.compile(r'([+-]?[0-9]+(?:[.,][0-9]*)?)[\s;,"]*([^\t;,"]*).*')
 # "Temperature,25.0 degC", "Temp. [C] = 25,0", "Test temperature 25 °C"
@@ -23,6 +32,18 @@ _OF_TEST = {"test", "sample", "probe", "chamber", "plate", "prüf", "mess", "pro
 _ABOVE = 4  # rows of words above the numbers
 _ONE = ("1", "1.0")
 _SEGMENT = re.compile(r"[0-9]+\|[0-9]+")  # segment and point of HAAKE RheoWin
+_NUMBERED = "(name|id|no|nr|number|nummer|nom|label|code|#)?"
+# headings that tell one sample, or one place or state of a sample, from another
+_SAMPLE = re.compile(
+    f"(sample|samples|specimen|probe|probekorper|prufkorper|muestra|echantillon|eprouvette|campione|"
+    f"material|recipe|rezept(ur)?|formulation|batch|charge|lot|mixture|compound|样品|試料|시료|образец)"
+    f"{_NUMBERED}"
+)
+_PLACE = re.compile(
+    f"(position|location|spot|place|stelle|ort|segment|cycle|zyklus|run|test|versuch|state|zustand|"
+    f"condition|phase|repeat|replicate|measurement|messung|experiment|step|direction){_NUMBERED}"
+)
+_STATUS = re.compile("status|statut|comment|kommentar|remark|bemerkung|date|datum|time$|zeit$")
 _COUNTERS = 3  # columns, from the left, that may number the points
 
 Row = tuple[int, Sequence[str]]
@@ -234,6 +255,95 @@ def _stacked(table: Table) -> list[Table]:
                 for i, part in enumerate(parts, start=1)
             ]
     return [table]
+
+
+def where(file: LabFile, tables: Sequence[Table], conditions: str | None) -> list[Table]:
+    """Return the tables with the rows that meet conditions such as ``"Sample=A; Position=2"``."""
+    found = list(tables)
+    for condition in filter(str.strip, (conditions or "").split(";")):
+        name, equals, value = (part.strip() for part in condition.partition("="))
+        if not equals or not name:
+            raise InputError(f'--where must be like "Sample=A", got {condition.strip()!r}')
+        chosen, known = [], {}
+        for table in found:
+            places = [i for i, h in enumerate(table.headings) if _word(h) == _word(name)]
+            cells = [row[places[0]] for _, row in table.rows] if places else []
+            known |= dict.fromkeys(cells)
+            rows = [row for row, cell in zip(table.rows, cells, strict=False) if _is(cell, value)]
+            if rows:
+                chosen.append(replace(table, rows=tuple(rows)))
+        if not chosen:
+            there = ", ".join(f'"{name}={cell}"' for cell in list(known)[:12])
+            headings = ", ".join(dict.fromkeys(h for table in found for h in table.headings if h))
+            has = f"there are {there}" if known else f"the headings are {headings}"
+            raise file.error(f'no row has --where "{condition.strip()}"; {has}')
+        found = chosen
+    return found
+
+
+def _word(text: str) -> str:
+    return text.strip().strip('"').strip().casefold()
+
+
+def _is(cell: str, value: str) -> bool:
+    if is_number(cell) and is_number(value):
+        return float(cell.replace(",", ".")) == float(value.replace(",", "."))
+    return _word(cell) == _word(value)
+
+
+def refuse_pooled(
+    file: LabFile,
+    tables: Sequence[Table],
+    used: Sequence[set[int]],
+    states: Sequence[Sequence[Any]],
+) -> None:
+    """Refuse tables with a column that tells samples, positions or states apart.
+
+    Parameters
+    ----------
+    tables, used
+        The tables that are read, each with the indices of the columns that have a meaning.
+    states : sequence of sequence
+        For each table and row, the state that was measured, such as temperature and frequency.
+
+    Raises
+    ------
+    ValueError
+        If a column that names a sample or a recipe differs, or any other one that is text, or names
+        a position, segment or state, differs between rows of one state.
+    """
+    columns: dict[str, list[tuple[str, Any]]] = {}
+    for table, known, own in zip(tables, used, states, strict=True):
+        for index, heading in enumerate(table.headings):
+            if heading and index not in known and no_unit(table.units[index]):
+                cells = [
+                    (row[index].strip(), at) for (_, row), at in zip(table.rows, own, strict=True)
+                ]
+                columns.setdefault(heading, []).extend(cells)
+    for heading, cells in columns.items():
+        values = dict.fromkeys(cell for cell, _ in cells if cell)
+        text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
+        sample, place = _SAMPLE.fullmatch(plain(heading)), _PLACE.fullmatch(plain(heading))
+        # a number of its own in each row counts the points
+        counts = len(values) == len(cells) and not text
+        if (
+            len(values) < 2
+            or counts
+            or not (text or sample or place)
+            or _STATUS.search(plain(heading))
+        ):
+            continue
+        by_state: dict[Any, set[str]] = {}
+        for cell, state in cells:
+            if cell:
+                by_state.setdefault(state, set()).add(cell)
+        if sample or any(len(each) > 1 for each in by_state.values()):
+            first = next(iter(values))
+            raise file.error(
+                f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
+                f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
+                f'choose, for example: --where "{heading}={first}"'
+            )
 
 
 def without_waves(table: Table) -> Table:

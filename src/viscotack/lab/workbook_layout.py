@@ -5,13 +5,14 @@ A row of headings, a row of units, then rows of numbers. Old workbooks (.xls) ne
 """
 
 import io
+import re
 import zipfile
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
-from viscotack.errors import install_command
+from viscotack.errors import InputError, install_command
 
 from .lab_file import LabFile, refuse_huge
 from .numbers import is_number
@@ -28,10 +29,12 @@ from .tables import (
     tabulated,
     under,
 )
-from .workbook_bounds import check_size, has_formulas
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for
+# Largest sheet; one stray cell in the last row would otherwise make a million empty rows.
+MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
+_FORMULA = re.compile(rb"<(\w+:)?f[ />]")
 Cells = list[list[str]]
 
 
@@ -138,7 +141,7 @@ def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
     xlrd = import_module("xlrd")
     book = xlrd.open_workbook(file_contents=content, logfile=io.StringIO())
     for sheet in book.sheets():
-        check_size(sheet.nrows, sheet.ncols)
+        _check_size(sheet.nrows, sheet.ncols)
         yield sheet.name, [[_text(v) for v in sheet.row_values(r)] for r in range(sheet.nrows)]
 
 
@@ -146,16 +149,35 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
     openpyxl = import_module("openpyxl")
     with zipfile.ZipFile(io.BytesIO(content)) as parts:
         refuse_huge(parts)
-        formulas = has_formulas(parts)
+        sheets = [name for name in parts.namelist() if name.startswith("xl/worksheets/")]
+        formulas = any(_FORMULA.search(parts.read(name)) for name in sheets)
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
     # read again to find formulas without values
     beside = openpyxl.load_workbook(io.BytesIO(content), read_only=True) if formulas else None
     for sheet in book.worksheets:
-        rows = [[_text(v) for v in row] for row in sheet.iter_rows(values_only=True)]
+        rows = [[_text(v) for v in row] for row in _rows(sheet)]
         if beside is not None:
-            _name_formulas(rows, beside[sheet.title].iter_rows(values_only=True))
+            _name_formulas(rows, _rows(beside[sheet.title]))
         width = max(map(len, rows), default=0)
         yield sheet.title, [row + [""] * (width - len(row)) for row in rows]
+
+
+def _rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
+    """Yield the rows of a sheet, whatever size it states, and refuse it where it is too large."""
+    sheet.reset_dimensions()
+    width = 0
+    for count, row in enumerate(sheet.iter_rows(values_only=True), start=1):
+        width = max(width, len(row))
+        _check_size(count, width)
+        yield row
+
+
+def _check_size(rows: int, columns: int) -> None:
+    if rows > MOST_ROWS or columns > MOST_COLUMNS or rows * columns > MOST_CELLS:
+        raise InputError(
+            f"a sheet has more than {MOST_ROWS:,} rows, {MOST_COLUMNS} columns or {MOST_CELLS:,} "
+            "cells; export the relevant part as CSV"
+        )
 
 
 def _name_formulas(rows: Cells, beside: Iterable[tuple[Any, ...]]) -> None:

@@ -114,6 +114,9 @@ def not_measured(groups: Groups) -> str:
     # an elastic contact does not depend on the rate
     if groups.rate is not None and groups.modulus_ratio < 1:
         values["rate over the Tabor number"] = groups.rate * unit
+    if groups.modulus_ratio == 1 and not grows(groups.traction):
+        # beyond the simulated Tabor numbers an elastic contact is that of JKR
+        values["tabor"] = min(values["tabor"], _MEASURED["tabor"][1])
     simple = isinstance(groups.geometry, Sphere) and isinstance(groups.traction, LennardJones)
     measured = _MEASURED_FROM_REST if simple and groups.stiffness is None else _MEASURED
     if groups.stiffness is not None:

@@ -7,15 +7,16 @@ from dataclasses import replace
 from time import perf_counter
 
 from viscotack.bem.settings import Settings
-from viscotack.bem.solver import Progress, Watch, begun, contact_of, simulate
+from viscotack.bem.solver import Progress, Watch, begun, contact_of, part_of, simulate
 from viscotack.cards import card_of
 from viscotack.clock import limited
 from viscotack.errors import InputError
 from viscotack.methods import handover
 from viscotack.methods.crack_problem import largest_radius, not_covered
+from viscotack.methods.sensitivities import changed_inputs, sensitivities_of
 from viscotack.problem import Case, Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
-from viscotack.result import Result
+from viscotack.result import Outcome, Result
 from viscotack.threads import one_blas_thread
 
 _UNTIL = ("pull-off", "detached")
@@ -84,11 +85,10 @@ def solve(
         Longest wall time [s] of both simulations. A run that reaches it stops; the result contains
         the steps so far, and its status gives the reason.
     sensitivities : bool or iterable of str
-        Also compute the derivatives of force, work, depth and contact radius at the pull-off by all
-        inputs of the problem, or by those of these names (``material.tau0``, ``protocol.speed``),
-        from the same run: ``result.sensitivities``. Nodes and steps are frozen, so the derivatives
-        leave out jumps and a change of the largest peak; where these matter, the derivative is
-        refused with the reason.
+        Also compute the elasticities of force, work, depth and contact radius at the pull-off by
+        all inputs of the problem, or by those of these names (``material.tau0``,
+        ``protocol.speed``), with their errors: ``result.sensitivities``. Each input takes two more
+        simulations, and two coarser ones.
 
     Returns
     -------
@@ -152,7 +152,10 @@ def solve(
                     f"of {groups.effective_tabor:.4g} is too large to simulate"
                 )
             return _handed_over(problem, chosen.accuracy, began)
-        return simulate(
+        wanted = None if isinstance(sensitivities, bool) else sensitivities
+        changes = {} if sensitivities is False else changed_inputs(problem, wanted)
+        share = 1 / (1 + 2 * len(changes))
+        result = simulate(
             problem,
             groups,
             settings=chosen,
@@ -161,10 +164,30 @@ def solve(
             whole=whole,
             fields=fields,
             throw=throw,
-            progress=progress,
+            progress=part_of(progress, 0.0, share),
             watch=watch,
-            sensitivities=sensitivities,
         )
+        if not changes or result.outcome is Outcome.STOPPED:
+            return result
+
+        def run(changed: Case, level: Settings) -> Result:
+            return simulate(
+                changed,
+                changed.groups(),
+                settings=level,
+                until="pull-off",
+                estimate_error=False,
+                whole=whole,
+                fields=False,
+                throw=False,
+                progress=None,
+                watch=None,
+            )
+
+        found = sensitivities_of(
+            problem, changes, chosen, run, lambda n: progress and progress((1 + 2 * n) * share)
+        )
+        return replace(result, sensitivities=found).posed(groups)
 
 
 def has_start(problem: Case) -> bool:

@@ -1,7 +1,7 @@
 """The operation ``array``: many pads on one backing."""
 
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, isnan
 from typing import Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
@@ -174,6 +174,7 @@ def _words(array: Any, found: Any, held: Any, part: Any) -> str:
                 "force of the relaxed pads"
             )
         after = f"after {readable(held.time, 's')}" if isfinite(held.time) else "not within a day"
+        after = "after an unknown time" if isnan(held.time) else after
         lines.append(f"at rest under its weight the load detaches {after} ({held.why})")
         lines.append(f"release takes {readable(held.release_time, 's')} at this speed")
     if part is not None:

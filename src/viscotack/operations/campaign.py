@@ -9,7 +9,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 
-from .declare.answer import Answer, Caller, Output, csv_file
+from .declare.answer import Answer, Caller, Output
 from .declare.cards import Choice, File, Folder, Number, Switch, Text, Whole
 from .declare.options import Operation, Part
 from .declare.statement import INDENTERS, Stated, Statement
@@ -80,7 +80,9 @@ class DescribePlan(Operation):
     """
 
     word: ClassVar = "campaign plan"
-    outputs: ClassVar = (csv_file("Write the cases as a table; - is standard output."),)
+    outputs: ClassVar = (
+        Output("csv", "Write the cases as a table; - is standard output.", endings=(".csv",)),
+    )
     takes_own: ClassVar = True
     refused: ClassVar = _OF_PLANS
 
@@ -390,10 +392,10 @@ class Export(Operation):
 
     word: ClassVar = "campaign export"
     outputs: ClassVar = (
-        Output("csv", "Write a table; - is standard output.", ending=".csv"),
-        Output("parquet", "Write a Parquet file.", "binary", ending=".parquet"),
-        Output("mat", "Write a MATLAB file.", "binary", ending=".mat"),
-        Output("failures", "Write the failures, as a .csv table."),
+        Output("csv", "Write a table; - is standard output.", endings=(".csv",)),
+        Output("parquet", "Write a Parquet file.", "binary", endings=(".parquet",)),
+        Output("mat", "Write a MATLAB file.", "binary", endings=(".mat",)),
+        Output("failures", "Write the failures, as a .csv table.", endings=(".csv",)),
     )
     refused: ClassVar = _OF_FOLDERS
 

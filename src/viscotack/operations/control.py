@@ -36,12 +36,14 @@ class Control(Operation):
 
     word: ClassVar = "control"
     outputs: ClassVar = (
-        Output("c", "Write force, pull-off force and controller as a header of C99."),
+        Output(
+            "c", "Write force, pull-off force and controller as a header of C99.", endings=(".h",)
+        ),
         Output(
             "fmu",
             "Write an FMU for co-simulation, FMI 3.0, by the C compiler of this machine.",
             "binary",
-            ending=".fmu",
+            endings=(".fmu",),
         ),
         csv_file("Write a row for each speed: pull-off force and travels; - is standard output."),
         csv_file("Write a row for each tick of the release; - is standard output.", "ticks"),

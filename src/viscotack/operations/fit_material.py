@@ -44,6 +44,7 @@ class FitMaterial(Operation):
             "output",
             "Write the passport to this file; - is standard output.",
             flags=("-o", "--output"),
+            endings=(".toml",),
         ),
         picture(),
     )

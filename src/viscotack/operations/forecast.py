@@ -160,7 +160,13 @@ class Report(Operation):
 
     word: ClassVar = "report"
     outputs: ClassVar = (
-        Output("output", "The page, FILE.html.", flags=("-o", "--output"), needed=True),
+        Output(
+            "output",
+            "The page, FILE.html.",
+            flags=("-o", "--output"),
+            needed=True,
+            endings=(".html", ".htm"),
+        ),
     )
 
     study: StudyFile

@@ -140,6 +140,7 @@ class IdentifyRates(Operation):
             "Write the study, for `viscotack forecast` and `viscotack report`.",
             flags=("-o", "--output"),
             metavar="STUDY",
+            endings=(".toml",),
         ),
         picture(),
         picture("Draw the posterior of the interface.", "corner"),

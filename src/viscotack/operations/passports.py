@@ -24,8 +24,14 @@ _CODES = ("abaqus", "ansys", "comsol")
 # Of these the input states modulus and Poisson ratio.
 _STATING = ("abaqus", "ansys")
 _OUTPUT = Output(
-    "output", "Write to this file; - is standard output.", flags=("-o", "--output"), usual="-"
+    "output",
+    "Write to this file; - is standard output.",
+    flags=("-o", "--output"),
+    usual="-",
+    endings=(".toml",),
 )
+# Of input of other programs.
+_CARDS = (".inp", ".txt", ".csv", ".dat", ".mac", ".rad", ".json", ".py")
 
 Temperature = Annotated[
     float | None,
@@ -127,11 +133,6 @@ class ConvertMaterial(Operation):
         float | None, Number("Poisson ratio, if not in the input file.", metavar="NU")
     ] = None
 
-    @classmethod
-    def kept(cls, given: Any) -> tuple[str, ...]:
-        """Return the input of another program; a passport may be written over itself."""
-        return super().kept(given) if given.get("code") else ()
-
     def __post_init__(self) -> None:
         """Check that options of other programs' input, and of a series, are given for these."""
         constants = self._constants()
@@ -213,7 +214,7 @@ class ExportMaterial(Operation):
     """
 
     word: ClassVar = "material export"
-    outputs: ClassVar = (_OUTPUT,)
+    outputs: ClassVar = (replace(_OUTPUT, endings=_CARDS),)
     takes_own: ClassVar = True
 
     passport: Known

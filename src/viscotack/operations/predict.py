@@ -70,7 +70,7 @@ class Predict(Operation):
             "xlsx",
             "Write the rows of the table of cases with their predictions to a workbook FILE.xlsx.",
             "binary",
-            ending=".xlsx",
+            endings=(".xlsx",),
         ),
     )
     takes_own: ClassVar = True

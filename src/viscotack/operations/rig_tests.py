@@ -44,7 +44,7 @@ class ReadTests(Operation):
             "Write a workbook FILE.xlsx of cycles, repeats by speed and rejected files, with units "
             "in the headings.",
             "binary",
-            ending=".xlsx",
+            endings=(".xlsx",),
         ),
         picture(),
     )

@@ -32,14 +32,18 @@ class OfRough(Operation):
     word: ClassVar = "rough"
     outputs: ClassVar = (
         csv_file("Write force, contact area and energies by time; - is standard output."),
-        Output("maps", "Write maps of gap and pressure to a .npz file.", "binary", ending=".npz"),
+        Output(
+            "maps", "Write maps of gap and pressure to a .npz file.", "binary", endings=(".npz",)
+        ),
         picture("Draw the force curve and the contact to a .png, .pdf or .svg file."),
-        Output("film", "Write the detachment as a film to a .gif file.", "binary", ending=".gif"),
+        Output(
+            "film", "Write the detachment as a film to a .gif file.", "binary", endings=(".gif",)
+        ),
         Output(
             "movie",
             "Write the detachment as a film to an .mp4 file, by the program ffmpeg.",
             "binary",
-            ending=".mp4",
+            endings=(".mp4",),
         ),
     )
     takes_own: ClassVar = True
@@ -69,7 +73,7 @@ class OfRough(Operation):
             most=1000,
         ),
     ] = None
-    force: Annotated[
+    anyway: Annotated[
         bool,
         Switch(
             "Answer although a zone at an edge has less than one pixel, or asperities "
@@ -109,7 +113,7 @@ class OfRough(Operation):
             accuracy=self.accuracy,
             maps=moments,
             time_limit=self.time_limit,
-            force_coarse=self.force,
+            force_coarse=self.anyway,
             checkpoint=self.checkpoint,
             progress=lambda share: caller.tell({"share": share}),
         )
@@ -155,7 +159,7 @@ class OfRough(Operation):
         found = superposed(
             problem,
             accuracy=self.accuracy,
-            force_outside=self.force,
+            force_outside=self.anyway,
             progress=lambda share: caller.tell({"share": share}),
         )
         return Answer(

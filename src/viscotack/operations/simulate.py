@@ -68,6 +68,7 @@ class Simulate(Operation):
             "binary",
             flags=("--save", "-o"),
             done="saved",
+            endings=(".npz",),
         ),
     )
     takes_own: ClassVar = True
@@ -144,7 +145,7 @@ class Simulate(Operation):
         bool,
         Switch(
             "Also compute the elasticities of force, work, depth and contact radius at pull-off "
-            "by every input, from the same simulation."
+            "by every input, from simulations with each changed by 2 %."
         ),
     ] = False
     plot_kind: PlotKind = "force"

@@ -137,17 +137,17 @@ def draw_sensitivities(result: Result) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        A panel for the force and one for the work, as far as they have derivatives.
+        A panel for the force and one for the work, as far as they have elasticities, with errors.
 
     Raises
     ------
     ValueError
-        If the result has no derivatives.
+        If the result has no elasticities.
     """
     found = result.sensitivities
     if found is None or not found.elasticities:
         why = "; ".join(dict.fromkeys(found.refused.values())) if found else "none were computed"
-        raise InputError(f"there are no derivatives to draw: {why}")
+        raise InputError(f"there are no elasticities to draw: {why}")
     shown = list(found.elasticities)[:2]
     first = found.elasticities[shown[0]]
     names = sorted(first, key=lambda name: abs(first[name]))
@@ -155,8 +155,12 @@ def draw_sensitivities(result: Result) -> "Figure":
         figure = _figure(figsize=(4.6 * len(shown) + 1.5, 1.2 + 0.32 * len(names)))
         panels = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
         for axes, name in zip(panels, shown, strict=True):
-            values = [found.elasticities[name].get(x, np.nan) for x in names]
-            axes.barh(names, values, color=["#08519c" if v > 0 else "#d94801" for v in values])
+            values, errors = (
+                [each[name].get(x, np.nan) for x in names]
+                for each in (found.elasticities, found.errors)
+            )
+            colours = ["#08519c" if v > 0 else "#d94801" for v in values]
+            axes.barh(names, values, xerr=errors, color=colours, ecolor="0.4")
             axes.axvline(0, color="0.4", lw=0.8)
             axes.set_xlabel("d ln y/d ln x")
             axes.set_title(name.replace("_", " "))

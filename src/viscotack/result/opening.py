@@ -136,33 +136,6 @@ def lost_beside(result: Result, span: Span) -> float:
     return float(force[i] ** 2 / _curvature(x, force, i))
 
 
-def is_smooth(result: Result, span: Span) -> bool:
-    """Return whether the force minimum is a smooth valley, with steps of one move on both sides.
-
-    It is none at the end of a piece, or where the machine set the force.
-    """
-    steps, i = _valley_of(result, span)
-    number = move_numbers(result)[steps]
-    loaded = isinstance(moves_of(result)[number[i]], LoadTo)
-    return 0 < i < len(steps) - 1 and not loaded and _smooth(number, i) is not None
-
-
-def around(result: Result, span: Span, most: int, known: int) -> npt.NDArray[np.intp] | None:
-    """Return up to `most` steps on both sides of a force minimum, or None if it is not smooth.
-
-    They are steps of the same move with a contact edge, or without one as at the minimum, among the
-    first `known` steps of the run.
-    """
-    if not is_smooth(result, span):
-        return None
-    steps, i = _valley_of(result, span)
-    smooth = _smooth(move_numbers(result)[steps], i)
-    assert smooth is not None
-    near = steps[max(smooth.start, i - most) : min(smooth.stop, i + most + 1)]
-    edge = np.isfinite(result.contact_radius[near])
-    return near[(near < known) & (edge == np.isfinite(result.contact_radius[steps[i]]))]
-
-
 def between_steps(result: Result, span: Span) -> float:
     """Return how far the place of the force minimum is known between the steps [h0].
 
@@ -326,15 +299,7 @@ def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:
 
 def tension_work(result: Result, span: Span, found: PullOff, *, until: float) -> float:
     """Integrate -force over the travel in tension around the pull-off."""
-    parts = tension_parts(result, span, found, until=until)
-    return -sum(float(curve.integrate(begin, end)) for _, curve, begin, end in parts)
-
-
-def tension_parts(
-    result: Result, span: Span, found: PullOff, *, until: float
-) -> "Iterator[tuple[npt.NDArray[np.intp], scipy.interpolate.CubicHermiteSpline, float, float]]":
-    """Yield the parts of the curve in tension: steps, force over the travel, and both ends."""
-    tension = True
+    work, tension = 0.0, True
     # Go backwards from the end to find the last zero crossing before the minimum.
     parts = [part for piece in _pieces(result, span) for part in _moves_of(result, piece.steps)]
     for steps in reversed(parts):
@@ -348,13 +313,14 @@ def tension_parts(
             break
         begin = x[0]
         positive = np.flatnonzero(before & (force >= 0))
-        curve = curve_through(x, force)
+        curve = _curve_through(x, force)
         if positive.size and positive[-1] + 1 < len(x):
             i = int(positive[-1])
             begin, tension = _root(curve, x[i], x[i + 1]), False
         end = min(x[-1], until)
         if begin < end:
-            yield steps, curve, float(begin), float(end)
+            work -= float(curve.integrate(begin, end))
+    return work
 
 
 def _moves_of(result: Result, steps: npt.NDArray[np.intp]) -> list[npt.NDArray[np.intp]]:
@@ -524,10 +490,9 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
     return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
 
 
-def curve_through(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
-    """Return cubic interpolation through the points, shape (n, ...), with second-order slopes."""
-    order = 2 if len(x) > 2 else 1
-    slope = np.gradient(y, x, axis=0, edge_order=order)
+def _curve_through(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
+    """Return the cubic interpolation through the points, with second-order slopes."""
+    slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1)
     return scipy.interpolate.CubicHermiteSpline(x, y, slope)
 
 

@@ -130,7 +130,9 @@ class ShallowStart:
 
 @dataclass(frozen=True)
 class Sensitivities:
-    """Derivatives of the pull-off by the inputs of a problem, from ``solve(sensitivities=True)``.
+    """Elasticities of the pull-off by the inputs of a problem, from ``solve(sensitivities=True)``.
+
+    They are slopes through simulations with each input changed by 2 %.
 
     Attributes
     ----------
@@ -143,18 +145,18 @@ class Sensitivities:
     elasticities : mapping
         For each output y, its elasticity by each input x, (x/|y|) dy/dx: for positive outputs
         d ln y/d ln x.
+    errors : mapping
+        Errors of the elasticities, estimated from their differences to those of coarser
+        simulations.
     refused : mapping
-        Outputs and inputs without meaningful derivatives, and the reason.
-    errors : mapping or None
-        Estimated errors of the elasticities: what the pull of the nodes on the edge changes in
-        them, and with an error estimate at least their difference to those of the coarser run.
+        Inputs, outputs, and outputs by an input that have no meaningful elasticity, and the reason.
     """
 
     inputs: Mapping[str, float]
     derivatives: Mapping[str, Mapping[str, float]]
     elasticities: Mapping[str, Mapping[str, float]]
-    refused: Mapping[str, str] = field(default_factory=dict)
-    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    errors: Mapping[str, Mapping[str, float]]
+    refused: Mapping[str, str]
 
 
 def _versions() -> dict[str, str]:
@@ -218,7 +220,7 @@ class Result:
         the theory of a contact whose edge is a steady crack is used (:func:`crack_contact`), with
         its band as the error of the force.
     sensitivities : Sensitivities or None
-        Derivatives of the pull-off by the inputs, on request.
+        Elasticities of the pull-off by the inputs, on request.
     versions : dict
         Versions of this package, numpy and scipy.
     """

@@ -15,6 +15,7 @@ import typer
 from typer import Option
 
 from viscotack.errors import TOO_LARGE, InputError
+from viscotack.files.bounded import forget_reads
 from viscotack.files.text import harmless
 from viscotack.version import __version__
 
@@ -28,6 +29,9 @@ application = typer.Typer(
 
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
+]
+Force = Annotated[
+    bool, Option("--force", help="Replace output files that exist; never a file that was read.")
 ]
 With = Annotated[
     list[Path] | None,
@@ -56,6 +60,7 @@ def wrong_input() -> Iterator[None]:
 
     Any unexpected exception is a defect: its traceback is printed, and the exit status is 3.
     """
+    forget_reads()
     try:
         yield
     except InputError as error:

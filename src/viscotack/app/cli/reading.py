@@ -25,7 +25,7 @@ from viscotack.operations.declare.questions import OF_FILE, Question
 from viscotack.operations.declare.statement import Stated, indenter_named
 from viscotack.operations.declare.wording import flag
 
-from .commands import AsJson, With, wrong_input
+from .commands import AsJson, Force, With, wrong_input
 from .writing import Writing, check_files
 
 _SETTINGS = {"max_content_width": 100}
@@ -104,6 +104,8 @@ def _parameters(kind: type[Operation], indenter: str | None) -> Iterator[inspect
         yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
     if kind.takes_own:
         yield _parameter("with_", *get_args(With))
+    if kind.outputs:
+        yield _parameter("force_", *get_args(Force), default=False)
     yield _parameter("json_", *get_args(AsJson), default=False)
 
 
@@ -196,14 +198,16 @@ def _of_question(name: str, question: Question) -> inspect.Parameter:
 def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> None:
     """Run an operation with its options; write its files and its answer."""
     as_json, own = said.pop("json_"), said.pop("with_", None) or ()
+    force = said.pop("force_", False)
     with wrong_input():
         given = _given(kind, indenter, said)
-        files = {output: said[output.name] for output in kind.outputs}
-        files = checked(files, (*kind.kept(given), *own), as_json=as_json)
         from viscotack.problem.nouns import own_nouns
 
         also = own_nouns(own)
-        carry_out(take(kind, given, Here(also=also)), files, own, also, as_json)
+        asked = take(kind, given, Here(also=also))
+        files = {output: said[output.name] for output in kind.outputs}
+        files = checked(files, force=force, as_json=as_json)
+        carry_out(asked, files, own, also, as_json)
 
 
 def carry_out(
@@ -236,7 +240,7 @@ def carry_out(
 
 
 def checked(
-    files: Mapping[Output, Path | None], reads: Iterable[str | Path], *, as_json: bool
+    files: Mapping[Output, Path | None], *, force: bool, as_json: bool
 ) -> dict[Output, Path | None]:
     """Return the files to write, including default ones."""
     found = {
@@ -245,7 +249,7 @@ def checked(
     }
     if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
         raise InputError(f"{missing[0]} is missing; give the output file")
-    check_files(found, as_json=as_json, reads=tuple(reads))
+    check_files(found, force=force, as_json=as_json)
     return found
 
 

@@ -9,7 +9,7 @@ from viscotack.errors import InputError
 from viscotack.operations import operation
 from viscotack.operations.declare.options import respelled
 
-from .commands import AsJson, With, application, wrong_input
+from .commands import AsJson, Force, With, application, wrong_input
 
 
 @application.command("study")
@@ -24,6 +24,7 @@ def study_command(
         ),
     ],
     own: With = None,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Run the operation of a study file with its options.
@@ -44,7 +45,7 @@ def study_command(
         kind = type(asked.operation)
         files = {output: asked.write.get(output.name) for output in kind.outputs}
         try:
-            files = checked(files, (*asked.kept, *(own or ())), as_json=as_json)
+            files = checked(files, force=force, as_json=as_json)
             carry_out(asked.operation, files, own or (), also, as_json)
         except InputError as error:
             raise respelled(error, kind) from None

@@ -1,6 +1,7 @@
 """Output files of commands: checked before the work, and failures reported after it."""
 
-from collections.abc import Callable, Iterable, Mapping
+import errno
+from collections.abc import Callable, Mapping
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from viscotack.errors import InputError
+from viscotack.files.bounded import was_read
 from viscotack.files.text import harmless
 from viscotack.files.whole import (
     NotWritten,
@@ -24,10 +26,7 @@ if TYPE_CHECKING:
 
 
 def check_files(
-    files: Mapping[Output, Path | None],
-    *,
-    as_json: bool = False,
-    reads: Iterable[str | Path] = (),
+    files: Mapping[Output, Path | None], *, force: bool = False, as_json: bool = False
 ) -> None:
     """Raise InputError for output files that cannot be written, before the work starts.
 
@@ -35,15 +34,16 @@ def check_files(
     ----------
     files : mapping
         Output -> file; None where not given.
+    force : bool
+        Whether files that exist may be replaced.
     as_json : bool
         Whether the answer is one JSON object on standard output.
-    reads : iterable of path
-        Files that the command reads, and so must not write.
 
     Raises
     ------
     InputError
-        If a file is used twice, has the wrong ending or cannot be written.
+        If a file is used twice, has the ending of another format, exists, was read or cannot be
+        written.
     """
     given = {output: file for output, file in files.items() if file is not None}
     for output, file in given.items():
@@ -63,18 +63,29 @@ def check_files(
         else:
             if output.kind == "picture":
                 plot.check_format(file)
-            if output.ending and file.suffix != output.ending:
-                raise InputError(f"{file}: the ending must be {output.ending}")
+            known = ("", *output.endings)
+            if output.endings and file.suffix.lower() not in known:
+                raise InputError(f"{flag} {file}: the ending must be {' or '.join(output.endings)}")
             check_target(file)
-        for other in reads:
-            if same_file(other, file):
-                raise InputError(f"{flag} {file} is an input file; give another name")
+            _refuse_read(file)
+            # an empty file, of mktemp for example, holds nothing to lose
+            if not force and file.is_file() and file.stat().st_size:
+                raise InputError(
+                    f"{flag} {file} exists; give another name, or --force to replace it"
+                )
     for (one, first), (other, second) in combinations(given.items(), 2):
         if same_file(first, second):
             raise InputError(
                 f"{one.flag} {first} and {other.flag} {second} are the same file; give two "
                 "different names"
             )
+
+
+def _refuse_read(file: Path) -> None:
+    """Raise NotWritten for a file that the command has read."""
+    if was_read(file):
+        words = f"cannot write {file}: it is an input of this command; give another name"
+        raise NotWritten(errno.EEXIST, words)
 
 
 class Writing:
@@ -92,6 +103,8 @@ class Writing:
         goes_on = is_standard_output(file)
         self._taken |= goes_on
         try:
+            if not goes_on:
+                _refuse_read(file)  # it may be named in a file that was read since the check
             writer(typer.get_binary_stream("stdout") if goes_on else file)
         except BrokenPipeError as error:
             self._reader_left = error

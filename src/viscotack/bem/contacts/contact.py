@@ -44,8 +44,6 @@ class Contact(Protocol):
         Unit of the outputs for the contact edge, in the unit of the mesh.
     zone : float
         Length over which the gap opens at a relaxed contact edge.
-    hardness : float
-        Stiffness of a surface over that of the body for E* = 1.
     """
 
     @property
@@ -59,12 +57,8 @@ class Contact(Protocol):
     @property
     def zone(self) -> float: ...  # noqa: D102
     @property
-    def hardness(self) -> float: ...  # noqa: D102
-    @property
     def body(self) -> Any: ...  # noqa: D102
-    def surface(  # noqa: D102
-        self, nodes: npt.NDArray, relaxed: npt.NDArray | None = None
-    ) -> Surface: ...
+    def surface(self, nodes: npt.NDArray) -> Surface: ...  # noqa: D102
     def grading(self, settings: Settings, depth: float) -> Grading: ...  # noqa: D102
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed: ...  # noqa: D102
     def deepest(self, start: Start) -> float: ...  # noqa: D102

@@ -94,9 +94,9 @@ class DiscContact(ShapeContact):
         """Return 0, because the disc has no flank, and an arbitrary exponent."""
         return 0.0, 2.0
 
-    def surface(self, nodes: npt.NDArray, relaxed: npt.NDArray | None = None) -> Surface:
+    def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the body with these nodes [beta], the last at the end of the disc."""
-        return replace(super().surface(nodes, relaxed), whole=self.shape.radius)
+        return replace(super().surface(nodes), whole=self.shape.radius)
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes, which end with the disc."""

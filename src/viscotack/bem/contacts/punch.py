@@ -77,21 +77,15 @@ class PunchContact:
         crack = 1.5 * (self.law.strength * self.span) ** 2 / np.pi
         return min(crack, 2 * self.body.decay_length or crack)
 
-    @property
-    def hardness(self) -> float:
-        """Stiffness of a surface over that of the body for E* = 1."""
-        return 2 * self.law.strength**2 / np.pi
-
-    def surface(self, nodes: npt.NDArray, relaxed: npt.NDArray | None = None) -> Surface:
-        """Return the body with these nodes [a0]; `relaxed`: its stiffness for E* = 1, if known."""
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the body with these nodes [a0]."""
         strength, area = self.law.strength, hat_areas(nodes, "plane")
         face = interface(self.law, area, panel_areas(nodes, "plane"))
-        if relaxed is None:
-            relaxed = relaxed_stiffness(self.body, "plane", nodes, face.smoothing)
+        relaxed = relaxed_stiffness(self.body, "plane", nodes, face.smoothing)  # for E* = 1
         return Surface(
             position=nodes,
             area=area,
-            stiffness=relaxed * self.hardness,
+            stiffness=relaxed * (2 * strength**2 / np.pi),
             rigid_gap=np.ones(len(nodes)),
             unit=1 / (2 * self.size * strength),  # a0 dg/h0 in 2 a sigma0
             flank=0.0,

@@ -142,13 +142,8 @@ class RevolutionContact(ABC):
         thin = 2 * self.body.decay_length or np.inf
         return float(min(crack, _RISING * self.radius_of_rise(self.span), thin))
 
-    @property
-    def hardness(self) -> float:
-        """Stiffness of a surface over that of the body for E* = 1."""
-        return 1 / self.tabor**2
-
-    def surface(self, nodes: npt.NDArray, relaxed: npt.NDArray | None = None) -> Surface:
-        """Return the body with these nodes [beta]; `relaxed`: its stiffness for E* = 1, if known.
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the body with these nodes [beta].
 
         Beyond the last node r the profile is continued as a power law with the exponent
         q = r f'/f at r. The area between two gaps is 1/mu times their difference for a sphere. For
@@ -156,8 +151,7 @@ class RevolutionContact(ABC):
         """
         gap, area = 1 + self.rise(nodes), hat_areas(nodes, "revolution")
         face = interface(self.law, area, panel_areas(nodes, "revolution"))
-        if relaxed is None:
-            relaxed = relaxed_stiffness(self.body, "revolution", nodes, face.smoothing)
+        relaxed = relaxed_stiffness(self.body, "revolution", nodes, face.smoothing)  # for E* = 1
         share, q = self.flank_power(float(nodes[-1]))
         return Surface(
             position=nodes,

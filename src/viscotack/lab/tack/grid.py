@@ -1,5 +1,6 @@
 """Tables of tack tests: identify columns and convert their numbers to SI."""
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -8,17 +9,25 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab import quantities
-from viscotack.lab.columns import Cells
+from viscotack.lab.columns import SAME_TEMPERATURE, Cells
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.quantities import POSSIBLE, bare, kelvin, no_unit
-from viscotack.lab.tables import Table, heads, ruled
+from viscotack.lab.quantities import (
+    POSSIBLE,
+    bare,
+    kelvin,
+    nearness_to_sample,
+    no_unit,
+    unit_within,
+)
+from viscotack.lab.tables import Table, heads, refuse_pooled, ruled
 
 from .header import recorded
 from .headings import POSITIONS, SIZES, factor, measures, recognise
 from .record import TackRecord
 
 _INTO = {"gap": -1, "depth": 1, "travel": 0}
-_FLAGS = {"force": "--force-unit", "time": "--time-unit"}
+_FLAGS, _LENGTH = {"force": "--force-unit", "time": "--time-unit"}, "--length-unit"
+_OF_CAMERA = ("contact_radius", "contact_diameter", "contact_area")
 _NEEDED = 20  # smallest number of rows needed to identify the parts of a test
 
 
@@ -37,6 +46,7 @@ class Given:
     spring_constant: float | None = None
     sensitivity: float | None = None
     temperature_in_name: bool = False
+    where: str | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -92,6 +102,10 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
     if (at := columns.optional("time", given.time_column)) is not None:
         time = columns.values("time", at)
     size, temperature = columns.size(), columns.temperature()
+    columns.refuse_contradiction()
+    # what differs along a test, such as its parts, is no state that is pooled
+    rows_apart = range(len(table.rows))
+    refuse_pooled(file, [table], [columns.in_use], [rows_apart])
     rows = [force, position, *([] if time is None else [time])]
     keep = np.all(np.isfinite(rows), axis=0)
     lost = int(np.sum(~keep))
@@ -136,6 +150,10 @@ class _Columns:
     def __init__(self, file: LabFile, table: Table, given: Given, notes: list[str]):
         self.file, self.table, self.given, self.notes = file, table, given, notes
         self.units: dict[int, str] = {}
+        # columns that are read, units of the caller that are needed, and those that contradict
+        self.in_use: set[int] = set()
+        self.needed: set[str] = set()
+        self.contradicted: dict[str, str] = {}
         self.found: dict[str, list[int]] = {}
         for index, text in enumerate(table.headings):
             heading = recognise(text)
@@ -213,39 +231,68 @@ class _Columns:
     def temperature(self) -> Array | None:
         """Return the temperature of each row [K], nan where unknown, or None if none is stated.
 
-        A column without a unit, one of several, or one that cannot be read is left out.
+        Of several columns that differ, that of the sample is used. A column without a unit, or one
+        that cannot be read, is left out, with a note.
         """
-        headings = [quantities.recognise(text) for text in self.table.headings]
-        found = [
-            (i, bare(one.unit or self.table.units[i]))
-            for i, one in enumerate(headings)
-            if one is not None and one.quantity == "temperature"
-        ]
-        try:
-            if len(found) > 1:
-                raise InputError(f"{len(found)} columns")
-            for index, unit in found:
-                factor, offset = kelvin(unit)
+        headings = self.table.headings
+        read: list[tuple[int, str, Array]] = []
+        for index, unit in enumerate(self.table.units):
+            one = quantities.recognise(headings[index], unit)
+            if one is None or one.quantity != "temperature" or index in self.in_use:
+                continue
+            try:
+                factor, offset = kelvin(bare(one.unit or unit))
                 rows = self.cells.numbers(index) * factor + offset
-                return np.where((rows > POSSIBLE[0]) & (rows < POSSIBLE[1]), rows, np.nan)
-        except InputError as error:
-            self.notes.append(f"temperature not read: {error}")
+            except InputError as error:
+                self.notes.append(f"temperature not read: {error}")
+                continue
+            possible = (rows > POSSIBLE[0]) & (rows < POSSIBLE[1])
+            if possible.any():
+                read.append((index, headings[index], np.where(possible, rows, np.nan)))
+        read.sort(key=lambda one: -nearness_to_sample(one[1]))
+        for _, other, rows in read[1:]:
+            apart = float(np.nanmax(np.abs(rows - read[0][2])))
+            if apart <= SAME_TEMPERATURE:
+                continue
+            if nearness_to_sample(other) == nearness_to_sample(read[0][1]):
+                self.notes.append(
+                    f'temperature not read: "{read[0][1]}" and "{other}" differ by up to '
+                    f"{apart:.3g} K"
+                )
+                return None
+            self.notes.append(f'"{read[0][1]}" is the temperature, and "{other}" is not used')
+        if read:
+            return read[0][2]
         stated = self.table.temperature
         return None if stated is None else np.full(len(self.table.rows), stated)
 
+    def refuse_contradiction(self) -> None:
+        """Refuse a unit of the caller that no column needs and that the file contradicts."""
+        for flag, said in self.contradicted.items():
+            if flag not in self.needed:
+                raise self.file.error(said)
+
     def values(self, quantity: str, index: int) -> Array:
         """Return a column in SI."""
-        said = {"force": self.given.force_unit, "time": self.given.time_unit}
-        unit = self.units.get(index, self.table.units[index])
-        if heading := recognise(self.table.headings[index]):
-            unit = heading.unit or unit
+        given = {"force": self.given.force_unit, "time": self.given.time_unit}
+        said, flag = given.get(quantity, self.given.length_unit), _FLAGS.get(quantity, _LENGTH)
+        text = self.table.headings[index]
+        heading = recognise(text)
+        unit = (heading and heading.unit) or self.table.units[index] or unit_within(text)
+        self.in_use.add(index)
+        if quantity == "time" and self.cells.is_clock(index):
+            unit = "s"
         if no_unit(unit):
-            unit = said.get(quantity, self.given.length_unit) or ""
+            unit = said or ""
+            self.needed.add(flag)
+        elif said is not None and quantity not in _OF_CAMERA:
+            if not math.isclose(factor(said, quantity), factor(unit, quantity)):
+                self.contradicted[flag] = (
+                    f'the file states {unit} for "{text}", but {flag} is {said}'
+                )
         if no_unit(unit):
-            flag = _FLAGS.get(quantity, "--length-unit")
             raise self.file.error(
-                f'the column "{self.table.headings[index]}" has no unit; set {flag} or write it '
-                "into the file"
+                f'the column "{text}" has no unit; set {flag} or write it into the file'
             )
         try:
             return self.cells.numbers(index) * factor(unit, quantity)

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 
 from viscotack.errors import InputError
-from viscotack.lab.quantities import BRACKET, IN, bare, no_unit, plain, scale
+from viscotack.lab.quantities import BRACKET, IN, bare, is_clock_unit, no_unit, plain, scale
 
 # quantity -> words, lower case, without spaces, marks and accents
 _WORDS = {
@@ -87,6 +87,8 @@ def factor(unit: str, quantity: str) -> float:
     (0.001, 0.009807)
     """
     own = bare(unit)
+    if quantity == "time" and is_clock_unit(own):
+        return 1.0
     if quantity == "force" and own in _GRAMS:
         return _GRAMS[own] * STANDARD_GRAVITY
     return scale(_SECONDS.get(own, own), _SI[quantity])

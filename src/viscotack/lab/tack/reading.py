@@ -15,6 +15,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab import tables
 from viscotack.lab.joining import kelvin_in_name
 from viscotack.lab.lab_file import LabFile, format_of, load, refuse_unknown
 
@@ -63,6 +64,7 @@ def read(
     spring_constant: float | None = None,
     sensitivity: float | None = None,
     temperature_in_name: bool = False,
+    where: str | None = None,
 ) -> list[TackRecord]:
     r"""Read the records of tack tests, one per continuous period of time.
 
@@ -91,6 +93,8 @@ def read(
     temperature_in_name : bool
         Read the temperature from the name of each file, as in ``probe_25C.csv``; by default from
         a column or a header line with a unit, if there is one.
+    where : str, optional
+        Rows to read, by the heading and the content of a column: ``"Sample=A"``.
 
     Raises
     ------
@@ -122,6 +126,7 @@ def read(
         spring_constant,
         sensitivity,
         temperature_in_name,
+        where,
     )
     _check(format, given)
     chosen = [paths] if isinstance(paths, str | PathLike) else list(paths)
@@ -248,4 +253,5 @@ def _records_of(file: LabFile, format: str | None, given: Given, few: bool) -> l
         if not file.lines and not file.is_workbook:
             raise file.error("the file is neither text nor an Excel workbook; export it as text")
         file = replace(file, notes=(*file.notes, *file.left_out))
-        return [record(file, table, given, found, few) for table in layout.grids(file, given.names)]
+        read = tables.where(file, layout.grids(file, given.names), given.where)
+        return [record(file, table, given, found, few) for table in read]

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.lab.apart import limited
 
 from .cycle import Cycle
 from .evaluation import Evaluation, Refusal, evaluate
@@ -85,18 +84,17 @@ def survey(
     """
     found: list[Evaluation] = []
     unread: list[Unread] = []
-    with limited() as call:
-        for group in groups([file for path in paths for file in _files(path)]):
+    for group in groups([file for path in paths for file in _files(path)]):
+        try:
+            records = read(group, **(reading or {}))
+        except InputError as error:
+            unread.append(Unread(fspath(group[0]), str(error)))
+            continue
+        for record in records:
             try:
-                records = call(read, group, **(reading or {}))
+                found.append(evaluate(record, **(evaluation or {})))
             except InputError as error:
-                unread.append(Unread(fspath(group[0]), str(error)))
-                continue
-            for record in records:
-                try:
-                    found.append(evaluate(record, **(evaluation or {})))
-                except InputError as error:
-                    unread.append(Unread(record.source.path, str(error)))
+                unread.append(Unread(record.source.path, str(error)))
     return Survey(tuple(found), tuple(unread))
 
 

@@ -33,8 +33,8 @@ class Output:
         Whether the output is required.
     usual : str
         Default destination.
-    ending : str
-        Required ending of the file name, ".mat"; "" for any.
+    endings : tuple of str
+        Endings of file names that suit the format; () for any.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Output:
     done: str = ""
     needed: bool = False
     usual: str = ""
-    ending: str = ""
+    endings: tuple[str, ...] = ()
 
     @property
     def flag(self) -> str:
@@ -60,7 +60,7 @@ class Output:
 
 def csv_file(words: str = "Write a table; - is standard output.", name: str = "csv") -> Output:
     """Declare a CSV table as output."""
-    return Output(name, words)
+    return Output(name, words, endings=(".csv", ".txt", ".dat"))
 
 
 def picture(words: str = "Draw to a .png, .pdf or .svg file.", name: str = "plot") -> Output:

@@ -91,10 +91,6 @@ class Card:
         """Names of the inputs, if the option consists of several."""
         return ()
 
-    def names(self, given: Any) -> tuple[str, ...]:
-        """Return the input files named by the user, which must not be overwritten."""
-        return ()
-
     @property
     def schema(self) -> dict[str, Any]:
         """JSON schema of a value."""
@@ -311,10 +307,6 @@ class File(Card):
         """Return the path; `study_text` makes it relative to the study."""
         return Path(value)
 
-    def names(self, given: Any) -> tuple[str, ...]:
-        """Return the file."""
-        return _as_name(given)
-
 
 @dataclass(frozen=True)
 class Placed:
@@ -376,10 +368,6 @@ class Named(Card):
         """Return the name or the content; `study_text` makes a path relative to the study."""
         return Path(value) if self._is_file(value) else value
 
-    def names(self, given: Any) -> tuple[str, ...]:
-        """Return the file; a published name is none, and neither is content."""
-        return tuple(name for name in _as_name(given) if self._is_file(name))
-
     def _is_file(self, words: str) -> bool:
         is_content = bool(self.text) and words.lstrip().startswith(self.text)
         return not is_content and words not in self.published()
@@ -417,10 +405,6 @@ class Spelled(Card):
         """Return the words; `study_text` makes a path among them relative to the study."""
         words, file = self._split(value)
         return Naming(words, Path(file)) if file else words
-
-    def names(self, given: Any) -> tuple[str, ...]:
-        """Return the file among the words."""
-        return _as_name(self._split(given)[1]) if isinstance(given, str) else ()
 
     def _split(self, words: str) -> tuple[str, str]:
         """Return the words before the name of a file, and that name; "" where there is none."""
@@ -470,10 +454,6 @@ class Table(Card):
         """Return the rows as tables."""
         return [dict(row) for row in value]
 
-    def names(self, given: Any) -> tuple[str, ...]:
-        """Return the CSV file."""
-        return _as_name(given)
-
     @property
     def schema(self) -> dict[str, Any]:
         """A list of objects of numbers and text."""
@@ -520,10 +500,6 @@ def is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def _as_name(given: Any) -> tuple[str, ...]:
-    return (str(given),) if isinstance(given, str | Path) and str(given) else ()
 
 
 def _name(value: Any) -> str:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
 
 from viscotack.errors import TOO_LARGE, InputError, OutOfRange
+from viscotack.files.bounded import note_read
 
 from .answer import Answer, Caller, Output
 from .cards import Card, Known, Place
@@ -23,7 +24,7 @@ from .wording import flag, listed
 # not inside a word, such as a file name
 _FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*(?!\w)")
 # Options that front ends add to every operation.
-OF_DOORS = ("outputs", "attached", "operation", "write", "json", "with")
+OF_DOORS = ("outputs", "attached", "operation", "write", "json", "with", "force")
 
 
 class Part:
@@ -64,16 +65,6 @@ class Operation:
         raise NotImplementedError
 
     @classmethod
-    def kept(cls, given: Mapping[str, Any]) -> tuple[str, ...]:
-        """Return the input files, which no output may overwrite."""
-        found: list[str] = []
-        for option in options(cls):
-            value = given.get(option.name)
-            several = value if option.many and isinstance(value, list | tuple) else [value]
-            found += [name for each in several for name in option.card.names(each)]
-        return tuple(found)
-
-    @classmethod
     def of(cls, **given: Any) -> Self:
         """Create the operation from its options: numbers in SI, or text with units."""
         return take(cls, given, Here())
@@ -98,8 +89,9 @@ class Here:
     also: tuple[Any, ...] = ()
 
     def file(self, name: str) -> Path:
-        """Return the path of a file."""
-        return self.folder / name
+        """Return the path of a file, which no output may overwrite."""
+        note_read(path := self.folder / name)
+        return path
 
     def within(self, path: Path) -> "Here":
         """Return the place for file names inside a file: they are relative to its folder."""

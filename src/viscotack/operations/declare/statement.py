@@ -149,13 +149,6 @@ class Stated(Card):
         )
         return tuple(dict.fromkeys(asked))
 
-    def names(self, given: Any) -> tuple[str, ...]:
-        """Return the case file, or the files of a statement by numbers."""
-        said = given if isinstance(given, Mapping) else {_CASE: given}
-        case = said.get(_CASE)
-        files = (str(case),) if isinstance(case, str | Path) else ()
-        return files + tuple(x for n, card in _NAMING.items() for x in card.names(said.get(n)))
-
     @property
     def schema(self) -> dict[str, Any]:
         """The tables of a case, a record, or the numbers of an indenter."""

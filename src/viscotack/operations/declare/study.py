@@ -34,13 +34,10 @@ class Asked:
         The operation with its options.
     write : mapping
         Name of an output -> file.
-    kept : tuple of Path
-        Input files, which must not be overwritten.
     """
 
     operation: Operation
     write: Mapping[str, Path]
-    kept: tuple[Path, ...] = ()
 
 
 def read_study(
@@ -83,8 +80,7 @@ def read_study(
             operation = take(kind, given, (place or Here(also=also)).within(path))
         except InputError as error:
             raise respelled(error, kind) from None
-        kept = tuple(path.parent / name for name in kind.kept(given))
-        return Asked(operation, _files(kind, write, path.parent), (path, *kept))
+        return Asked(operation, _files(kind, write, path.parent))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

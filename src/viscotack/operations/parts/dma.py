@@ -86,6 +86,14 @@ class Dma(Part):
             example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
         ),
     ] = None
+    where: Annotated[
+        str | None,
+        Text(
+            "Rows to read, by heading and content of a column.",
+            metavar="COLUMN=VALUE",
+            example="Sample=A",
+        ),
+    ] = None
     table: Annotated[
         str | None,
         Text("Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"),
@@ -94,10 +102,8 @@ class Dma(Part):
     def measured(self, files: tuple[Path, ...]) -> "Measured":
         """Read the files: sweeps of one material, or tests over time."""
         from viscotack.lab import read, read_creeps, read_dma, read_relaxations
-        from viscotack.lab.apart import limited
 
         said: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
         test = said.pop("test")
         readers = {"dma": read_dma, "relaxation": read_relaxations, "creep": read_creeps}
-        with limited() as call:
-            return call(readers.get(test, read), files, **said)
+        return readers.get(test, read)(files, **said)

@@ -71,6 +71,14 @@ class Rig(Part):
     decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
         None
     )
+    where: Annotated[
+        str | None,
+        Text(
+            "Rows to read, by heading and content of a column.",
+            metavar="COLUMN=VALUE",
+            example="Sample=A",
+        ),
+    ] = None
     nominal_speed: Annotated[
         float | None,
         Number(
@@ -146,7 +154,7 @@ class Rig(Part):
         units = ("force_unit", "length_unit", "time_unit")
         columns = ("force_column", "position_column", "time_column", "decimal")
         cantilever = ("nominal_speed", "spring_constant", "sensitivity")
-        names = ("format", *units, *columns, *cantilever, "temperature_in_name")
+        names = ("format", *units, *columns, *cantilever, "temperature_in_name", "where")
         return {name: getattr(self, name) for name in names}
 
     @property

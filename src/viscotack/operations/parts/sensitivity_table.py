@@ -22,13 +22,16 @@ def table_of_sensitivities(found: Sensitivities) -> list[str]:
     lines = []
     if shown := list(found.elasticities):
         first = found.elasticities[shown[0]]
-        names = sorted(first, key=lambda name: -abs(first[name]))
-        wide = max(map(len, names), default=0)
-        heads = "".join(f"{_HEADS[name]:>9}" for name in shown)
-        lines.append(f"  {'d ln y/d ln x at pull-off':<{wide}}{heads[max(25 - wide, 0) :]}")
+        names = sorted(found.inputs, key=lambda name: -abs(first.get(name, 0.0)))
+        title, wide = "d ln y/d ln x at pull-off", max(map(len, names))
+        lines.append(f"  {title:<{wide}}" + "".join(f"{_HEADS[name]:>9}{'':7}" for name in shown))
         for name in names:
-            values = (found.elasticities[y].get(name) for y in shown)
-            row = "".join(f"{'':>9}" if v is None else f"{v:9.3f}" for v in values)
-            lines.append(f"  {name:<{wide}}{row}")
-    lines += [f"  no derivatives: {name}: {why}" for name, why in found.refused.items()]
-    return lines
+            cells = [
+                f"{found.elasticities[y][name]:9.3f} ±{found.errors[y][name]:.3f}"
+                if name in found.elasticities[y]
+                else ""
+                for y in shown
+            ]
+            lines.append(f"  {name:<{max(wide, len(title))}}" + "".join(f"{x:<16}" for x in cells))
+    lines += [f"  no elasticity: {name}: {why}" for name, why in found.refused.items()]
+    return [line.rstrip() for line in lines]

@@ -99,10 +99,8 @@ class ShiftLaw(Part):
             return WLF(reference_temperature=self.reference_temperature, c1=c1, c2=c2)
         if self.shift_file is not None:
             from viscotack.lab import read_shifts
-            from viscotack.lab.apart import limited
 
-            with limited() as call:
-                return call(read_shifts, self.shift_file)
+            return read_shifts(self.shift_file)
         return None
 
     def referred(self) -> Any:

@@ -1,4 +1,4 @@
-"""A contact behind a drive whose motion is decided while it goes, for closed loops."""
+"""A simulation that its caller advances piece by piece, for closed loops."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 
 
-class LiveContact:
+class SteppedSimulation:
     """A contact at its relaxed start, moved by a drive in pieces of constant speed.
 
     All is dimensionless, as in a result. The equations and steps are those of a history
