@@ -122,11 +122,9 @@ audit: $(VENV)/.installed
 	$(INSTALL) "pip-audit>=2.7"
 	$(BIN)/pip-audit --disable-pip --no-deps --require-hashes --requirement requirements/dev.txt
 
-# The site in out/site, from every page, docstring and example, with the page that predicts without Python, whose
-# runtime npm fetches; a warning and a broken link are errors. Four minutes.
+# The site in out/site, from every page, docstring and example; a warning and a broken link are errors. Four minutes.
 docs: $(VENV)/.demo
 	$(INSTALL) --editable ".[docs]"
-	$(BIN)/python -m release.static_page out/extra/predict
 	$(BIN)/python -m sphinx -q -W --keep-going -b html -c docs -d out/site-cache . out/site
 	$(BIN)/python -m release.links out/site
 

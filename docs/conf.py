@@ -88,8 +88,7 @@ else:
 html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
 html_title = "viscotack"
-# The page that predicts without Python, where `make docs` has written it.
-html_extra_path = ["site", *(str(p) for p in [ROOT / "out/extra"] if p.exists())]
+html_extra_path = ["site"]
 html_copy_source = False
 html_favicon = str(ROOT / "src/viscotack/app/page/icon.svg")
 html_context = {"default_mode": "auto"}

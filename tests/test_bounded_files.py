@@ -210,13 +210,6 @@ def test_a_damaged_header_of_an_array_is_refused():
         read_arrays(packed, lambda name: True)
 
 
-def test_a_record_nested_without_end_is_refused(tmp_path):
-    file = tmp_path / "deep.json"
-    file.write_text('{"parameters": ' + "[" * 100_000)
-    with pytest.raises(InputError, match="is not a record of a GeneralizedMaxwell"):
-        ask("material convert", source=file, code="rheojax")
-
-
 def forged(folder, content):
     """Write a Parquet file; return it with the hash that a forged ledger has."""
     file = folder / "cases.parquet"

@@ -1,4 +1,4 @@
-"""Tests of force tables, the controller of a release, its simulated rig, and C, FMU and Octave."""
+"""Tests of force tables, the controller of a release, its simulated rig, C and FMU."""
 
 import ctypes
 import json
@@ -25,7 +25,6 @@ from viscotack.control import (
     fmu,
     force_table,
     let_go,
-    octave_function,
 )
 from viscotack.control.table import checked
 from viscotack.errors import InputError, OutOfRange
@@ -166,7 +165,6 @@ def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
         (lambda t: Release(t, 4e-3, 0.0, 1e-3), "stiffness must be positive"),
         (lambda t: Release(t, 4e-3, 9.0, inf), "period must be finite"),
         (lambda t: c_header(t, "two words"), "name of a function"),
-        (lambda t: octave_function(t, "1st"), "name of a function"),
         (lambda t: fmu(t, compiler="no-such-compiler"), "needs a C compiler"),
         (lambda t: let_go(at(1e-4, stiffness=9.0), Release(t, 4e-3, 9.0, 1e-3)), "leave out"),
         (lambda t: checked(replace(t, share=t.share[::-1])), "ascending"),
@@ -203,8 +201,8 @@ def test_every_door_answers_alike(tmp_path, monkeypatch):
 
 def test_the_command_writes_all_and_lets_go(tmp_path):
     flags = [x for name, value in SMALL.items() for x in (f"--{name}", str(value))]
-    names = ("contact.h", "contact.m", "speeds.csv", "ticks.csv", "control.png")
-    kinds = ("c", "octave", "csv", "ticks", "plot")
+    names = ("contact.h", "speeds.csv", "ticks.csv", "control.png")
+    kinds = ("c", "csv", "ticks", "plot")
     for kind, name in zip(kinds, names, strict=True):
         flags += [f"--{kind}", str(tmp_path / name)]
     flags += ["--wanted", "4.8 mN", "--stiffness", "300 N/m", "--json"]
@@ -216,7 +214,7 @@ def test_the_command_writes_all_and_lets_go(tmp_path):
     assert min(sizes.values()) > 200 and sizes["control.png"] > 10_000
 
 
-# Other readers of the table: a C compiler, a tool for FMUs, Octave
+# Other readers of the table: a C compiler, a tool for FMUs
 
 
 def points(table):

@@ -1,13 +1,11 @@
 """Prony series to and from other programs: each convention, both ways."""
 
-import json
-
 import numpy as np
 import pytest
 from scipy.constants import gas_constant
 
 from viscotack.materials import Prony
-from viscotack.materials.exchange import CODES, COMPRESSIBLE, SI, Units, exported, imported
+from viscotack.materials.exchange import CODES, SI, Units, exported, imported
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 
 SOLID = Prony(
@@ -25,29 +23,21 @@ LOST = 1e-15 / SOLID.modulus_ratio
 @pytest.mark.parametrize("nu", [0.3, 0.47, 0.5])
 def test_a_series_comes_back_as_it_went(code, units, nu):
     solid = Prony(rubbery_modulus=SOLID.rubbery_modulus, branches=SOLID.branches, poisson_ratio=nu)
-    if code in ("rheojax", "reptate") and units != SI or code == "pyvisco" and units.time != "s":
-        with pytest.raises(ValueError, match="uses"):
-            exported(solid, code, units=units)
-        return
-    bulk = 2e9 if nu == 0.5 and code in COMPRESSIBLE else None
+    bulk = 2e9 if nu == 0.5 else None
     text = exported(solid, code, units=units, notes=("a name", "two\nlines"), bulk_modulus=bulk)
-    back = imported(text, code, **({"poisson_ratio": nu} if code == "pyvisco" else {}))
-    # the columns of Radioss hold 13 digits
-    allowed = 1e-12 if code == "radioss" else 2 * LOST
+    back = imported(text, code)
     assert back.poisson_ratio == nu
-    assert back.rubbery_modulus == pytest.approx(solid.rubbery_modulus, rel=allowed, abs=0)
-    np.testing.assert_allclose(back.branches, solid.branches, rtol=allowed)
+    assert back.rubbery_modulus == pytest.approx(solid.rubbery_modulus, rel=2 * LOST, abs=0)
+    np.testing.assert_allclose(back.branches, solid.branches, rtol=2 * LOST)
 
 
-@pytest.mark.parametrize("code", ["comsol", "tamaas"])
-def test_absolute_moduli_lose_nothing(code):
-    back = imported(exported(SOLID, code), code)
+def test_absolute_moduli_lose_nothing():
+    back = imported(exported(SOLID, "comsol"), "comsol")
     assert back.rubbery_modulus == SOLID.rubbery_modulus
     np.testing.assert_allclose(back.branches, SOLID.branches, rtol=4e-16)
 
 
 ONE = Prony(rubbery_modulus=1e6, branches=[(3e6, 0.5)], poisson_ratio=0.25)
-G = 3e6 / 2.5
 
 
 @pytest.mark.parametrize(
@@ -58,10 +48,6 @@ G = 3e6 / 2.5
                    "TBDATA,1,0.75,0.5", "TB,PRONY,1,1,1,BULK"]),
         ("comsol", ["% linear elastic material: long-term Young's modulus 1000000.0",
                     "1 1200000.0 0.5"]),
-        ("radioss", ["/VISC/PRONY/1", f"{1:10d}{'':10}{0.0:20.12E}{0:10d}{0:10d}",
-                     f"{G:20.12E}{2.0:20.12E}{3e6 / 1.5:20.12E}{2.0:20.12E}"]),
-        ("tamaas", ["model.E = 1000000.0", "model.nu = 0.25", "shear_moduli = [1200000.0]",
-                    "characteristic_times = [0.5]"]),
     ],
 )  # fmt: skip
 def test_each_convention_by_hand(code, lines):
@@ -142,23 +128,11 @@ def read_ansys(text):
     return E / 2 / (1 + nu), E / 3 / (1 - 2 * nu), g, k, tau, shift
 
 
-def read_radioss(text):
-    """Return G(0), K(0), parts of shear and bulk, tau; the elastic material is in a comment."""
-    lines = text.splitlines()
-    E, nu = (float(w) for w in next(x for x in lines if "material law:" in x).split(":")[1].split())
-    rows = [x for x in lines[lines.index("/VISC/PRONY/1") :] if x[0] not in "#/"][1:]
-    G_i, beta, K_i, beta_k = np.array([[float(w) for w in row.split()] for row in rows]).T
-    assert np.all((beta_k == beta) | (K_i == 0))
-    # /VISC/PRONY adds to the stress of the elastic law
-    G, K = E / 2 / (1 + nu) + G_i.sum(), E / 3 / (1 - 2 * nu) + K_i.sum()
-    return G, K, G_i / G, K_i / K, 1 / beta, {}
-
-
 def pulled(card, time):
     """Return axial stress of one element pulled at once to a strain of 1 and held, over time [s].
 
     Free at its sides. Marched: in each step the branches decay exactly and the sideways strain is
-    that of no sideways stress, with the recursion of the three programs' manuals, in which a branch
+    that of no sideways stress, with the recursion of the two programs' manuals, in which a branch
     takes (1 - exp(-dt/tau)) tau/dt of an increment of strain.
     """
     G, K, g, k, tau, _ = card
@@ -185,7 +159,7 @@ def pulled(card, time):
     return np.array(stress)
 
 
-READERS = {"abaqus": read_abaqus, "ansys": read_ansys, "radioss": read_radioss}
+READERS = {"abaqus": read_abaqus, "ansys": read_ansys}
 TIMES = np.concatenate(([0.0], np.geomspace(1e-7, 1e3, 400)))
 
 
@@ -217,9 +191,6 @@ def test_an_incompressible_solid_needs_a_bulk_modulus_and_relaxes_with_it(code):
 def test_a_bulk_modulus_is_refused_where_it_has_no_place():
     with pytest.raises(ValueError, match="applies only to a Poisson ratio of 0.5"):
         exported(SOLID, "abaqus", bulk_modulus=2e9)
-    with pytest.raises(ValueError, match="applies only to a Poisson ratio of 0.5"):
-        exported(Prony(rubbery_modulus=1e6, branches=[(1e6, 1)], poisson_ratio=0.5), "tamaas",
-                 bulk_modulus=2e9)  # fmt: skip
 
 
 def test_shift_laws_go_along():
@@ -244,34 +215,7 @@ def test_shift_laws_go_along():
     assert "has no temperature shift" in exported(SOLID, "comsol", shift=law)
 
 
-def test_python_programs_get_the_moduli_that_they_count_with():
-    time, G = np.geomspace(1e-7, 1e3, 50), 1 / 2 / (1 + SOLID.poisson_ratio)
-    record = json.loads(exported(SOLID, "rheojax"))
-    values = {name: each["value"] for name, each in record["parameters"].items()}
-    assert record["class"] == "GeneralizedMaxwell"
-    shear = values["G_inf"] + sum(
-        values[f"G_{i}"] * np.exp(-time / values[f"tau_{i}"]) for i in range(1, 5)
-    )
-    np.testing.assert_allclose(shear, G * SOLID.relaxation(time), rtol=1e-12)
-    for each in record["parameters"].values():
-        assert each["bounds"][0] <= each["value"] <= each["bounds"][1]
-    names, units, *rows = exported(SOLID, "pyvisco", units=Units("MPa", "s")).splitlines()
-    assert (names, units) == ("tau_i,alpha_i,E_0,E_i", "s,-,MPa,MPa")
-    tau, alpha, E_0, E_i = np.array([[float(w) for w in row.split(",")] for row in rows]).T
-    relaxing = E_0[0] * (1 - alpha.sum() + np.exp(-time[:, None] / tau) @ alpha)
-    np.testing.assert_allclose(1e6 * relaxing, SOLID.relaxation(time), rtol=1e-12)
-    np.testing.assert_allclose(E_i, E_0 * alpha, rtol=1e-14)
-    lines = [x for x in exported(SOLID, "reptate").splitlines() if x and x[0] != "#"]
-    modes = np.array([[float(w) for w in x.split()] for x in lines[1:]])
-    assert int(lines[0]) == len(modes) == 5
-    shear = np.exp(-time[:, None] / modes[:, 1]) @ modes[:, 2]
-    # the plateau flows in 4e5 s: 0.24 % less of it after 1000 s
-    np.testing.assert_allclose(shear, G * SOLID.relaxation(time), rtol=2.5e-3)
-
-
-UNITS, ANSYS, COMSOL, HASH = (
-    f"{mark} units: pressure Pa, time s\n" for mark in ("**", "!", "%", "#")
-)
+UNITS, ANSYS, COMSOL = (f"{mark} units: pressure Pa, time s\n" for mark in ("**", "!", "%"))
 
 
 @pytest.mark.parametrize(
@@ -291,18 +235,7 @@ UNITS, ANSYS, COMSOL, HASH = (
         ("ansys", ANSYS + "MP,EX,1,1\nMP,NUXY,1,.5\nTB,PRONY,1,,1,SHEAR\n"
          "TBDATA,1,.5\n", "TB states 1 pairs, but 1 numbers follow"),
         ("comsol", COMSOL + "1 2 3\n", "lacks the long-term"),
-        ("radioss", HASH + "/VISC/PRONY/1\n         1\n", "give both"),
-        ("tamaas", HASH + "model.E = 1\n", "model.nu and shear_moduli"),
-        ("tamaas", HASH + "model.E = open('x')\n", "must be plain numbers"),
         ("nastran", "", "must be one of abaqus"),
-        ("rheojax", "{}", "not a record of a GeneralizedMaxwell"),
-        ("rheojax", '{"parameters": {"G_inf": {"value": 1}}}', "lacks the Poisson ratio"),
-        ("rheojax", '{"parameters": {"tau_1": {"value": 1}}, "poisson_ratio": 0.5}',
-         "the record lacks G_1"),
-        ("pyvisco", "tau_i,alpha_i,E_0\ns,-,Pa\n", "lacks the Poisson ratio"),
-        ("reptate", "1\n1 2 3\n", "lack the Poisson ratio"),
-        ("reptate", exported(SOLID, "reptate").replace("\n5\n", "\n4\n"),
-         "states 4 modes, but 5 follow"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_understood_is_refused_with_its_line(code, text, words):
@@ -324,8 +257,7 @@ def test_cut_or_scrambled_text_never_crashes(code):
 
 
 def _read_or_refuse(text, code):
-    also = {"poisson_ratio": 0.47} if code == "pyvisco" else {}
     try:
-        assert isinstance(imported(text, code, **also), Prony)
+        assert isinstance(imported(text, code), Prony)
     except ValueError as error:
         assert str(error)

@@ -79,7 +79,7 @@ def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, mon
 
 def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
     def given(frequencies):
-        options = {"passport": "pdms-10-1", "to": "tamaas", "frequencies": frequencies}
+        options = {"passport": "pdms-10-1", "to": "abaqus", "frequencies": frequencies}
         return take(operation("material export"), options, Here())
 
     said, meant = given("1 Hz,10 rad/s"), given([2 * np.pi, 10])

@@ -23,7 +23,6 @@ from viscotack.surfaces import (
     roughness,
     self_affine,
     sphere,
-    write_map,
 )
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "rough"
@@ -196,10 +195,10 @@ def test_a_map_that_is_too_coarse_is_refused_unless_forced(small):
     assert "pixels" in answer.notes[0]
 
 
-def test_maps_are_written_and_read_alike(tmp_path):
+def test_maps_are_read_with_their_digits(tmp_path):
     surface = self_affine(16, 1e-6, hurst=0.5, rms_height=1e-7, seed=1)
     path = tmp_path / "map.npy"
-    write_map(surface, path)
+    np.save(path, surface.heights)
     again = read_map(path, pixel=1e-6, periodic=True)
     assert np.array_equal(again.heights, surface.heights)
     text = tmp_path / "map.txt"

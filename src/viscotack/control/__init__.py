@@ -1,10 +1,10 @@
-"""Control of a release: force tables, a controller, a simulated rig, and C, FMU and Octave."""
+"""Control of a release: force tables, a controller, a simulated rig, C and FMU."""
 
 from .making import force_table
 from .release import Release
 from .rig import Released, let_go
 from .table import ForceTable
-from .writing import c_header, fmu, octave_function
+from .writing import c_header, fmu
 
 __all__ = [
     "ForceTable",
@@ -14,5 +14,4 @@ __all__ = [
     "fmu",
     "force_table",
     "let_go",
-    "octave_function",
 ]

@@ -1,4 +1,4 @@
-"""A force table as C source, as a function for Octave and MATLAB, and as an FMU."""
+"""A force table as C source and as an FMU."""
 
 from __future__ import annotations
 
@@ -61,27 +61,7 @@ def c_header(table: ForceTable, name: str = "contact") -> str:
     InputError
         If the prefix is no name in C.
     """
-    return _filled("force_table.h", table, name, rows="{%s}", ends=("", ""))
-
-
-def octave_function(table: ForceTable, name: str = "contact") -> str:
-    """Return a function of Octave and MATLAB: force, slope and pull-off force.
-
-    The file must have the name of the function, `name`.m.
-
-    Parameters
-    ----------
-    table : ForceTable
-        The contact.
-    name : str
-        Name of the function, a name in C of at most 31 characters.
-
-    Raises
-    ------
-    InputError
-        If `name` is not a name in C.
-    """
-    return _filled("force_table.m", table, name, rows="%s", ends=("; ...\n", " ...\n"))
+    return _filled(table, name)
 
 
 def fmu(table: ForceTable, name: str = "contact", *, compiler: str | None = None) -> bytes:
@@ -137,24 +117,23 @@ def _code(name: str) -> str:
     return (files(__package__ or "") / "code" / name).read_text(encoding="utf-8")
 
 
-def _filled(file: str, table: ForceTable, name: str, *, rows: str, ends: tuple[str, str]) -> str:
-    """Return a template with the numbers of a table, 17 digits each."""
+def _filled(table: ForceTable, name: str) -> str:
+    """Return the header with the numbers of a table, 17 digits each."""
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,30}", name):
         raise InputError(
             f"{name!r:.40} cannot be the name of a function: take letters, digits and _, a letter "
             "first, at most 31"
         )
-    row_end, line_end = ends
 
     def line(values: Array) -> str:
-        return f",{line_end or chr(10)}    ".join(
+        return ",\n    ".join(
             ", ".join(f"{x:.17g}" for x in values[i : i + 4]) for i in range(0, len(values), 4)
         )
 
     def lines(values: Array) -> str:
-        return f"{row_end or ',' + chr(10)}    ".join(rows % line(each) for each in values)
+        return ",\n    ".join(f"{{{line(each)}}}" for each in values)
 
-    return Template(_code(file)).substitute(
+    return Template(_code("force_table.h")).substitute(
         name=name,
         guard=name.upper(),
         version=__version__,

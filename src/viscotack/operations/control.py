@@ -27,9 +27,8 @@ class Control(Operation):
     """Tabulate the force by depth and speed for a controller, and release at a wanted force.
 
     Simulates the retraction at as many speeds as the interpolation needs, and writes the table as
-    C, as a function of Octave and MATLAB, or as an FMU. With --wanted a controller that reads force
-    and drive moves the drive of a simulated rig, behind its spring, so that the contact detaches at
-    this force.
+    C or as an FMU. With --wanted a controller that reads force and drive moves the drive of a
+    simulated rig, behind its spring, so that the contact detaches at this force.
 
     Example: viscotack control lens.toml --slowest "1 um/s" --fastest "1 mm/s" --c contact.h
     --wanted "5 mN" --stiffness "300 N/m"
@@ -39,9 +38,6 @@ class Control(Operation):
     outputs: ClassVar = (
         Output(
             "c", "Write force, pull-off force and controller as a header of C99.", endings=(".h",)
-        ),
-        Output(
-            "octave", "Write a function of Octave and MATLAB; the file is NAME.m.", endings=(".m",)
         ),
         Output(
             "fmu",
@@ -108,7 +104,7 @@ class Control(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Tabulate, telling ``share``; release on the simulated rig if a force is wanted."""
-        from viscotack.control import Release, c_header, fmu, force_table, let_go, octave_function
+        from viscotack.control import Release, c_header, fmu, force_table, let_go
         from viscotack.files.whole import write_whole
         from viscotack.pictures.control import draw_control
 
@@ -140,7 +136,6 @@ class Control(Operation):
         speed = None if release is None else release.speed
         files = {
             "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
-            "octave": lambda to: write_whole(to, octave_function(table, self.name).encode()),
             "fmu": lambda to: write_whole(to, fmu(table, self.name)),
             "csv": rows_as_csv(_rows(table)),
         }

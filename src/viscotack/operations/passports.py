@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from viscotack.materials.conversion import PronyForm
 
 # Programs whose input is written and read.
-_CODES = ("abaqus", "ansys", "comsol", "radioss", "tamaas", "rheojax", "pyvisco", "reptate")
+_CODES = ("abaqus", "ansys", "comsol")
 # Of these the input states modulus and Poisson ratio.
-_STATING = ("abaqus", "ansys", "tamaas")
+_STATING = ("abaqus", "ansys")
 _OUTPUT = Output(
     "output",
     "Write to this file; - is standard output.",

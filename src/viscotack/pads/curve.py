@@ -60,11 +60,6 @@ class Curve:
         return max(-float(self.force.min()), 0.0)
 
     @property
-    def position_at_pull_off(self) -> float:
-        """Position at the largest tension [m]."""
-        return float(self.position[int(np.argmin(self.force))])
-
-    @property
     def work(self) -> float:
         """Work of the drive from the last zero of the force in tension to the end [J]."""
         compressed = np.flatnonzero(self.force[: int(np.argmin(self.force))] > 0)

@@ -135,9 +135,6 @@ class PosedContact:
     radius: float
 
 
-_Both = tuple[PosedContact, PosedContact]
-
-
 def _parts(
     posed: tuple[PosedContact, PosedContact], test: Retraction, settings: Settings
 ) -> tuple[Part, Part]:

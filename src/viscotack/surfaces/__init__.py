@@ -3,7 +3,7 @@
 from .asperities import Asperities, drawn_asperities, summits
 from .generated import bumps, pillars, self_affine, sphere
 from .heights import HeightMap
-from .map_file import read_map, write_map
+from .map_file import read_map
 from .statistics import Roughness, roughness
 
 __all__ = [
@@ -18,5 +18,4 @@ __all__ = [
     "self_affine",
     "sphere",
     "summits",
-    "write_map",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import os
 import re
@@ -15,7 +14,6 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.bounded import open_regular, read_bytes
-from viscotack.files.whole import Target, write_whole
 from viscotack.units import parse, readable
 
 from .heights import MOST, HeightMap
@@ -146,13 +144,6 @@ def _doubts(found: HeightMap) -> tuple[str, ...]:
         f"check: the map has sides of {readable(side, 'm')} and an rms height of "
         f"{readable(rms, 'm')}; check the units of pixel and heights",
     )
-
-
-def write_map(surface: HeightMap, target: Target) -> None:
-    """Write the heights [m] of a map as an array (.npy), whole or not at all."""
-    held = io.BytesIO()
-    np.save(held, surface.heights, allow_pickle=False)
-    write_whole(target, held.getvalue())
 
 
 def _array(path: Path) -> npt.NDArray:

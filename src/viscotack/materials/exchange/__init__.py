@@ -1,22 +1,19 @@
 r"""Export and import of Prony series for other programs, each with its own convention.
 
-The conventions differ in four points:
+The conventions differ in three points:
+
+==========  ==============================  ==========================  =====================
 program     modulus of the elastic part     strength of a branch        rate of a branch
 ==========  ==============================  ==========================  =====================
 abaqus      long-term E (stated so)         g_i = G_i/G(0), k_i alike   relaxation time
 ansys       instantaneous E                 alpha_i = G_i/G(0)          relaxation time
 comsol      long-term E                     G_m [Pa]                    relaxation time
-radioss     long-term E (of the /MAT)       G_i, K_i [pressure]         decay 1/(relax. time)
-tamaas      long-term E                     shear modulus G_i           relaxation time
-rheojax     long-term G_inf                 shear modulus G_i [Pa]      relaxation time
-pyvisco     instantaneous E_0               alpha_i = E_i/E_0           relaxation time
-reptate     none: a mode 1e4 times slower   shear modulus G_i [Pa]      relaxation time
 ==========  ==============================  ==========================  =====================
 
 The Poisson ratio is constant here, so shear and bulk relax with the same ratios. If a program has a
-bulk series, it is exported as well; an imported file with a different bulk series is rejected. A
-Poisson ratio of 0.5 is exported with a bulk modulus that does not relax if the program forbids
-0.5.
+bulk series, it is exported as well; an imported file with a different bulk series is rejected. All
+three reject a Poisson ratio of 0.5, or divide by zero: such a solid is exported with a bulk modulus
+that does not relax.
 """
 
 from viscotack.errors import InputError
@@ -26,11 +23,6 @@ from viscotack.materials.exchange import (
     abaqus,
     ansys,
     comsol,
-    pyvisco,
-    radioss,
-    reptate,
-    rheojax,
-    tamaas,
 )
 from viscotack.materials.exchange.units import SI, Card, Units
 from viscotack.materials.shift import Shift
@@ -39,14 +31,7 @@ CODES = {
     "abaqus": abaqus,
     "ansys": ansys,
     "comsol": comsol,
-    "radioss": radioss,
-    "tamaas": tamaas,
-    "rheojax": rheojax,
-    "pyvisco": pyvisco,
-    "reptate": reptate,
 }
-# Programs that reject a Poisson ratio of 0.5, or divide by zero.
-COMPRESSIBLE = ("abaqus", "ansys", "comsol", "radioss")
 _SHIFTED = ("abaqus", "ansys")
 
 __all__ = ["CODES", "SI", "Units", "exported", "imported"]
@@ -68,14 +53,14 @@ def exported(
     material : Prony
         The solid; for a power law use :func:`viscotack.materials.conversion.prony_form` first.
     code : str
-        "abaqus", "ansys", "comsol", "radioss", "tamaas", "rheojax", "pyvisco" or "reptate".
+        "abaqus", "ansys" or "comsol".
     units : Units
         Units of the numbers, stated in the first lines of the text.
     notes : tuple of str
         Comments at the beginning of the text: name, temperature, error of the series.
     bulk_modulus : float, optional
-        Bulk modulus [Pa], constant in time, for a solid with a Poisson ratio of 0.5 and a program
-        that forbids this ratio. About 2e9 for rubber.
+        Bulk modulus [Pa], constant in time, for a solid with a Poisson ratio of 0.5, which the
+        programs forbid. About 2e9 for rubber.
     shift : WLF, Arrhenius or TabulatedShift, optional
         Temperature dependence of the times, relative to the temperature of the material; exported
         for Abaqus (``*TRS``) and Ansys (``TB,SHIFT``), mentioned in a comment for the others.
@@ -83,15 +68,13 @@ def exported(
     Raises
     ------
     ValueError
-        If the program forbids a Poisson ratio of 0.5 and no bulk modulus is given, or one is given
-        without need.
+        If the Poisson ratio is 0.5 and no bulk modulus is given, or one is given without need.
 
     Notes
     -----
-    Numbers have 17 digits (Radioss: 13, because of its narrow columns), so importing them gives
-    the same series to round-off. For ratios to the instantaneous modulus, the
-    small difference 1 - sum(g) is the modulus ratio k: a rounding error of the ratios is amplified
-    by 1/k in the long-term modulus. Do not round them by hand.
+    Numbers have 17 digits, so importing them gives the same series to round-off. For ratios to the
+    instantaneous modulus, the small difference 1 - sum(g) is the modulus ratio k: a rounding error
+    of the ratios is amplified by 1/k in the long-term modulus. Do not round them by hand.
 
     Examples
     --------
@@ -108,10 +91,10 @@ def exported(
     module = _module(code)
     incompressible = material.poisson_ratio == 0.5
     if bulk_modulus is not None:
-        if not incompressible or code not in COMPRESSIBLE:
+        if not incompressible:
             raise InputError(
-                "bulk_modulus applies only to a Poisson ratio of 0.5 and a program that forbids it "
-                f"({', '.join(COMPRESSIBLE)}), got {material.poisson_ratio:g} and {code}"
+                "bulk_modulus applies only to a Poisson ratio of 0.5, got "
+                f"{material.poisson_ratio:g}"
             )
         checks.positive("bulk_modulus", bulk_modulus, "Pa")
         if bulk_modulus < material.glassy_modulus / 3:
@@ -119,7 +102,7 @@ def exported(
                 f"bulk_modulus = {bulk_modulus:g} Pa must exceed the glassy shear modulus, "
                 f"{material.glassy_modulus / 3:g} Pa, for a nearly incompressible solid"
             )
-    elif incompressible and code in COMPRESSIBLE:
+    elif incompressible:
         raise InputError(
             f"{code} forbids a Poisson ratio of 0.5; give the bulk modulus (bulk_modulus=2e9, on "
             'the command line --bulk-modulus "2 GPa", about that of rubber), or use a material '
@@ -143,9 +126,8 @@ def imported(text: str, code: str, *, units: Units | None = None, **also: float)
     units : Units, optional
         Units of the numbers; by default from the comment "units: pressure ..., time ...".
     **also : float
-        Constants that the format lacks: for comsol, radioss and reptate ``rubbery_modulus``
-        (long-term Young's modulus [Pa]) and ``poisson_ratio``, unless a comment of this package
-        states them; for rheojax and pyvisco ``poisson_ratio``.
+        Constants that the format of comsol lacks: ``rubbery_modulus`` (long-term Young's modulus
+        [Pa]) and ``poisson_ratio``, unless a comment of this package states them.
 
     Raises
     ------

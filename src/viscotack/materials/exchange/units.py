@@ -68,7 +68,7 @@ class Card:
     material : Prony
         The series.
     bulk_modulus : float or None
-        Bulk modulus [Pa], constant in time, of an incompressible solid for a program that forbids a
+        Bulk modulus [Pa], constant in time, of an incompressible solid: the programs forbid a
         Poisson ratio of 0.5.
     shift : WLF, Arrhenius, TabulatedShift or None
         Temperature dependence of the times.
@@ -127,14 +127,6 @@ def rows_of(text: str, comment: str) -> Iterator[tuple[int, list[str], str]]:
             yield line, words, raw
 
 
-def refuse_units(program: str, units: Units) -> None:
-    """Raise an error for units other than SI."""
-    if (units.pascal, units.second) != (1.0, 1.0):
-        raise InputError(
-            f"{program} uses Pa and s, got {units.pressure} and {units.time}; omit the units"
-        )
-
-
 def units_of(text: str, units: Units | None) -> Units:
     """Return the given units, or those stated by a comment in the text."""
     if units is not None:
@@ -157,11 +149,6 @@ def head(mark: str, units: Units, notes: tuple[str, ...]) -> list[str]:
 def shear_factor(poisson_ratio: float) -> float:
     """Return G/E = 1/(2 (1 + nu))."""
     return 1 / (2 * (1 + poisson_ratio))
-
-
-def bulk_factor(poisson_ratio: float) -> float:
-    """Return K/E = 1/(3 (1 - 2 nu)); 0 for an incompressible solid, which has no bulk series."""
-    return 0.0 if poisson_ratio == 0.5 else 1 / (3 * (1 - 2 * poisson_ratio))
 
 
 def number(word: str, line: int, what: str) -> float:

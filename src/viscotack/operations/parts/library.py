@@ -8,7 +8,6 @@ from viscotack.cards import Pairs, cards
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_words import in_words
 from viscotack.materials.words import word_of
-from viscotack.units import readable
 
 
 def material_table(material: Any) -> dict[str, Any]:
@@ -32,27 +31,6 @@ def material_table(material: Any) -> dict[str, Any]:
 
 def _said(value: float, unit: str) -> Any:
     return float(value) if unit == "1" else f"{float(value)!r} {unit}"
-
-
-def library_table() -> str:
-    """Return the published materials as a table in Markdown, for the documentation."""
-    lines = [
-        "| name | material | rubbery and glassy Young's modulus | measured | source |",
-        "|---|---|---|---|---|",
-    ]
-    for name in MATERIALS:
-        passport = published(name)
-        solid, low, high = passport.material, *(w / (2 * np.pi) for w in passport.frequencies or ())
-        moduli = readable(solid.rubbery_modulus, "Pa", digits=3)
-        if solid.modulus_ratio < 1:
-            moduli += f", {readable(solid.glassy_modulus, 'Pa', digits=3)}"
-        known = readable(low, "Hz", digits=2, to=high)
-        if passport.temperature is not None:
-            known += f" at {passport.temperature - 273.15:.3g} C"
-        origin = passport.origin
-        source = origin.reference + (f", doi:{origin.doi}" if origin.doi else "")
-        lines.append(f"| `{name}` | {passport.name} | {moduli} | {known} | {source} |")
-    return "\n".join(lines)
 
 
 def library() -> list[dict[str, Any]]:

@@ -8,7 +8,7 @@ sphere of :func:`viscotack.solve`, and its fast limit with the Tabor number of t
 :mod:`viscotack.theory.sphere.bounds`.
 
 Range: computed for 0.01 <= mu <= 10; polynomials in ln mu represent the table with the relative
-errors ``FORCE_ERROR`` and ``WORK_ERROR``. Outside, the limits are continued with their powers of
+errors 1e-4 (force) and 5e-4 (work). Outside, the limits are continued with their powers of
 mu, :math:`\tfrac43 - f \sim \mu^{3/2}` and :math:`f - 1 \sim \mu^{-2} (c + \ln\mu)`, through the
 last value of the table: errors below 1e-3 of the force and 1 % of the work.
 
@@ -27,9 +27,6 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from viscotack.theory._checks import Number, Values, plain, positive
 
 from ._lennard_jones_table import ROWS
-
-FORCE_ERROR = 1e-4
-WORK_ERROR = 5e-4
 
 _TABOR, _FORCE, _WORK = np.array(ROWS).T
 _LOWEST, _HIGHEST = _TABOR[0], _TABOR[-1]
