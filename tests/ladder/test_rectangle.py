@@ -1,17 +1,15 @@
 """Tests of rectangular stamps: bounds on a half-space, estimate on a thin layer."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from scipy import sparse
 
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.operations import ask
 from viscotack.theory.elastic import disc
 from viscotack.theory.punch import laws
-from viscotack.theory.punch.rectangle import bounds, on_layer
+from viscotack.theory.punch.rectangle import bounds, film_stresses, on_layer
 
 BONDED = Bonded(poisson_ratio=0.45)
 SOLID = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
@@ -49,24 +47,6 @@ def test_a_stiffness_of_the_square_from_the_literature_lies_within_that_of_its_e
     assert low < sharper < high
 
 
-@pytest.mark.parametrize("ratio", [1, 2])
-def test_contacts_that_open_cell_by_cell_lie_between_the_bounds(ratio, monkeypatch):
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    sys.modules.pop("rectangle", None)
-    import rectangle
-
-    n, unit = 12, {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
-    x, y = rectangle.cells(n, n)
-    inside = np.hypot(x, y) < n / 2
-    radius = np.sqrt(inside.sum() / np.pi)
-    kendall = disc.pull_off_force(contact_radius=radius, **unit)
-    scale = rectangle.pulled(x[inside], y[inside], 1.0) / kendall
-    assert scale == pytest.approx(1, abs=0.1)
-    low, high = bounds(ratio * n / 2, half_width=n / 2, **unit)
-    found = rectangle.pulled(*rectangle.cells(n, ratio * n), 1.0) / scale
-    assert 1.03 * low < found < high / 1.03
-
-
 def test_on_a_thin_sliding_layer_every_plan_has_the_same_stress():
     low, high = on_layer(3e-4, half_width=1e-4, **SOLID, thickness=1e-6, base=Frictionless())
     stress = laws.thin_layer_pull_off_stress(1e-6, **SOLID, base=Frictionless())
@@ -74,9 +54,40 @@ def test_on_a_thin_sliding_layer_every_plan_has_the_same_stress():
     assert low == pytest.approx(12e-8 * stress, rel=0.01)
 
 
-def test_on_a_bonded_layer_the_estimate_ranges_from_strip_to_disc():
-    low, high = on_layer(3e-4, half_width=1e-4, **SOLID, thickness=2e-5, base=BONDED)
-    assert 1 < high / low < 1.5
+@pytest.mark.parametrize(("a", "decay"), [(1.0, 0.0), (2.0, 2.5)])
+def test_a_bonded_film_is_bounded_by_its_first_opening_and_by_the_energy_of_its_edge(a, decay):
+    """The pressure by finite differences, and the energies that its slopes release."""
+    n, h = 60, 2 / 60
+    m = round(2 * a / h)
+
+    def second(n):
+        return sparse.diags([1.0, -2.0, 1.0], [-1, 0, 1], shape=(n - 1, n - 1)) / h**2
+
+    operator = sparse.kron(second(m), sparse.eye(n - 1)) + sparse.kron(sparse.eye(m - 1), second(n))
+    operator -= decay**2 * sparse.eye((m - 1) * (n - 1))
+    phi = sparse.linalg.spsolve(operator.tocsc(), -np.ones((m - 1) * (n - 1)))
+    phi = phi.reshape(m - 1, n - 1)
+    side, end = (2 * x - y / 2 for x, y in ((phi[:, 0], phi[:, 1]), (phi[0], phi[1])))
+    T, released = np.sum(phi) * h**2, 2 * (np.sum(side**2) + a * np.sum(end**2)) / h
+    low, high = film_stresses(a, half_width=1.0, decay=decay)
+    assert 4 * a * low == pytest.approx(T / side.max() * h, rel=4e-3)
+    assert 4 * a * high == pytest.approx(np.sqrt(8 * a * T**2 / released), rel=4e-3)
+
+
+@pytest.mark.parametrize(("nu", "force"), [(0.5, (0.8327, 1.0605)), (0.3, (0.0431, 0.0433))])
+def test_a_square_on_a_thin_bonded_layer_opens_in_the_middle_of_its_sides(nu, force):
+    t, mu = 0.01, (1 - nu) / 2
+    found = on_layer(
+        1.0,
+        half_width=1.0,
+        contact_modulus=1.0,
+        work_of_adhesion=1.0,
+        thickness=t,
+        base=Bonded(poisson_ratio=nu),
+    )
+    assert np.array(found) / np.sqrt(6 * mu / t**3) == pytest.approx(force, rel=4 * t)
+    with pytest.raises(InputError, match="thicker"):
+        on_layer(1e-4, half_width=1e-4, **SOLID, thickness=2.1e-5, base=BONDED)
 
 
 @pytest.mark.parametrize(
