@@ -96,6 +96,12 @@ def test_held_loads_lie_between_the_elastic_and_the_instantaneous_force(short):
         held_load(replace(problem, traction=replace(LAW, equilibrium_gap=1e-5)), 1.0)
 
 
+def test_a_design_is_possible_if_intervals_of_twice_the_width_leave_it_open():
+    # from -0.30 to -0.09 the doubled interval ends at 0.015, from -0.30 to -0.11 at -0.015
+    possible = [Candidate(CHOICE, {}, {"a": -0.3}, {"a": x}).is_possible for x in (-0.09, -0.11)]
+    assert possible == [True, False]
+
+
 def test_a_simulated_load_falls_after_the_time(fast):
     targets = Targets(dead_load=1e-3, holding_time=10.0)
     one = Judge(targets).judged(CHOICE, fast)
