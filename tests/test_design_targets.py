@@ -89,6 +89,25 @@ def test_held_loads_lie_between_the_elastic_and_the_instantaneous_force(short):
         held_load(replace(problem, traction=replace(LAW, equilibrium_gap=1e-5)), 1.0)
 
 
+def test_margins_take_the_ends_of_intervals_that_are_worse_for_their_target():
+    class Known:
+        def force(self, pad):
+            value = 1.0 if pad.speed == CHOICE.hold_speed else 0.25
+            return Force(value, 0.9 * value, 1.2 * value, "known")
+
+    found = Judge(Targets(hold=1.0, release=1.0, ratio=2.0)).judged(CHOICE, Known())
+    worst = {"hold": log(1.8), "release": -log(0.6), "ratio": log(1.8 / 0.6)}
+    best = {"hold": log(2.4), "release": -log(0.45), "ratio": log(2.4 / 0.45)}
+    assert found.margins == pytest.approx({**worst, "ratio": worst["ratio"] - log(2)})
+    assert found.best_margins == pytest.approx({**best, "ratio": best["ratio"] - log(2)})
+
+
+def test_a_design_is_possible_if_intervals_of_twice_the_width_leave_it_open():
+    # from -0.30 to -0.09 the doubled interval ends at 0.015, from -0.30 to -0.11 at -0.015
+    possible = [Candidate(CHOICE, {}, {"a": -0.3}, {"a": x}).is_possible for x in (-0.09, -0.11)]
+    assert possible == [True, False]
+
+
 def test_a_simulated_load_falls_after_the_time(fast):
     targets = Targets(dead_load=1e-3, holding_time=10.0)
     one = Judge(targets).judged(CHOICE, fast)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.stats import t as student
 
 import tack_files
 from viscotack import (
@@ -76,16 +77,29 @@ def test_without_growth_no_law_is_stated_in_nearly_all_series():
     assert sum(law is not None for law in laws) <= 2
 
 
-def test_the_interval_of_the_growth_covers_the_true_one():
-    times, true = TIMES, 0.1 * np.log(10) * 0.05
-    inside = 0
-    for seed in range(40):
-        found = fitted("old", 0.02, seed, times)
-        middle = float(FORMS["old"](np.exp(np.log(times).mean())))
-        low, high = found.interval
-        inside += low < true / middle < high
-    # 36 are expected
-    assert inside >= 31
+@pytest.mark.parametrize("level", [0.8, 0.9])
+def test_intervals_of_growth_and_reference_time_are_those_of_student(level):
+    t, count = TIMES, TIMES.size
+    F = 1e-3 * (1 + 0.3 * np.log1p(t / 10)) * (1 + 0.08 * np.cos(3 * np.arange(count) ** 2))
+    found = identify_dwell(t, F, radius=RADIUS, level=level)
+
+    def line(shape):
+        """Return b over a of the fit a + b shape, and its relative misfit."""
+        rows = np.column_stack([np.ones(count), shape]) / F[:, None]
+        least, miss = np.linalg.lstsq(rows, np.ones(count))[:2]
+        return least[1] / least[0], float(miss[0])
+
+    x = np.log10(t) - np.log10(t).mean()
+    slope, miss = line(x)
+    # about the geometric mean of the times
+    wide = student.ppf((1 + level) / 2, count - 2) * np.sqrt(miss / (count - 2) / np.sum(x**2))
+    assert found.interval == pytest.approx((slope - wide, slope + wide), rel=1e-3)
+    trial = np.geomspace(0.05, 200, 4000)
+    misfits = np.array([line(np.log1p(t / t0))[1] for t0 in trial])
+    limit = misfits.min() * (1 + student.ppf((1 + level) / 2, count - 3) ** 2 / (count - 3))
+    ends = trial[misfits < limit][[0, -1]]
+    # its points are a twentieth of a decade apart
+    assert np.log10(found.reference_time) == pytest.approx(np.log10(ends), abs=0.06)
 
 
 @pytest.mark.parametrize(

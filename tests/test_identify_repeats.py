@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from viscotack.identify import PullOff, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.forward import Forward
-from viscotack.identify.repeats import pooled
+from viscotack.identify.repeats import _far, pooled
 from viscotack.lab.tack import Measured, survey
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"
@@ -22,6 +22,13 @@ TRUE = Forward(RUBBER, RADIUS).pulled(WORK, GAP, SPEEDS, PRELOAD).force
 def series(values, relative):
     pairs = zip(SPEEDS, values, strict=True)
     return [PullOff(float(v), Measured(float(P), relative * float(P)), PRELOAD) for v, P in pairs]
+
+
+@pytest.mark.parametrize("far", [3.45, 3.55])
+@pytest.mark.parametrize("tests", [3, 6])
+def test_a_test_is_far_by_its_distance_from_the_others_over_what_their_mean_adds(tests, far):
+    logs = np.append(np.zeros(tests - 1), far * 0.02 * np.sqrt(1 + 1 / (tests - 1)))
+    assert _far(logs, 0.02) == ((tests - 1,) if far > 3.5 else ())
 
 
 @pytest.mark.parametrize("tests", [2, 3, 5])

@@ -4,6 +4,7 @@ import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -37,6 +38,17 @@ def test_an_elastic_sphere_has_the_indices_of_a_product():
     # of a normal cut at three deviations
     assert found.deviation == pytest.approx(np.hypot(sR, sw) / np.sqrt(rest), rel=0.02)
     assert found.median == pytest.approx(1.5 * np.pi * 5e-3 * 0.1, rel=0.01)
+
+
+@pytest.mark.parametrize("confidence", [0.9, 0.5])
+def test_without_scatter_the_band_is_that_of_the_tier(confidence):
+    problem = replace(elastic(), traction=vt.LennardJones(0.1, 2e-7))
+    found = vt.uncertainty(problem, {RADIUS: 1e-5}, samples=8, confidence=confidence)
+    low, high = vt.predict(problem).interval
+    share = NormalDist().inv_cdf((1 + confidence) / 2) / NormalDist().inv_cdf(0.95)
+    assert np.log(found.interval[1] / found.interval[0]) == pytest.approx(
+        share * np.log(high / low), rel=0.03
+    )
 
 
 def elastic(work=0.1, modulus=1e6):

@@ -50,7 +50,10 @@ def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(
     expected = NormalDist().cdf(log(1.05) / sqrt(first**2 + second**2))
     assert found.first == pytest.approx(expected, abs=0.015)
     assert found.critical_work == pytest.approx(1.05, rel=5e-3)
-    assert found.interval[0] < found.first < found.interval[1]
+    # both contacts are uncertain by 0.5 % of their table, which may add up
+    deviate, spread = NormalDist().inv_cdf, sqrt(first**2 + second**2)
+    off = [spread * (deviate(x) - deviate(found.first)) for x in found.interval]
+    assert off == pytest.approx([-0.01, 0.01], rel=0.03)
 
 
 def test_a_contact_far_from_the_edge_opens_always_or_never():

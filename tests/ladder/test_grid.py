@@ -22,7 +22,7 @@ from viscotack.protocol import (
 )
 from viscotack.result.observables import work_of_separation
 from viscotack.rough import RoughProblem, pull
-from viscotack.surfaces import HeightMap, self_affine, sphere
+from viscotack.surfaces import HeightMap, bumps, self_affine, sphere
 
 RADIUS, GAP = 5e-3, 1.5e-6
 ALONG = np.sqrt(RADIUS * GAP)
@@ -212,6 +212,27 @@ def test_stated_errors_hold_against_a_better_accuracy():
     assert away < stated(found, "force") < 0.03
     away = abs(found.work_of_separation / better.work_of_separation - 1)
     assert away < stated(found, "work") < 0.06
+
+
+def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
+    pixel, side = 4.35e-6, 4.35e-6 * 64
+
+    def pulled(count, **how):
+        one = bumps(count, side / count, radius=63.2e-6, spacing=side / 2, height=6.6e-6)
+        rolled = np.roll(one.heights, (count // 4, count // 4), (0, 1))
+        problem = RoughProblem(
+            surface=replace(one, heights=rolled),
+            material=Elastic(rubbery_modulus=0.75 * 4.15e6, poisson_ratio=0.5),
+            traction=vt.LennardJones(0.1, 0.483e-6),
+            protocol=Retraction(start=AtForce(3.8e-5), speed=1e-6),
+        )
+        return pull(problem, **how)
+
+    found, fine = pulled(64), pulled(128, estimate_error=False)
+    at = found.at_pull_off
+    assert (found.patches[at], found.area[at]) == (4, pytest.approx(16 * pixel**2))
+    off = abs(found.pull_off_force / fine.pull_off_force - 1)
+    assert 0.15 < off < stated(found, "force") < 1.2 * off
 
 
 def test_maps_are_of_the_instants_that_they_name():

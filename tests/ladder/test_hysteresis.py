@@ -1,8 +1,12 @@
 """Hysteresis on the ladder: what a loop has lost, in which state it closed, and its error."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from viscotack.bem import loop_error
+from viscotack.bem.loop_error import hysteresis_errors
 from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import crack_contact, solve
@@ -116,6 +120,22 @@ def test_errors_of_cycles_cover_the_true_values_and_are_kept_in_a_file(tmp_path)
     assert cycle_rows(load(tmp_path / "run.npz")) == rows
     first = rows[0]
     assert first["loop"] == "apart" and first["hysteresis_error"] == found[0].hysteresis_error
+
+
+def test_the_error_of_a_cycle_is_what_the_companion_misses_over_how_much_coarser_it_is(monkeypatch):
+    """A companion three times as coarse, whose error is that of the run and twice as much more."""
+    cycle = SimpleNamespace(first=0, last=1)
+    zero, lost = np.zeros(2), {"run": 10.0, "coarse": 10.4}
+    names = ("elastic", "interface", "spring", "heat", "interface_heat", "drive", "jumps")
+    books = SimpleNamespace(**dict.fromkeys(names, zero), transfer=np.array([0.0, -0.6]))
+    run = SimpleNamespace(name="run", energy=books)
+    coarse = SimpleNamespace(name="coarse", outcome=None)
+    monkeypatch.setattr(loop_error, "spans", lambda result: [cycle])
+    monkeypatch.setattr(loop_error, "loop_of", lambda result, span: Loop.CLOSED)
+    monkeypatch.setattr(loop_error, "lost_in", lambda result, span, loop: lost[result.name])
+    # 1.5 times half of the difference; 0.6 missing, of which the meshes took all; 0.15 of 1 %
+    expected = (1.5 * 0.4 / 2 + 0.6 + 0.5 * 0.6 + 0.15 * 0.01 * 10) / 10
+    assert hysteresis_errors(run, coarse, 0.01, 3.0) == pytest.approx((expected,))
 
 
 def test_a_contact_with_a_steady_crack_has_the_same_hysteresis():

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy import sparse
 
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.theory.elastic import disc
 from viscotack.theory.punch import laws
-from viscotack.theory.punch.rectangle import bounds, on_layer
+from viscotack.theory.punch.rectangle import bounds, film_stresses, on_layer
 
 BONDED = Bonded(poisson_ratio=0.45)
 SOLID = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
@@ -94,9 +95,40 @@ def test_on_a_thin_sliding_layer_every_plan_has_the_same_stress():
     assert low == pytest.approx(12e-8 * stress, rel=0.01)
 
 
-def test_on_a_bonded_layer_the_estimate_ranges_from_strip_to_disc():
-    low, high = on_layer(3e-4, half_width=1e-4, **SOLID, thickness=2e-5, base=BONDED)
-    assert 1 < high / low < 1.5
+@pytest.mark.parametrize(("a", "decay"), [(1.0, 0.0), (2.0, 2.5)])
+def test_a_bonded_film_is_bounded_by_its_first_opening_and_by_the_energy_of_its_edge(a, decay):
+    """The pressure by finite differences, and the energies that its slopes release."""
+    n, h = 60, 2 / 60
+    m = round(2 * a / h)
+
+    def second(n):
+        return sparse.diags([1.0, -2.0, 1.0], [-1, 0, 1], shape=(n - 1, n - 1)) / h**2
+
+    operator = sparse.kron(second(m), sparse.eye(n - 1)) + sparse.kron(sparse.eye(m - 1), second(n))
+    operator -= decay**2 * sparse.eye((m - 1) * (n - 1))
+    phi = sparse.linalg.spsolve(operator.tocsc(), -np.ones((m - 1) * (n - 1)))
+    phi = phi.reshape(m - 1, n - 1)
+    side, end = (2 * x - y / 2 for x, y in ((phi[:, 0], phi[:, 1]), (phi[0], phi[1])))
+    T, released = np.sum(phi) * h**2, 2 * (np.sum(side**2) + a * np.sum(end**2)) / h
+    low, high = film_stresses(a, half_width=1.0, decay=decay)
+    assert 4 * a * low == pytest.approx(T / side.max() * h, rel=4e-3)
+    assert 4 * a * high == pytest.approx(np.sqrt(8 * a * T**2 / released), rel=4e-3)
+
+
+@pytest.mark.parametrize(("nu", "force"), [(0.5, (0.8327, 1.0605)), (0.3, (0.0431, 0.0433))])
+def test_a_square_on_a_thin_bonded_layer_opens_in_the_middle_of_its_sides(nu, force):
+    t, mu = 0.01, (1 - nu) / 2
+    found = on_layer(
+        1.0,
+        half_width=1.0,
+        contact_modulus=1.0,
+        work_of_adhesion=1.0,
+        thickness=t,
+        base=Bonded(poisson_ratio=nu),
+    )
+    assert np.array(found) / np.sqrt(6 * mu / t**3) == pytest.approx(force, rel=4 * t)
+    with pytest.raises(InputError, match="thicker"):
+        on_layer(1e-4, half_width=1e-4, **SOLID, thickness=2.1e-5, base=BONDED)
 
 
 def test_a_layer_thicker_than_half_the_width_is_refused():

@@ -112,6 +112,20 @@ def test_neighbours_are_refused_unless_forced():
     assert not superposed(given, force_outside=True).inside
 
 
+@pytest.mark.parametrize(("modulus", "is_flattened"), [(0.885e6, True), (4.4e6, False)])
+def test_a_map_that_adhesion_flattens_is_refused_unless_forced(modulus, is_flattened):
+    """The grid starts in full contact at the lower modulus, and holds 7.0 mN instead of 0.43."""
+    law = vt.LennardJones(work_of_adhesion=0.1, equilibrium_gap=0.5e-6)
+    solid = vt.Elastic(rubbery_modulus=modulus, poisson_ratio=0.5)
+    given = problem(bumps(96, 4.1e-6, radius=38.4e-6, spacing=131.2e-6, height=5.73e-6), solid, law)
+    found = superposed(given, force_outside=True)
+    assert found.share < 0.15 and found.inside is not is_flattened
+    assert found.full_contact == pytest.approx(0.24869 * modulus / 0.885e6, rel=1e-3)
+    if is_flattened:
+        with pytest.raises(InputError, match="full contact"):
+            superposed(given)
+
+
 def test_other_problems_are_refused():
     surface = four_bumps()
     common = {"surface": surface, "material": ELASTIC, "traction": LAW}

@@ -14,7 +14,9 @@ together, are left out. The measure
 .. math:: s = \frac{1}{A} \sum_i \pi \Big(a_i + \sqrt{2 R_i h_0}\Big)^2
 
 is the share of the surface that the contacts at the start (radius a by JKR) and the surroundings of
-all that touch cover.
+all that touch cover. Where the energy of full contact of a map is below the work of adhesion
+(:mod:`viscotack.rough.criteria`), contacts may spread over the whole map, which asperities do not
+know.
 """
 
 from __future__ import annotations
@@ -37,6 +39,7 @@ from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import Apart, Approach, AtDepth, Retraction
 from viscotack.rough import RoughProblem
+from viscotack.rough.criteria import stickiness
 from viscotack.surfaces import Asperities, summits
 from viscotack.theory.elastic import jkr
 from viscotack.traction import has_rest
@@ -79,6 +82,9 @@ class Superposition:
         Number of them in contact at the start.
     share : float
         Share s of the surface covered by contacts and their surroundings.
+    full_contact : float
+        Elastic energy of full contact over the work of adhesion; inf for asperities without a map,
+        and for a map that continues beyond its sides.
     method : str
         Tiers of the spheres.
     band : float
@@ -89,6 +95,7 @@ class Superposition:
     asperities: Asperities
     touching: int
     share: float
+    full_contact: float
     method: str
     band: float
 
@@ -109,18 +116,23 @@ class Superposition:
 
     @property
     def inside(self) -> bool:
-        """Whether the asperities are far enough apart for superposition."""
-        return self.share <= LARGEST_SHARE
+        """Whether the asperities are far enough apart, and too rough to be flattened."""
+        return not self.why
 
     @property
     def why(self) -> str:
         """Reason why the result is not reliable, empty if it is."""
-        if self.inside:
-            return ""
-        return (
-            f"contacts and their surroundings cover {self.share:.2g} of the surface, and "
-            f"superposition holds up to {LARGEST_SHARE}: asperities are neighbours; simulate"
-        )
+        if self.share > LARGEST_SHARE:
+            return (
+                f"contacts and their surroundings cover {self.share:.2g} of the surface, and "
+                f"superposition holds up to {LARGEST_SHARE}: asperities are neighbours; simulate"
+            )
+        if self.full_contact < 1:
+            return (
+                f"full contact takes {self.full_contact:.2g} of the work of adhesion, so that "
+                "contacts may spread over the whole map; simulate"
+            )
+        return ""
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -166,15 +178,15 @@ def superposed(
     accuracy : float
         Relative error of the simulations of spheres.
     force_outside : bool
-        Whether to answer although asperities are neighbours.
+        Whether to answer although asperities are neighbours or may be flattened.
     progress : callable, optional
         Called with the completed share of the work, 0 to 1.
 
     Raises
     ------
     ValueError
-        If the problem is of another kind, no asperity touches, or asperities cover more than
-        0.15 of the surface.
+        If the problem is of another kind, no asperity touches, asperities cover more than 0.15 of
+        the surface, or full contact takes less than the work of adhesion.
 
     Examples
     --------
@@ -254,7 +266,11 @@ def superposed(
     if problem.protocol.stiffness is not None:
         curve = curve.behind(problem.protocol.stiffness)
     share = _share(problem, depth[touching], found.radii[touching]) / found.area
-    answer = Superposition(curve, found, int(touching.sum()), share, used.method, _BANDS[elastic])
+    alone = asperities is not None or problem.surface.beyond is not None
+    full = np.inf if alone else stickiness(problem).full_contact
+    answer = Superposition(
+        curve, found, int(touching.sum()), share, full, used.method, _BANDS[elastic]
+    )
     if not (answer.inside or force_outside):
         raise InputError(answer.why)
     return answer

@@ -1,4 +1,4 @@
-r"""Rectangular flat punch: bounds on a half-space, and an estimate on a thin layer.
+r"""Rectangular flat punch: bounds on a half-space, and estimates on a thin layer.
 
 A rigid rectangle of half length a and half width b, guided so that it does not tilt, is pulled off
 an elastic half-space without friction. Its contact shrinks where the edge releases the work of
@@ -29,8 +29,39 @@ The force of a strip times the length, :math:`a \sqrt{8 \pi b E^* \Delta\gamma_0
 a square it is the lower one, that of the inscribed disc, and a long rectangle peels from its ends
 well below it, where :math:`K > 2 \sqrt2` (from a = 4.1 b).
 
-Sources: elliptical punch, Johnson, Contact Mechanics (1985), section 3.4; the bounds, this package.
-`benchmarks/rectangle.py` compares them with contacts that open cell by cell.
+**Thin bonded layer.** A layer of thickness t on a rigid base, :math:`t \ll b`, is squeezed like a
+film of oil: it is sheared by the pressure gradient, sticks to the base and slides under the punch.
+With the shear modulus G and that of confined compression, :math:`M = 2 G (1 - \nu)/(1 - 2\nu)`,
+
+.. math:: \nabla^2 \phi - \kappa^2 \phi = -1, \quad p = \frac{3 G \delta}{t^3} \phi, \quad
+          \kappa^2 = \frac{3 G}{M t^2} = \frac{3 (1 - 2\nu)}{2 (1 - \nu) t^2},
+
+with :math:`\phi = 0` on the edge: Poisson's equation if the layer is incompressible. The energy
+:math:`P \delta/2` changes with the edge (Hadamard) by
+:math:`(t^3/6G) (\partial p/\partial n)^2` per area, which is released there. It is largest in the
+middle of the long sides and nothing in the corners. At a depth at which the middle releases the
+work of adhesion the rectangle is still closed, so its force is a **lower bound**: with
+:math:`T = \int \phi \, dA`
+
+.. math:: P \geq \sqrt{\frac{6 G \Delta\gamma_0}{t^3}} \,
+          \frac{T}{\max |\partial \phi/\partial n|} .
+
+A shape that shrinks to its centre releases
+:math:`P^2 N C/2 = \oint G \, (x \cdot n) \, ds`, with N the exponent of T and of the stiffness by
+size, from 2 of a foundation of springs to 4 without compressibility. As on the half-space the
+**upper bound** follows,
+
+.. math:: P^2 \leq \frac{4 \Delta\gamma_0 \, 4 a b}{N C}
+          = \frac{6 G \Delta\gamma_0}{t^3} \, \frac{8 a b \, T}{N} .
+
+In units of :math:`a^3 \sqrt{6 G \Delta\gamma_0/t^3}` an incompressible square opens first at
+0.8327 (:math:`T = 0.5623 a^4`, slope :math:`0.6753 a`) and holds at most 1.0605; the disc in it
+holds :math:`\pi/4`. For long rectangles both are those of strips, the upper one
+:math:`\sqrt{3/2}` times as large.
+
+Sources: elliptical punch, Johnson, Contact Mechanics (1985), section 3.4; the torsion of a bar,
+which is the film, Timoshenko and Goodier, Theory of Elasticity, section 109; the bounds, this
+package.
 """
 
 from __future__ import annotations
@@ -40,12 +71,18 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Base, Layer
+from viscotack.geometry import Base, Bonded, Layer
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.elastic import disc
 
 from . import crossover
+
+# Terms of the series of a film, and largest thickness of one over b.
+_TERMS, _THIN = 4000, 0.2
+# Decay over a radius below which a disc is that of an incompressible film.
+_SMALL = 1e-3
 
 
 class Interval(NamedTuple):
@@ -105,10 +142,10 @@ def on_layer(
 ) -> Interval:
     r"""Return an estimate of the pull-off force [N] of a rectangle on a thin layer.
 
-    The area times the mean stresses of a strip of the half width b and of a disc of the radius b on
-    the same layer. These are no bounds: corners open first, and the ends of a long rectangle are
-    those of no strip. A layer is thin up to a thickness of b, so that an end acts over a length of
-    about b.
+    On a frictionless base the area times the mean stresses of a strip of the half width b and of a
+    disc of the radius b on the same layer. On a bonded base the bounds of the film, times the force
+    of this disc over that of the film; the force of the rectangle differs by parts of the order of
+    the thickness over b.
 
     Parameters
     ----------
@@ -124,7 +161,7 @@ def on_layer(
     Raises
     ------
     InputError
-        If the layer is thicker than half the width.
+        If the layer is thicker than b, or a bonded one than b/5.
 
     Examples
     --------
@@ -136,14 +173,76 @@ def on_layer(
     """
     one, other = positive(half_length=half_length, half_width=half_width)
     a, b = max(float(one), float(other)), min(float(one), float(other))
-    if not thickness <= b:
+    most = _THIN * b if isinstance(base, Bonded) else b
+    if not thickness <= most:
         raise InputError(
-            f"a layer of {thickness:.4g} m is thicker than half the width of the rectangle, "
-            f"{b:.4g} m: bounds are known on a half-space, and an estimate on thinner layers; "
-            "leave out the thickness if it exceeds the length several times"
+            f"a layer of {thickness:.4g} m is thicker than half the width of the rectangle, or a "
+            f"fifth of it on a bonded base, {most:.4g} m: bounds are known on a half-space, and an "
+            "estimate on thinner layers; leave out the thickness if it exceeds the length several "
+            "times"
         )
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    round_ = float(disc.pull_off_force(contact_radius=b, body=Layer(thickness, base), **solid))
+    round_ /= np.pi * b**2
+    if isinstance(base, Bonded):
+        nu = base.poisson_ratio
+        kappa = float(np.sqrt(1.5 * (1 - 2 * nu) / (1 - nu))) / thickness
+        least, most = film_stresses(a, half_width=b, decay=kappa)
+        scale = round_ / _disc_of_film(b, kappa)
+        return Interval(4 * a * b * least * scale, 4 * a * b * most * scale)
     strip = float(crossover.pull_off_stress(thickness, half_width=b, base=base, **solid))
-    round_ = disc.pull_off_force(contact_radius=b, body=Layer(thickness, base), **solid)
-    stresses = sorted((strip, float(round_) / (np.pi * b**2)))
-    return Interval(*(4 * a * b * stress for stress in stresses))
+    return Interval(*(4 * a * b * stress for stress in sorted((strip, round_))))
+
+
+def film_stresses(half_length: float, *, half_width: float, decay: float) -> tuple[float, float]:
+    r"""Return the bounds of the mean stress of a rectangle on a thin bonded layer.
+
+    Over :math:`\sqrt{6 G \Delta\gamma_0/t^3}`, so with the unit of a length.
+
+    Parameters
+    ----------
+    half_length, half_width : float
+        a and b [m], a not smaller.
+    decay : float
+        :math:`\kappa` [1/m]; 0 if the layer is incompressible.
+
+    Examples
+    --------
+    >>> "{:.4f} to {:.4f}".format(
+    ...     *(4 * stress for stress in film_stresses(1.0, half_width=1.0, decay=0.0))
+    ... )
+    '0.8327 to 1.0605'
+    """
+    a, b = half_length, half_width
+    T, step = _film_force(a, b, decay), 1e-4
+    larger, smaller = (_film_force(c * a, c * b, decay) for c in (1 + step, 1 - step))
+    exponent = np.log(larger / smaller) / np.log((1 + step) / (1 - step))
+    k, q = _rows(b, decay)
+    slope = _tanh_over(decay, b) - float(np.sum(2 / (b * q**2 * np.cosh(np.minimum(q * a, 300)))))
+    return T / slope / (4 * a * b), float(np.sqrt(8 * a * b * T / exponent)) / (4 * a * b)
+
+
+def _film_force(a: float, b: float, decay: float) -> float:
+    """Return the integral of phi over a rectangle, by cosines across the width."""
+    k, q = _rows(b, decay)
+    return float(np.sum(8 / (b * k**2 * q**2) * (a - np.tanh(q * a) / q)))
+
+
+def _rows(b: float, decay: float) -> tuple[Array, Array]:
+    """Return wave numbers across the width, and the decay of their terms along it."""
+    k = np.arange(0.5, _TERMS) * np.pi / b
+    return k, np.sqrt(k**2 + decay**2)
+
+
+def _tanh_over(decay: float, b: float) -> float:
+    return float(np.tanh(decay * b) / decay) if decay > 0 else b
+
+
+def _disc_of_film(b: float, decay: float) -> float:
+    """Return the mean stress at which a disc on a film opens, in the unit of the rectangle's."""
+    x = decay * b
+    if x < _SMALL:
+        return b / 4
+    # the mean of 1 - I0(kr)/I0(kb), over the slope at the edge
+    i0, i1 = scipy.special.ive([0, 1], x)
+    return float((i0 - 2 * i1 / x) / (i1 * decay))
