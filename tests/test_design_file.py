@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from front_ends import Http, Question, through_all
+from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.design import Bounds, Targets, read_design
 from viscotack.errors import InputError
@@ -150,6 +151,11 @@ def test_words_state_the_bound_of_a_target_out_of_reach(small):
     assert "1/k = 10" in answer.words()
     axes = draw_design(answer.found, read_design(small)).axes
     assert "worst target -" in axes[0].get_title(loc="left") + axes[0].get_title()
+    at = [line.get_xdata()[0] for line in axes[0].lines if line.get_linestyle() == ":"]
+    best = answer.found.best.choice
+    assert in_si(axes[0].xaxis, at) == pytest.approx([best.hold_speed, best.release_speed])
+    (wanted,) = (x.get_ydata()[0] for x in axes[0].lines if x.get_label() == "hold, at least")
+    assert in_si(axes[0].yaxis, wanted) == pytest.approx(60e-3)
 
 
 def test_words_state_what_the_speeds_reach(small):

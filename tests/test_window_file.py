@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from front_ends import Http, Question, through_all
+from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.errors import InputError
 from viscotack.operations import ask
@@ -133,3 +134,7 @@ def test_a_map_of_one_speed_and_tensile_preloads_is_drawn(small):
     found = ask("window", file="small.toml").found
     axes = draw_window(found).axes[0]
     assert axes.get_yscale() == "linear"
+    low, high = (in_si(axes.xaxis, x) for x in axes.get_xlim())
+    assert low < found.speeds[0] <= found.speeds[-1] < high < 10 * found.speeds[-1]
+    low, high = (in_si(axes.yaxis, y) for y in axes.get_ylim())
+    assert low < -1e-5 < 1e-3 < high < 1e-2

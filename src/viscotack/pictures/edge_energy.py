@@ -9,6 +9,8 @@ import numpy as np
 
 from viscotack.result.edge_energy import EdgeEnergy
 
+from .plot import plain_ticks
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -42,6 +44,8 @@ def draw_edge_energy(found: EdgeEnergy, unit: str) -> Figure:
         axes.loglog(speed, found.amplification[order], "o", label="simulation", **place)
         axes.loglog(speed, found.bulk[order], "-", label="bulk, steady-crack model")
         axes.loglog(speed, fitted, "--", color="0.3", label="Gent and Schultz, fitted")
+        plain_ticks(axes.xaxis)
+        plain_ticks(axes.yaxis)
         axes.set_xlabel(f"speed of the edge [{unit}]")
         axes.set_ylabel(r"energy at the edge / $\Delta\gamma_0$")
         axes.legend()
