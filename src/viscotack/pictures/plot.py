@@ -334,6 +334,7 @@ def draw_regimes(found: RegimeMap) -> "Figure":
         axes.clabel(lines, fmt=f"%.3g {p_unit}", fontsize=10)
         plain_ticks(axes.xaxis)
         plain_ticks(axes.yaxis)
+        axes.tick_params(pad=8)
         axes.set_xlabel(f"retraction speed [{v_unit}]")
         axes.set_ylabel(f"thickness [{b_unit}]")
         patches = zip(REGIMES, _REGIME_COLOURS, strict=True)

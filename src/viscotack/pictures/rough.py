@@ -38,8 +38,8 @@ def draw_rough(found: RoughResult) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Left the tension, with the share of the map in contact; right the pressure at pull-off,
-        tension in blue, compression in red.
+        Left the force, compression positive, with the share of the map in contact; right the
+        pressure at pull-off, tension in blue, compression in red.
     """
     figure, _ = _figure(found, found.strongest)
     return figure
@@ -127,7 +127,7 @@ def _frames(found: RoughResult) -> Iterator[Any]:
 
 
 def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
-    """Draw the tension by position of the plate, and the asperities on the map.
+    """Draw the force by position of the plate, and the asperities on the map.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Left the tension, right the heights with the summits.
+        Left the force, compression positive, right the heights with the summits.
     """
     import matplotlib.style
     from matplotlib.figure import Figure
@@ -153,7 +153,7 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
         figure = Figure(figsize=(10.0, 4.4), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(curve.position / length, -curve.force / force, color="#08519c")
+        left.plot(curve.position / length, curve.force / force, color="#08519c")
         left.set_xlabel(f"position of the plate [{length_unit}]")
         left.set_ylabel(f"force [{force_unit}]")
         left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
