@@ -72,5 +72,6 @@ def _draw_ticks(axes, released: Released, N: float, newton: str) -> None:  # noq
     axes.set_ylabel(f"force [{newton}]")
     axes.legend(loc="best", fontsize="small")
     other = axes.twinx()
+    other.grid(False)
     other.step(released.time / s, pull / v, where="post", color="#08519c", lw=1)
     other.set_ylabel(f"speed of the drive, away [{speed}]", color="#08519c")
