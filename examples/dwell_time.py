@@ -47,6 +47,7 @@ def draw(dwells, forces, relaxed: float, path: Path) -> None:
         figure, axes = plt.subplots(figsize=(8.0, 5.2))
         axes.semilogx(dwells, forces, "o-", mfc="white", label="simulation")
         axes.axhline(relaxed, ls="--", color="0.4", label="relaxed contact")
+        axes.xaxis.set_major_formatter("{x:g}")
         axes.set_xlabel("dwell time [s]")
         axes.set_ylabel("pull-off force [mN]")
         axes.set_title("A contact that has rested holds harder")

@@ -47,6 +47,7 @@ def draw(series, forecast, path: Path) -> None:
         axes.plot(SPEEDS * 1e6, measured, "o", mfc="white", label="measured")
         axes.plot(speed[-1], 1e3 * force(forecast.speed[-1]), "x", color="k", label="truth")
         axes.set_xscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
         axes.set_xlabel("retraction speed [µm/s]")
         axes.set_ylabel("pull-off force [mN]")
         axes.set_title("An interface that grows with speed")

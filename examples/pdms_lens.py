@@ -107,37 +107,37 @@ def draw(
     """Draw pull-off force by speed, and the unloading curves behind it."""
     import matplotlib as mpl
     import matplotlib.style
+    from matplotlib.figure import Figure
 
     speeds = np.array([r.problem.protocol.speed for r in results])
     forces = np.array([vt.summary(r)["pull_off_force_N"] for r in results])
     slow = vt.summary(elastic)["pull_off_force_N"]
     colors = mpl.colormaps["viridis"](np.linspace(0.0, 0.8, len(results)))
     with matplotlib.style.context("viscotack.pictures.viscotack"):
-        figure = vt.draw_rates(
-            speeds, forces, elastic_force=slow, title="The faster the pull, the harder it holds"
-        )
-        figure.set_size_inches(13.0, 5.6)
-        grid = figure.add_gridspec(1, 2, wspace=0.06)
-        left = figure.axes[0]
-        left.set_subplotspec(grid[0])
-        left.lines[0].remove()  # in colors instead, those of the curves on the right
-        left.scatter(speeds * 1e6, forces * 1e3, s=80, fc="white", ec=colors, lw=2.4, zorder=3)
-        left.xaxis.set_major_formatter("{x:g}")
-        left.text(0.03, 0.05, REMARK, transform=left.transAxes, size=13)
+        figure = Figure(figsize=(13.0, 5.6))
+        left, right = figure.subplots(1, 2)
         for (gap, found), style in zip(others.items(), ("C3s-", "C2D-"), strict=False):
             x, y = np.array(sorted(found.items())).T
             name = f"simulated, range h$_0$ = {gap * 1e9:g} nm"
             left.plot(x * 1e6, y * 1e3, style, mfc="white", ms=8, label=name)
+        # in the colors of the curves on the right
+        left.scatter(speeds * 1e6, forces * 1e3, s=80, fc="white", ec=colors, lw=2.4, zorder=3)
         name = "simulated, range h$_0$ = 1.55 µm"
         left.plot([], [], "o", mfc="white", color=colors[len(colors) // 2], label=name)
+        left.axhline(slow * 1e3, color="C1", label=f"elastic (slow limit): {slow * 1e3:.3g} mN")
         if others:
             x = np.array(SHORT_SPEEDS) * 1e6
             for (name, y), style in zip(PUBLISHED.items(), ("k:", "kx--"), strict=True):
                 left.plot(x, np.array(y) * 1e3, style, lw=1.5, label=name)
-            left.set_ylim(0, 27)
+            left.set_ylim(0, 30)
+        left.set_xscale("log")
+        left.xaxis.set_major_formatter("{x:g}")
+        left.set_xlabel("retraction speed [µm/s]")
+        left.set_ylabel("pull-off force [mN]")
+        left.set_title("The faster the pull, the harder it holds")
+        left.text(0.03, 0.03, REMARK, transform=left.transAxes, size=13)
         left.legend(loc="upper left", fontsize=11)
 
-        right = figure.add_subplot(grid[1])
         right.axhline(0, color="0.6", lw=1, zorder=0)
         for result, color in zip((elastic, *results), ("C1", *colors), strict=True):
             scales = result.problem.scales()
@@ -147,8 +147,8 @@ def draw(
         right.set_xticks(range(0, 21, 5))
         right.set_ylim(-1.12 * forces.max() * 1e3, 1.3 * PRELOAD * 1e3)
         right.set_xlabel("retraction of the lens [µm]")
-        right.set_ylabel("force on the lens [mN]")
-        right.set_title("What the load cell sees")
+        right.set_ylabel("force on the lens, pressed positive [mN]")
+        right.set_title("What the load cell sees (h$_0$ = 1.55 µm)")
         for result, color, up in ((results[0], colors[0], 1), (results[-1], colors[-1], -1)):
             found, scales = vt.pull_off(result), result.problem.scales()
             travel = (result.depth[0] - found.depth) * scales.length * 1e6

@@ -48,7 +48,7 @@ def estimate(advice, tier):
 @pytest.mark.parametrize(
     ("rate", "regime", "use"),
     [
-        (1e-4, "quasi-static", "elastic"),
+        (1e-4, "quasi-static", "surrogate"),
         (1.0, "rate-dependent", "surrogate"),
         (316.23, "rate-dependent", "surrogate"),
         (1e6, "glassy", "surrogate"),

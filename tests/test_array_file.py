@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from front_ends import Http, Question, through_all
+from picture_units import in_si
 from viscotack import (
     AtForce,
     Elastic,
@@ -153,6 +154,10 @@ def test_a_pad_without_contact_is_drawn_and_counted(small):
     assert "1 of 3 pads do not touch" in answer.words()
     axes = draw_array(read_array(small).array, answer.found).axes
     assert "3 pads" in axes[0].get_title(loc="left") + axes[0].get_title()
+    # force positive in compression
+    (line,) = (line for line in axes[0].lines if len(line.get_xdata()) > 2)
+    assert in_si(axes[0].xaxis, line.get_xdata()) == pytest.approx(-answer.found.drive)
+    assert in_si(axes[0].yaxis, line.get_ydata()) == pytest.approx(answer.found.force)
 
 
 def test_a_hold_time_states_what_is_left_of_the_preload(small):

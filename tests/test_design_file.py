@@ -7,9 +7,12 @@ import pytest
 from typer.testing import CliRunner
 
 from front_ends import Http, Question, through_all
+from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.design import Bounds, Targets, read_design
 from viscotack.errors import InputError
+from viscotack.operations import ask
+from viscotack.pictures.design import draw_design
 
 SMALL = """
 [targets]
@@ -109,3 +112,15 @@ def test_the_command_writes_a_table_and_a_picture(small):
     assert row["meets"] == "True"
     assert float(row["simulated_hold_N"]) == pytest.approx(float(row["hold_N"]), rel=0.05)
     assert Path("d.svg").stat().st_size > 5000
+
+
+def test_a_target_out_of_reach_is_drawn_with_the_best_design(small):
+    small.write_text(SMALL.replace('hold = "5 mN"', 'hold = "60 mN"'))
+    answer = ask("design", file="small.toml")
+    assert answer.found.meets is False
+    axes = draw_design(answer.found, read_design(small)).axes
+    at = [line.get_xdata()[0] for line in axes[0].lines if line.get_linestyle() == ":"]
+    best = answer.found.best.choice
+    assert in_si(axes[0].xaxis, at) == pytest.approx([best.hold_speed, best.release_speed])
+    (wanted,) = (x.get_ydata()[0] for x in axes[0].lines if x.get_label() == "hold, at least")
+    assert in_si(axes[0].yaxis, wanted) == pytest.approx(60e-3)

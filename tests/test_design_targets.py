@@ -19,7 +19,7 @@ from viscotack.design import (
 )
 from viscotack.design import finding as finding_module
 from viscotack.design.confirming import Simulated, simulate
-from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Pad
+from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Force, Pad
 from viscotack.design.front import front_of, nondominated
 from viscotack.design.holding import held_load
 from viscotack.design.margins import Candidate, Judge

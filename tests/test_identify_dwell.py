@@ -81,7 +81,7 @@ def test_without_growth_no_law_is_stated_in_nearly_all_series():
 def test_intervals_of_growth_and_reference_time_are_those_of_student(level):
     t, count = TIMES, TIMES.size
     F = 1e-3 * (1 + 0.3 * np.log1p(t / 10)) * (1 + 0.08 * np.cos(3 * np.arange(count) ** 2))
-    found = identify_dwell(t, F, radius=RADIUS, level=level)
+    found = identify_dwell(t, F, radius=tack_files.SPHERE["radius"], level=level)
 
     def line(shape):
         """Return b over a of the fit a + b shape, and its relative misfit."""

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from picture_units import in_si
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates
 from viscotack.identify.forward import Forward
@@ -138,6 +139,10 @@ def test_the_record_has_true_and_shifted_speeds(fit):
         assert row["shifted_speed_m_s"] == pytest.approx(factor * row["speed_m_s"])
     axes = draw_rate_series(fit).axes[0]
     assert axes.get_xlabel().startswith("speed $a_T v$ at 20 °C")
+    measured = axes.containers[0].lines[0]
+    assert in_si(axes.xaxis, measured.get_xdata()) == pytest.approx([x.speed for x in fit.series])
+    forces = [x.force.value for x in fit.series]
+    assert in_si(axes.yaxis, measured.get_ydata()) == pytest.approx(forces)
 
 
 def test_a_forecast_at_one_speed_is_drawn_and_an_open_range_has_no_value(fit):

@@ -10,6 +10,7 @@ import pytest
 
 import viscotack as vt
 from front_ends import Http, Question, through_all
+from picture_units import in_si
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, Trial, forecast_rates, identify_rates, next_tests
 from viscotack.identify.forward import Forward
@@ -124,7 +125,8 @@ def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
     assert "best sequence:" in answer.words()
     answer.files["csv"](tmp_path / "tests.csv")
     assert (tmp_path / "tests.csv").read_text().count("\n") == 5
-    assert len(draw_next_tests(answer.found).axes) == 2
+    left, _ = draw_next_tests(answer.found).axes
+    assert in_si(left.xaxis, left.lines[0].get_xdata()) == pytest.approx([1e-5, 1e-3])
     json.dumps(record)
     for more, words in (
         ({"approach_speed": "1 um/s"}, "needs dwell"),

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from picture_units import in_si
 from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
 from viscotack.pictures.plot import (
     check_format,
@@ -77,6 +78,31 @@ def test_the_overview_has_four_pictures():
         ("time", "crack speed"),
     ]
     assert figure.axes[3].get_yscale() == "log"
+
+
+@pytest.mark.parametrize("speeds", [[1e-9, 1e-7], [1e-6, 1e-3], [1e-6, 1.0], [4e-3, 5e-3]])
+def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
+    forces = [5e-6, 2e-2]
+    axes = draw_rates(speeds, forces, elastic_force=3e-6).axes[0]
+    assert in_si(axes.xaxis, curve(axes).get_xdata()) == pytest.approx(speeds)
+    assert in_si(axes.yaxis, curve(axes).get_ydata()) == pytest.approx(forces)
+
+
+def test_axes_of_a_regime_map_have_units_of_their_size():
+    from viscotack import StandardSolid
+    from viscotack.pictures.plot import draw_regimes
+    from viscotack.theory.punch import Frictionless, Pad
+    from viscotack.theory.punch.map import regime_map
+
+    solid = StandardSolid(
+        rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    )
+    held = {"contact_modulus": 1e6, "work_of_adhesion": 0.05, "strength": 5e4}
+    pad = Pad(half_width=1e-3, **held, base=Frictionless())
+    law = pad.crack_law("greenwood", material=solid)
+    axes = draw_regimes(regime_map([1e-3, 2e-1], [1e-3, 1.0], pad, law)).axes[0]
+    assert in_si(axes.xaxis, axes.get_xlim()) == pytest.approx([1e-3, 1.0])
+    assert in_si(axes.yaxis, axes.get_ylim()) == pytest.approx([1e-3, 2e-1])
 
 
 def test_rates_are_drawn_in_millinewton_beside_the_elastic_value():

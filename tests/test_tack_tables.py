@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from command_line import exit_status
+from picture_units import in_si
 from viscotack.errors import InputError
 from viscotack.identify.speed_table import jkr_work, speed_table
 from viscotack.lab.tack import Measured, survey
@@ -150,6 +151,10 @@ def test_curves_are_labelled_by_speed(cycle):
     figure = draw_tests([*repeated(cycle, 1e-3, [9e-3]), *same])
     legend = figure.axes[0].get_legend()
     assert legend is not None
+    right = figure.axes[1]
+    x, y = right.containers[0].lines[0].get_data()
+    assert sorted(in_si(right.xaxis, x)) == pytest.approx([1.331e-6, 1.331e-6, 1e-3])
+    assert sorted(in_si(right.yaxis, y)) == pytest.approx([4.30e-3, 4.32e-3, 9e-3])
     texts = [text.get_text() for text in legend.get_texts()]
     assert texts == ["1.33 µm/s: 4.31 mN (2 tests)", "1 mm/s: 9 mN"]
     colours = [line.get_color() for line in figure.axes[0].lines[:5:2]]

@@ -1,6 +1,6 @@
 """The tiers: what each was verified for, what it refuses, and how the best one is chosen."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -178,8 +178,74 @@ def test_joint_intervals_contain_the_single_ones():
     assert both.work_interval[1] > one.work_interval[1] and both.curve_band > one.curve_band
 
 
-def test_no_interval_of_a_force_reaches_below_the_relaxed_elastic_force():
-    slow = vt.predict(groups(rate=0.02, tabor=0.5, start=vt.AtDepth(0.1)))
+# Slower than any row of the training: Tabor number, k, n, depth, rate; tau0 is 1.
+SLOW = [
+    (2.05, 4.72e-4, 0.2207, 8.0, 6e-3),
+    (3.2, 2e-4, 1.3, 1.6, 1e-3),
+    (0.1, 0.1, 0.5, 10.0, 1e-4),
+    (0.5, 5e-3, 0.3, 3.0, 1e-9),
+    # the surrogate abstains at its limit, and the simulation takes over
+    (4.69, 8.54e-4, 0.731, 202.6, 5e-3),
+    # by the theory of the crack
+    (20.0, 1e-3, 0.3, 150.0, 1e-5),
+]
+
+
+@pytest.mark.parametrize("tabor, k, n, depth, rate", SLOW)
+def test_below_the_slowest_rate_of_the_training_the_interval_contains_the_simulation(
+    tabor, k, n, depth, rate
+):
+    case = groups(tabor, solid(k, n), vt.AtDepth(depth), rate)
+    found, result = vt.predict(case), vt.solve(case, until="pull-off", estimate_error=False)
+    assert found.interval[0] <= vt.pull_off_force(result) <= found.interval[1]
+    assert found.interval[1] / found.interval[0] < 1.02
+    assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
+    assert found.work_interval[1] / found.work_interval[0] < 1.05
+
+
+@pytest.mark.parametrize(
+    "material, tabor, rate",
+    [(solid(2e-4, 1.3), 3.2, 0.01), (solid(1e-3, 0.3), 100.0, 1e-4), (standard(0.1), 5.0, 0.01)],
+)
+def test_slow_forces_are_continuous_and_fall_to_the_elastic_one(material, tabor, rate):
+    rates = rate * np.array([1.02, 1.0, 0.98, 0.1, 1e-3, 1e-9])
+    found = [vt.predict(groups(tabor, material, vt.AtDepth(60.0), r)) for r in rates.tolist()]
+    force = np.array([each.pull_off_force for each in found])
+    assert np.all(np.diff(force) <= 1e-3 * force[1:])
+    assert force[2] == pytest.approx(force[0], rel=4e-3)
+    assert force[-1] == pytest.approx(float(pull_off_ratio(tabor)), rel=2e-3)
+    assert found[0].work_to_pull_off == pytest.approx(found[2].work_to_pull_off, rel=0.02)
+
+
+@pytest.mark.parametrize("rate", [1e-2, 1e-4])
+@pytest.mark.parametrize("kind", ["standard", "prony"])
+def test_other_solids_that_hardly_lag_have_the_slow_force_of_simulations(kind, rate):
+    prony = vt.Prony(**UNIT, branches=((9.0, 0.01), (90.0, 0.003)))
+    material = prony if kind == "prony" else standard(0.01)
+    case = groups(5.0, material, vt.AtDepth(30.0), rate)
+    found, result = vt.predict(case), vt.solve(case, until="pull-off", estimate_error=False)
+    assert found.method == "surrogate of solids"
+    assert found.interval[0] <= vt.pull_off_force(result) <= found.interval[1]
+    assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
+
+
+def test_a_slow_punch_tends_to_the_relaxed_layer():
+    pads = [
+        replace(punch(), material=standard(0.01), body=vt.Layer(1.5), rate=rate)
+        for rate in (1.01e-3, 0.99e-3, 1e-5)
+    ]
+    edge, below, slow = (vt.predict(pad) for pad in pads)
+    assert below.pull_off_force == pytest.approx(edge.pull_off_force, rel=1e-3)
+    assert below.work_to_pull_off == pytest.approx(edge.work_to_pull_off, rel=0.01)
+    result = vt.solve(pads[2], until="pull-off", estimate_error=False)
+    low, high = slow.interval
+    assert low <= vt.pull_off(result).force <= high < 1.005 * low
+    assert slow.work_interval[0] <= vt.work_to_pull_off(result) <= slow.work_interval[1]
+
+
+@pytest.mark.parametrize("rate", [0.02, 1e-3, 1e-9])
+def test_no_interval_of_a_force_reaches_below_the_relaxed_elastic_force(rate):
+    slow = vt.predict(groups(rate=rate, tabor=0.5, start=vt.AtDepth(0.1)))
     elastic = float(pull_off_ratio(0.5))
     assert elastic <= slow.interval[0] <= slow.pull_off_force
 

@@ -7,9 +7,11 @@ import pytest
 from typer.testing import CliRunner
 
 from front_ends import Http, Question, through_all
+from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.errors import InputError
 from viscotack.operations import ask
+from viscotack.pictures.window import draw_window
 from viscotack.series import read_window
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "window" / "kinetic_stamp.toml"
@@ -114,3 +116,14 @@ def test_the_command_writes_tables_and_a_picture(small):
     assert {row["receiver_opens"] for row in rows} == {"stamp"}
     assert Path("c.csv").read_text().startswith("base,preload_N,critical_speed_m_per_s")
     assert Path("map.svg").stat().st_size > 5000
+
+
+def test_a_map_of_one_speed_and_tensile_preloads_is_drawn(small):
+    small.write_text(SMALL.replace('["1 mN", "100 uN"]', '["-10 uN", "1 mN"]'))
+    found = ask("window", file="small.toml").found
+    axes = draw_window(found).axes[0]
+    assert axes.get_yscale() == "linear"
+    low, high = (in_si(axes.xaxis, x) for x in axes.get_xlim())
+    assert low < found.speeds[0] <= found.speeds[-1] < high < 10 * found.speeds[-1]
+    low, high = (in_si(axes.yaxis, y) for y in axes.get_ylim())
+    assert low < -1e-5 < 1e-3 < high < 1e-2

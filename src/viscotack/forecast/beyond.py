@@ -1,4 +1,4 @@
-r"""Physical extrapolation of the surrogate slightly beyond three limits of its training range.
+r"""Physical extrapolation of the surrogates beyond limits of their training ranges.
 
 **Rates above 1e10 h0/tau0.** The force P lies between that at the limit and that of a solid without
 relaxation, the fast limit G of the same start, which is part of the training. It approaches G from
@@ -11,6 +11,11 @@ continuous there:
 The interval reaches from that at the limit to that for twice the slope, at most that of G. The
 logarithm of the work passes the same part t of its way. For exponents above about 0.5 both ends
 are equal within the interval.
+
+**Rates below the range.** There the creep lags by a time that is short compared with the test, so
+that the force exceeds its slow limit S in proportion to the rate:
+:math:`P = S + (P_0 - S) r/r_0`. The logarithm of the work goes the same part of its way, with the
+ratio of both that the surrogate has between the limit and ``_FASTER`` times its rate.
 
 **Tabor numbers below 0.01.** Adhesion deforms the solid by about mu gaps or less, and the start's
 depth has hardly deformed the surface: at given depth, rate and solid, the force over its
@@ -46,13 +51,17 @@ if TYPE_CHECKING:
 
 # Range of the extrapolation that was compared with simulations (`benchmarks/beyond.py`).
 LEAST_TABOR, MOST_RATE, LEAST_RATIO = 1e-3, 1e16, 1e-6
+SLOWER = "below a rate of {:g} the force tends to its slow limit in proportion to the rate"
 # Increase of half an interval of log10 per decade of smaller Tabor number.
 _WIDER = 2.5e-2
 # The same for a modulus ratio below the range: for the slopes of force and work at the limit of
 # the networks, and as a fraction of the extrapolation.
 _SLOPE, _PART = np.array([1.5e-3, 4e-3]), 0.25
-# Ratio of two rates of which the forces give the slope.
-_NEAR = 1.001
+# The same for the work below the rates of the range.
+_LAGS = 2e-3
+# Ratio of two rates of which the forces give the slope; the same below the range, where the
+# forces differ little from each other, and the largest ratio of logarithms of work and force.
+_NEAR, _FASTER, _MOST_WORK = 1.001, 5.0, 10.0
 # Largest slope with the modulus ratio: force in proportion to 1/k.
 _STEEPEST = 1 - 1e-6
 
@@ -71,6 +80,8 @@ class Beyond:
         Whether the work is predicted.
     why : str
         Reason in words.
+    certain : bool
+        Whether the surrogate is certain at the limit; false only below its rates.
     """
 
     groups: Array
@@ -78,6 +89,7 @@ class Beyond:
     intervals: Intervals
     with_work: bool
     why: str
+    certain: bool = True
 
 
 _Said = tuple["Answers", "Intervals"]
@@ -98,18 +110,20 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
     low, high = learned.limits["tabor"][0], learned.limits["rate"][1]
     k, least = groups[0, physics.MODULUS_RATIO], learned.limits["modulus_ratio"][0]
     at_end = groups.copy()
-    at_end[0, physics.TABOR], at_end[0, physics.RATE] = max(mu, low), min(rate, high)
+    slowest = learned.limits["rate"][0]
+    at_end[0, physics.TABOR] = max(mu, low)
+    at_end[0, physics.RATE] = min(max(rate, slowest), high)
     at_end[0, physics.MODULUS_RATIO] = max(k, least)
     near = LEAST_TABOR <= mu and rate <= MOST_RATE and k >= LEAST_RATIO
     if not (near and learned.inside(at_end).all()) or (k < least and (mu < low or rate > high)):
         return None
-    tests = learned.tests(at_end)
-    said = learned.evaluate(tests)
-    force_doubtful, work_doubtful = learned.doubtful(tests, said)[0].tolist()
-    if force_doubtful:
+    said, held, force_doubtful, work_doubtful = _evaluated(learned, at_end, confidence)
+    if force_doubtful and rate >= slowest:
         return None
-    held = learned.intervals(tests, said, confidence=confidence)
     why = []
+    if rate < slowest:
+        said, held = _slowed(learned, at_end, (said, held), float(rate / slowest))
+        why.append(SLOWER.format(slowest))
     if rate > high:
         rows = at_end.copy()
         rows[0, physics.EXPONENT] = learned.limits["exponent"][1]
@@ -131,7 +145,51 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         why.append(
             f"below a modulus ratio of {least:g} the force is extrapolated by its slope there"
         )
-    return Beyond(at_end, said, held, mu >= low and not work_doubtful, "; ".join(why))
+    with_work, certain = mu >= low and not work_doubtful, not force_doubtful
+    return Beyond(at_end, said, held, with_work, "; ".join(why), certain)
+
+
+def _evaluated(
+    learned: Surrogate, at_end: Array, confidence: float
+) -> tuple[Answers, Intervals, bool, bool]:
+    """Return a prediction at the limit, its intervals, and whether force and work are doubtful."""
+    tests = learned.tests(at_end)
+    said = learned.evaluate(tests)
+    force_doubtful, work_doubtful = learned.doubtful(tests, said)[0].tolist()
+    held = learned.intervals(tests, said, confidence=confidence)
+    return said, held, force_doubtful, work_doubtful
+
+
+def slower(learned: Surrogate, groups: Array, confidence: float) -> Beyond | None:
+    """Predict one row of groups that exceeds only the smallest rate; None if it does not."""
+    column = learned.contact.inputs.index("rate")
+    rate, slowest = groups[0, column], learned.limits["rate"][0]
+    at_end = groups.copy()
+    at_end[0, column] = slowest
+    if not (0 < rate < slowest and learned.inside(at_end).all()):
+        return None
+    said, held, force_doubtful, work_doubtful = _evaluated(learned, at_end, confidence)
+    said, held = _slowed(learned, at_end, (said, held), float(rate / slowest))
+    why = SLOWER.format(slowest)
+    return Beyond(at_end, said, held, not work_doubtful, why, not force_doubtful)
+
+
+def _slowed(learned: Surrogate, at_end: Array, ends: _Said, ratio: float) -> _Said:
+    """Extrapolate a prediction at the smallest rate to one smaller by a factor."""
+    (said, held), faster = ends, at_end.copy()
+    faster[0, learned.contact.inputs.index("rate")] *= _FASTER
+    more = learned.evaluate(faster)
+    excess = 1 - 10 ** float(np.mean(learned.tests(at_end).slow)) / float(said.pull_off_force[0])
+    force = np.log1p(-excess * (1 - ratio))
+    rise = np.log(more.pull_off_force[0] / said.pull_off_force[0])
+    of_work = np.log(more.work_to_pull_off[0] / said.work_to_pull_off[0])
+    work = force * np.clip(of_work / max(rise, 1e-9), 0.0, _MOST_WORK)
+    wider = (0.0, _LAGS + _PART * abs(work) / np.log(10))
+    said, held = _times(said, held, np.exp([force, work]), wider)
+    least = learned.tests(at_end).least
+    if least is not None:
+        held = replace(held, pull_off_force=np.maximum(held.pull_off_force, 10 ** least[:, None]))
+    return said, held
 
 
 def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:

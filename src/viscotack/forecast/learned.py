@@ -48,6 +48,11 @@ OTHER_SOLIDS = replace(POWER_LAWS, solids=ANY)
 INSIDE = "every input is in the training range"
 # Tabor number from which the theory of the crack is used as it is.
 _FADED = 20.0
+# Times of the modes that lag, in h0 over the speed, and their tolerance; the longest lag over the
+# smallest rate up to which the excess of the force is nearly proportional to it, and the part of
+# the excess that depends on the spectrum.
+_SHORTEST, _LONGEST, _TOLERANCE = 1e-9, 1e3, 1e-6
+_MOST_LAG, _OF_SPECTRUM, _ROUNDED = 5.0, 0.1, 1e-6
 # Units of the inputs with units.
 _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
@@ -124,8 +129,21 @@ def by_power_laws(asked: Question) -> Prediction:
         return within(asked, learned, learned.tests(inputs.rows), SURROGATE, INSIDE)
     further = _further(asked)
     assert further is not None, "checked by the limits"
-    why = f"{'; '.join(inputs.out)}; {further.why}"
-    found = _prediction(asked, further.answers, further.intervals, SURROGATE, why)
+    return further_prediction(asked, further, SURROGATE, "; ".join(inputs.out))
+
+
+def further_prediction(asked: Question, further: Beyond, method: str, out: str) -> Prediction:
+    """Return an extrapolation as a prediction, with the inputs that are out of range in words.
+
+    Raises
+    ------
+    OutOfRange
+        If the surrogate is not certain at the limit of its range.
+    """
+    if not further.certain:
+        raise OutOfRange(f"{out}; the networks of the {method} are not certain at that limit")
+    why = f"{out}; {further.why}"
+    found = _prediction(asked, further.answers, further.intervals, method, why)
     work = {} if further.with_work else {"work_to_pull_off": None, "work_interval": None}
     return replace(found, inside=False, **work)
 
@@ -147,11 +165,70 @@ def solid_limits(asked: Question) -> str:
 
 
 def by_solids(asked: Question) -> Prediction:
-    """Evaluate the surrogate of solids other than power laws by retardation."""
+    """Evaluate the surrogate of solids other than power laws by retardation.
+
+    Raises
+    ------
+    OutOfRange
+        If it is not certain.
+    """
+    from viscotack.surrogate import physics
+
     inputs, solids = asked.once(inputs_of_sphere), _learned("solids")
     assert inputs.like is not None, "checked by the limits"
+    over = inputs.like.groups[0, physics.RATE] / physics.LIMITS["rate"][0]
+    lag, variance = _lag(asked.groups) if over <= _MOST_LAG else (np.inf, 0.0)
+    if lag <= _MOST_LAG * physics.LIMITS["rate"][0]:
+        return _by_lag(asked, inputs.like.groups.copy(), lag, variance)
+    if over <= 1 + _ROUNDED:
+        raise OutOfRange(
+            "the solid is slower than its equivalent power law: its mean retardation time is "
+            f"{lag:.3g} h0 over the speed"
+        )
     why = f"{INSIDE}; {alike_words(inputs.like)}"
     return within(asked, solids, solids.tests(inputs.like), SOLIDS, why)
+
+
+def _lag(groups: Groups) -> tuple[float, float]:
+    """Return the mean retardation time, in h0 over the speed, and its relative variance."""
+    assert groups.rate is not None, "checked by the allow-list"
+    modes = groups.material.retardation_modes(
+        shortest=_SHORTEST / groups.rate, longest=_LONGEST / groups.rate, tolerance=_TOLERANCE
+    )
+    weights, times = np.array(modes.weights), groups.rate * np.array(modes.times)
+    mean, square = (float(weights @ x) / (1 - groups.modulus_ratio) for x in (times, times**2))
+    return mean, square / mean**2 - 1 if mean > 0 else 0.0
+
+
+def _by_lag(asked: Question, rows: Array, lag: float, variance: float) -> Prediction:
+    """Evaluate the surrogate of power laws for a solid that hardly lags behind the test.
+
+    The force exceeds its slow limit in proportion to the mean retardation time, whatever the
+    spectrum. The power law with the same mean and, as far as in the range, the same variance has
+    nearly the same force.
+
+    Raises
+    ------
+    OutOfRange
+        If the surrogate is not certain.
+    """
+    from viscotack.surrogate import physics
+
+    learned = _learned()
+    # the retardation times of a power law have the mean n tau0, and a relative variance of 1/n
+    n = float(np.clip(1 / max(variance, _ROUNDED), *physics.LIMITS["exponent"]))
+    columns = [physics.MODULUS_RATIO, physics.EXPONENT, physics.RATE]
+    rows[0, columns] = asked.groups.modulus_ratio, n, lag / n
+    why = f"the solid is nearly relaxed: it lags behind by {lag:.3g} h0 over the speed"
+    if lag / n >= physics.LIMITS["rate"][0]:
+        found = within(asked, learned, learned.tests(rows), SOLIDS, f"{INSIDE}; {why}")
+    else:
+        further = beyond(learned, rows, asked.confidence)
+        assert further is not None, "the other inputs are in the range"
+        found = further_prediction(asked, further, SOLIDS, why)
+    slow, (low, high) = float(pull_off_ratio(asked.groups.tabor)), found.interval
+    wider = _OF_SPECTRUM * max(found.pull_off_force - slow, 0.0)
+    return replace(found, interval=(max(low - wider, min(low, slow)), high + wider))
 
 
 def not_certain(method: str, force: float, end: float, second: float) -> str:

@@ -15,7 +15,8 @@ from viscotack.protocol import AtDepth, AtForce
 from viscotack.traction import LennardJones
 
 from .allow_list import Verified
-from .learned import INSIDE, within
+from .beyond import slower
+from .learned import INSIDE, further_prediction, within
 from .prediction import Prediction
 from .question import Question
 from .training_range import out_of_range
@@ -46,14 +47,18 @@ def punch_limits(asked: Question) -> str:
         row = asked.once(_row)
     except InputError as error:  # no start in the range has this stress
         return str(error)
+    if asked.model is None and slower(learned, row[None], asked.confidence) is not None:
+        return ""
     return "; ".join(_out(row, asked.problem, groups, learned))
 
 
 def by_punches(asked: Question) -> Prediction:
-    """Evaluate the surrogate of punches on a sliding layer."""
-    learned = asked.model or _learned()
-    tests = learned.tests(asked.once(_row)[None])
-    return within(asked, learned, tests, LEARNED_PUNCH, INSIDE)
+    """Evaluate the surrogate of punches on a sliding layer, including its slow limit."""
+    learned, row = asked.model or _learned(), asked.once(_row)
+    if further := slower(learned, row[None], asked.confidence):
+        out = "; ".join(_out(row, asked.problem, asked.groups, learned))
+        return further_prediction(asked, further, LEARNED_PUNCH, out)
+    return within(asked, learned, learned.tests(row[None]), LEARNED_PUNCH, INSIDE)
 
 
 def inputs_of(groups: Groups) -> dict[str, float]:

@@ -33,8 +33,9 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
     Returns
     -------
     matplotlib.figure.Figure
-        Left the tension, with the pull-off force and its interval; right the pads at their places,
-        numbered by their turn. Pads that detach at one instant have the same number.
+        Left the force, compression positive, with the pull-off and its interval; right the pads
+        at their places, numbered by their turn. Pads that detach at one instant have the same
+        number.
 
     Examples
     --------
@@ -66,18 +67,18 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
         figure = Figure(figsize=(10.0, 4.6), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.35, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(-found.drive / travel, -found.force / unit, color="#08519c")
-        low, high = (end / unit for end in found.interval)
+        left.plot(-found.drive / travel, found.force / unit, color="#08519c")
+        low, high = (-end / unit for end in found.interval)
         left.axhspan(low, high, color="#08519c", alpha=0.15, lw=0, label="pull-off, interval")
         if load is not None:
-            left.axhline(load.force / unit, color="#d94801", ls="--", label="load")
+            left.axhline(-load.force / unit, color="#d94801", ls="--", label="load")
         left.set_xlabel(f"travel of the drive [{length}]")
-        left.set_ylabel(f"tension of the array [{force_unit}]")
+        left.set_ylabel(f"force on the array [{force_unit}]")
         left.set_title(
             f"{len(places)} pads: {found.pull_off_force / unit:.3g} {force_unit}, "
             f"load sharing {found.load_sharing:.2f}"
         )
-        left.legend(loc="lower right", frameon=False)
+        left.legend(loc="best", frameon=False)
         apart = np.isnan(turn)
         x, y = (places / across).T
         if apart.any():

@@ -12,7 +12,7 @@ from viscotack.design.fast import Force
 from viscotack.design.margins import pad_of
 from viscotack.errors import InputError
 
-from .plot import axis_unit
+from .plot import axis_unit, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -63,11 +63,12 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
     pad = pad_of(best.choice, 1.0, bonded=stated.space.bonded)
     ends = (min(known) / _WIDER, max(known) * _WIDER) if known else (1e-6, 1e-3)
     points = np.geomspace(*ends, _SPEEDS).tolist()
+    factor, speed_unit = log_axis_unit(ends, "m/s")
     forces = [found.fast.force(replace(pad, speed=v)) for v in points]
     curve = [(v, f) for v, f in zip(points, forces, strict=True) if isinstance(f, Force)]
     N, (unit, name) = best.choice.pads, axis_unit(_largest(found), "N")
     if curve:
-        v = [v for v, _ in curve]
+        v = [v / factor for v, _ in curve]
         low, value, high = (
             [N * getattr(f, end) / unit for _, f in curve] for end in ("low", "value", "high")
         )
@@ -76,7 +77,7 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
     for target, speed in speeds.items():
         if speed is None:
             continue
-        axes.axvline(speed, color=_COLOURS[target], lw=0.8, ls=":")
+        axes.axvline(speed / factor, color=_COLOURS[target], lw=0.8, ls=":")
         wanted = getattr(stated.targets, target)
         if wanted is not None:
             words = f"{target}, {'at least' if target == 'hold' else 'at most'}"
@@ -84,12 +85,18 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
         value = None if run is None else getattr(run, target)
         if value is not None:
             axes.plot(
-                speed, value / unit, "o", color=_COLOURS[target], label=f"{target}, simulated"
+                speed / factor,
+                value / unit,
+                "o",
+                color=_COLOURS[target],
+                label=f"{target}, simulated",
             )
     axes.set_xscale("log")
     axes.set_yscale("log")
     moved = " of the stated material" if stated.conditions.shifts else ""
-    axes.set_xlabel(f"speed{moved} [m/s]")
+    plain_ticks(axes.xaxis)
+    plain_ticks(axes.yaxis)
+    axes.set_xlabel(f"speed{moved} [{speed_unit}]")
     axes.set_ylabel(f"pull-off force [{name}]")
     met = "met" if best.margin >= 0 else "not met"
     axes.set_title(f"worst target {np.expm1(best.margin):+.0%}: {met}")

@@ -19,7 +19,7 @@ from viscotack.identify.pull_off import same_speeds, temperature_of
 from viscotack.lab.tack import Cycle
 from viscotack.units import readable
 
-from .plot import axis_unit
+from .plot import axis_unit, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,6 +81,7 @@ def draw_dwells(fit: DwellFit) -> "Figure":
         axes.semilogx(at, fit.line(at) / load, "--", label="straight in the logarithm of the time")
         if fit.law is not None:
             axes.semilogx(at, fit.force(at) / load, label=fit.law.replace("-", " "))
+        plain_ticks(axes.xaxis)
         axes.set_xlabel("time in contact [s]")
         axes.set_ylabel(f"pull-off force [{load_unit}]")
         axes.legend()
@@ -91,12 +92,11 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
     """Draw pull-off force against speed: measured, fitted, and forecast with its band."""
     import matplotlib.style
     from matplotlib.figure import Figure
-    from matplotlib.ticker import FuncFormatter
 
     with matplotlib.style.context(_STYLE):
         figure = Figure(figsize=(8.0, 5.4), layout="constrained")
         axes = figure.subplots()
-        fastest, speed_unit = axis_unit(max(one.speed for one in fit.series), "m/s")
+        fastest, speed_unit = log_axis_unit([one.speed for one in fit.series], "m/s")
         load, load_unit = axis_unit(max(one.force.value for one in fit.series), "N")
         speed = [one.speed / fastest for one in fit.series]
         axes.errorbar(
@@ -116,9 +116,8 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
             _band(axes, forecast, fastest, load)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        # forces rarely span a decade, so ticks are plain numbers
-        for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
-            which(FuncFormatter(lambda value, _: f"{value:.3g}"))
+        plain_ticks(axes.xaxis)
+        plain_ticks(axes.yaxis)
         name, at = "true speed of retraction", fit.passport.temperature
         if at is not None and any(one.shift != 1.0 for one in fit.series):
             name = f"speed $a_T v$ at {at - 273.15:.3g} °C"

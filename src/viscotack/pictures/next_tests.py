@@ -8,6 +8,8 @@ import numpy as np
 from viscotack.identify import NextTests
 from viscotack.units import readable
 
+from .plot import log_axis_unit, plain_ticks
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -36,18 +38,26 @@ def draw_next_tests(found: NextTests) -> "Figure":
         groups: dict[str, list[tuple[float, float]]] = {}
         for one in found.ranked:
             groups.setdefault(_condition(one.trial), []).append((one.trial.speed, one.left))
+        factor, unit = log_axis_unit([one.trial.speed for one in found.ranked], "m/s")
         for name, rows in groups.items():
             v, deviation = np.array(sorted(rows)).T
-            left.plot(v, 100 * deviation, "o-", ms=4, label=name)
+            left.plot(v / factor, 100 * deviation, "o-", ms=4, label=name)
         left.axhline(100 * found.now, color="0.4", ls="--", label="now")
         left.set_xscale("log")
         left.set_ylim(0, None)
-        left.set_xlabel("speed of the test [m/s]")
+        plain_ticks(left.xaxis)
+        left.set_xlabel(f"speed of the test [{unit}]")
         left.set_ylabel("standard deviation after it [%]")
         left.legend(fontsize=8, loc="lower left")
         steps = [found.now, *(one.left for one in found.sequence)]
         right.plot(range(len(steps)), 100 * np.array(steps), "o-")
-        names = ["now", *(readable(one.trial.speed, "m/s", digits=2) for one in found.sequence)]
+        names = [
+            "now",
+            *(
+                readable(one.trial.speed, "m/s", digits=2).replace(" u", " µ")
+                for one in found.sequence
+            ),
+        ]
         right.set_xticks(range(len(steps)), names, fontsize=8)
         right.set_xlabel("best sequence of tests")
     return figure

@@ -23,6 +23,7 @@ from viscotack.units import prefixed, readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 # Colours of a regime map (cohesive, thin layer, half-plane), and number of contour lines.
@@ -212,8 +213,6 @@ def draw_energy(result: Result) -> "Figure":
             series = (values - values[0]) * factor
             if np.any(series != 0):
                 left.plot(along, series, label=words)
-        if not moved:
-            left.invert_xaxis()  # so that time runs to the right
         left.set_xlabel(label)
         left.set_ylabel(f"energy {unit}")
         left.legend()
@@ -262,7 +261,7 @@ def draw_rates(
     'retraction speed [µm/s]'
     """
     speeds, forces = np.asarray(speed, dtype=float), np.asarray(pull_off_force, dtype=float)
-    v, v_unit = axis_unit(float(np.max(speeds)), "m/s")
+    v, v_unit = log_axis_unit(speeds, "m/s")
     F, F_unit = axis_unit(float(np.max(forces)), "N")
     with _style():
         figure = _figure()
@@ -274,7 +273,8 @@ def draw_rates(
             label=f"elastic (slow limit): {readable(elastic_force, 'N', digits=3)}",
         )
         axes.set_xscale("log")
-        axes.set_ylim(0, 1.12 * max(forces.max(), elastic_force) / F)
+        plain_ticks(axes.xaxis)
+        axes.set_ylim(0, 1.3 * max(forces.max(), elastic_force) / F)
         axes.set_xlabel(f"retraction speed [{v_unit}]")
         axes.set_ylabel(f"pull-off force [{F_unit}]")
         axes.set_title(title)
@@ -321,7 +321,10 @@ def draw_regimes(found: RegimeMap) -> "Figure":
     from matplotlib.patches import Patch
 
     number = np.argmax(found.regime[..., None] == np.array(REGIMES), axis=-1)
-    speed, thickness = found.speed * 1e6, found.thickness * 1e6
+    v, v_unit = log_axis_unit(found.speed, "m/s")
+    b, b_unit = log_axis_unit(found.thickness, "m")
+    p, p_unit = axis_unit(float(np.nanmedian(found.stress)), "Pa")
+    speed, thickness, stress = found.speed / v, found.thickness / b, found.stress / p
     with _style():
         figure = _figure()
         axes = figure.subplots()
@@ -329,13 +332,15 @@ def draw_regimes(found: RegimeMap) -> "Figure":
         axes.set_yscale("log")
         colours = {"levels": (-0.5, 0.5, 1.5, 2.5), "colors": _REGIME_COLOURS}
         axes.contourf(speed, thickness, number, **colours)
-        stress = found.stress / 1e3
         lines = axes.contour(
             speed, thickness, stress, levels=_STRESS_LINES, colors="0.3", linewidths=1.2
         )
-        axes.clabel(lines, fmt="%.3g kPa", fontsize=10)
-        axes.set_xlabel("retraction speed [µm/s]")
-        axes.set_ylabel("thickness [µm]")
+        axes.clabel(lines, fmt=f"%.3g {p_unit}", fontsize=10)
+        plain_ticks(axes.xaxis)
+        plain_ticks(axes.yaxis)
+        axes.tick_params(pad=8)
+        axes.set_xlabel(f"retraction speed [{v_unit}]")
+        axes.set_ylabel(f"thickness [{b_unit}]")
         patches = zip(REGIMES, _REGIME_COLOURS, strict=True)
         handles = [Patch(fc=colour, ec="0.3", label=words) for words, colour in patches]
         axes.legend(handles=handles[::-1], loc="lower right", frameon=True)
@@ -487,3 +492,24 @@ def axis_unit(largest: float, unit: str) -> tuple[float, str]:
     """Return the SI unit with the prefix for an axis up to this value: its size, and its name."""
     factor, name = prefixed(largest, unit)
     return factor, name.replace("u", "µ")
+
+
+def log_axis_unit(values: npt.ArrayLike, unit: str) -> tuple[float, str]:
+    """Return the same for a logarithmic axis, by the middle of its positive values."""
+    x = np.asarray(values, dtype=float)
+    x = x[x > 0]
+    return axis_unit(float(np.sqrt(x.min() * x.max())) if x.size else 1.0, unit)
+
+
+def plain_ticks(axis: "Axis") -> None:
+    """Label a logarithmic axis, whose data are drawn, by plain numbers instead of powers of ten."""
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+
+    low, high = axis.get_view_interval()
+    if high > 10 * low:
+        subs = (1.0,) if high > 100 * low else (1.0, 2.0, 5.0)
+        axis.set_major_locator(LogLocator(subs=subs))
+    else:
+        axis.set_major_locator(MaxNLocator(5))
+    axis.set_major_formatter(StrMethodFormatter("{x:.6g}"))
+    axis.set_minor_formatter(NullFormatter())

@@ -38,8 +38,8 @@ def draw_rough(found: RoughResult) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Left the tension, with the share of the map in contact; right the pressure at pull-off,
-        tension in blue, compression in red.
+        Left the force, compression positive, with the share of the map in contact; right the
+        pressure at pull-off, tension in blue, compression in red.
     """
     figure, _ = _figure(found, found.strongest)
     return figure
@@ -127,7 +127,7 @@ def _frames(found: RoughResult) -> Iterator[Any]:
 
 
 def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
-    """Draw the tension by position of the plate, and the asperities on the map.
+    """Draw the force by position of the plate, and the asperities on the map.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Left the tension, right the heights with the summits.
+        Left the force, compression positive, right the heights with the summits.
     """
     import matplotlib.style
     from matplotlib.figure import Figure
@@ -153,11 +153,10 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
         figure = Figure(figsize=(10.0, 4.4), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(curve.position / length, -curve.force / force, color="#08519c")
+        left.plot(curve.position / length, curve.force / force, color="#08519c")
         left.set_xlabel(f"position of the plate [{length_unit}]")
-        left.set_ylabel(f"tension [{force_unit}]")
-        left.invert_xaxis()
-        left.set_title(f"largest tension {found.pull_off_force / force:.3g} {force_unit}")
+        left.set_ylabel(f"force [{force_unit}]")
+        left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
         rows, columns = (each / side for each in surface.size)
         image = right.imshow(surface.heights / height, cmap="cividis", extent=(0, columns, rows, 0))
         x, y = found.asperities.positions.T / side
@@ -184,13 +183,12 @@ def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, An
         figure = Figure(figsize=(10.0, 4.4), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(found.depth / length, -found.force / force, color="#08519c", label="tension")
+        left.plot(found.depth / length, found.force / force, color="#08519c", label="force")
         (mark,) = left.plot(
-            [shown.depth / length], [-shown.force / force], "o", color="#d94801", zorder=3
+            [shown.depth / length], [shown.force / force], "o", color="#d94801", zorder=3
         )
         left.set_xlabel(f"depth [{length_unit}]")
-        left.set_ylabel(f"tension [{force_unit}]")
-        left.invert_xaxis()
+        left.set_ylabel(f"force [{force_unit}]")
         share = left.twinx()
         share.plot(
             found.depth / length,
@@ -202,7 +200,7 @@ def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, An
         share.set_ylabel("map in contact [%], dashed")
         share.set_ylim(0, None)
         share.grid(False)
-        left.set_title(f"largest tension {found.pull_off_force / force:.3g} {force_unit}")
+        left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
         most = float(np.quantile(np.abs(found.strongest.pressure), 0.999)) / stress
         image = right.imshow(
             shown.pressure / stress,

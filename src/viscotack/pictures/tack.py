@@ -11,7 +11,7 @@ from viscotack.lab.tack import Cycle
 from viscotack.materials.shift import Shift
 from viscotack.units import readable
 
-from .plot import axis_unit
+from .plot import axis_unit, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -103,7 +103,7 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle], shift: Shift | None) -> No
     factors = [_factor(same, shift) for same in groups]
     force, unit = axis_unit(max(cycle.pull_off_force.value for cycle in cycles), "N")
     pairs = list(zip(groups, factors, strict=True))
-    speed, speed_unit = axis_unit(max(a * c.speed.value for same, a in pairs for c in same), "m/s")
+    speed, speed_unit = log_axis_unit([a * c.speed.value for same, a in pairs for c in same], "m/s")
     colours = colormaps["plasma"](np.linspace(0.0, 0.85, len(groups)))
     for (same, factor), colour in zip(pairs, colours, strict=True):
         axes.errorbar(
@@ -119,6 +119,7 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle], shift: Shift | None) -> No
         )
     if all(cycle.speed.value > 0 for cycle in cycles):
         axes.set_xscale("log")
+        plain_ticks(axes.xaxis)
     if len(groups) > 1:
         axes.legend(fontsize="small")
     axes.set_ylim(bottom=0.0)

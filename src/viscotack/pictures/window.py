@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.series import CriticalSpeed, Window
 
-from .plot import axis_unit
+from .plot import axis_unit, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,7 +56,7 @@ def draw_window(*maps: Window, titles: Sequence[str] = ()) -> "Figure":
     ... )
     >>> found = window(contact, donor=contact, speeds=[1e-6, 1e-3], preloads=[1e-3, 1e-2])
     >>> draw_window(found).axes[0].get_xlabel()
-    'speed of the drive [mm/s]'
+    'speed of the drive [µm/s]'
     """
     import matplotlib.style
     from matplotlib.figure import Figure
@@ -95,7 +95,7 @@ def _draw_map(axes: "Axes", found: Window) -> None:
     """Draw one map with its critical speeds."""
     from matplotlib.colors import ListedColormap
 
-    speed, speed_unit = axis_unit(found.speeds[-1], "m/s")
+    speed, speed_unit = log_axis_unit(found.speeds, "m/s")
     load, _ = axis_unit(_largest_preload(found), "N")
     words = list(_COLOURS)
     number = np.array([words.index(cell.word) for cell in found.cells])
@@ -114,6 +114,9 @@ def _draw_map(axes: "Axes", found: Window) -> None:
         known = [each for each in found.critical_speeds if each.base == base]
         if known:
             _draw_critical(axes, known, style, speed, load)
+    for axis in (axes.xaxis, axes.yaxis):
+        if axis.get_scale() == "log":
+            plain_ticks(axis)
     axes.set_xlabel(f"speed of the drive [{speed_unit}]")
     axes.grid(False)
 
