@@ -159,7 +159,6 @@ def test_it_comes_back_from_its_file_and_a_damaged_one_is_refused(tmp_path):
 
 
 def test_errors_are_measured_on_other_solids():
-    pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
     from research.training.rows import of_arrays
     from research.training.train_short_range import measured
 
