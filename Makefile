@@ -1,7 +1,7 @@
 # The first two commands of the README: `make demo` and `make test`.
 PYTHON ?= python3
-VENV := .venv
-BIN := $(VENV)/bin
+VENV = .venv
+BIN = $(VENV)/bin
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
 # One BLAS thread per process: the matrices are small, and campaigns use processes.
 export OMP_NUM_THREADS = 1

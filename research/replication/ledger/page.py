@@ -66,8 +66,8 @@ _ERRORS = (
     "Errors of simulations are the solver's own estimates, which cover the true error in nine of "
     "ten cases and more ([performance](performance.md)). Figures are in the "
     "[gallery](gallery.md); the authors' rows are judged [one by "
-    "one](../research/replication/published/README.md); `random-rows` and `new-materials` below have "
-    "what models learn from them."
+    "one](../research/replication/published/README.md); `random-rows` and `new-materials` "
+    "below have what models learn from them."
 )
 _READING = (
     "Units: P̂ is P/(πRΔγ0) as in chapter 4; rates are rτ0/h0; k P/P_JKR is k times the force in "
