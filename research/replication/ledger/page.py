@@ -170,6 +170,6 @@ Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
 
        W ≤ 1.156939 μ π^(2/3) k^(−5/3)    [1.5 πRΔγ0 h0]
 
-It is not sharp: a relaxed bulk and a fast crack do not go together. In the 17,378 rows of the
-shipped sets that start in compression the largest share of it is 0.67 where μk^(1/3) > 1
-(`bound-at-all-rates`). Forces of long range, which pull outside the contact, are not covered."""
+It is not sharp: a relaxed bulk and a fast crack do not go together. The largest share of it in the
+rows of the shipped sets that start in compression with μk^(1/3) > 1 falls with k, as
+`bound-at-all-rates` states. Forces of long range, which pull outside the contact, are not covered."""
