@@ -26,7 +26,7 @@ project = "viscotack"
 author = "The viscotack developers"
 project_copyright = author
 version = release = __version__
-# `make docs-pages` checks the links of the pages alone: no reference, and no example is run.
+# `make lint` checks the links of the pages alone: no reference, and no example is run.
 PAGES_ALONE = "pages" in tags  # noqa: F821  # given by Sphinx
 root_doc = "docs/index"
 include_patterns = [

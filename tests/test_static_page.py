@@ -1,4 +1,4 @@
-"""The page without Python beside `viscotack.predict`: digits, refusals; `make test-outside`.
+"""The page without Python beside `viscotack.predict`: digits, refusals; `make test MARK=outside`.
 
 Chromium without a window reads the page from a web server that has nothing but its files.
 """

@@ -172,4 +172,5 @@ Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
 
 It is not sharp: a relaxed bulk and a fast crack do not go together. The largest share of it in the
 rows of the shipped sets that start in compression with μk^(1/3) > 1 falls with k, as
-`bound-at-all-rates` states. Forces of long range, which pull outside the contact, are not covered."""
+`bound-at-all-rates` states. Forces of long range, which pull outside the contact, are not
+covered."""

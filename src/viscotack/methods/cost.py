@@ -8,7 +8,6 @@ of processor time, t being that of the coarse run, n the number of nodes at the 
 epsilon the accuracy, 0.002 for epsilon_0 (67 drawn problems: within a factor of 1.4 in two of
 three). A coarse run that does not end has completed a share of the motion, which enters as a weak
 power, because the shares of time and motion differ by a factor of up to ten.
-``benchmarks/own_cost.py`` fits and judges it.
 """
 
 from __future__ import annotations

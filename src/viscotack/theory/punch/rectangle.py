@@ -30,7 +30,6 @@ a square it is the lower one, that of the inscribed disc, and a long rectangle p
 well below it, where :math:`K > 2 \sqrt2` (from a = 4.1 b).
 
 Sources: elliptical punch, Johnson, Contact Mechanics (1985), section 3.4; the bounds, this package.
-`benchmarks/rectangle.py` compares them with contacts that open cell by cell.
 """
 
 from __future__ import annotations
