@@ -42,7 +42,14 @@ include_patterns = [
     "tests/data/README.md",
     "data/viscotack_data/README.md",
 ]
-exclude_patterns = ["**/node_modules", ".*", "out", "build", "**/sg_execution_times.rst"]
+exclude_patterns = [
+    "research/paper/manuscript.md",
+    "**/node_modules",
+    ".*",
+    "out",
+    "build",
+    "**/sg_execution_times.rst",
+]
 extensions = ["myst_parser"]
 extensions += (
     []

@@ -235,8 +235,8 @@ def test_an_elastic_solid_has_no_time(case, factor):
 @related(3, case=contacts())
 def test_the_square_profile_is_the_sphere_and_a_stiff_spring_a_rigid_machine(case):
     known = pulled(case)
-    agree(known, pulled(replace(case, geometry=vt.PowerLawProfile(0.5, 2.0))), 2e-3)
-    agree(known, pulled(replace(case, stiffness=1e9)), 2e-3)
+    agree(known, pulled(replace(case, geometry=vt.PowerLawProfile(0.5, 2.0))), ACCURACY)
+    agree(known, pulled(replace(case, stiffness=1e9)), ACCURACY)
 
 
 @related(3, case=contacts())
