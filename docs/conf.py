@@ -26,7 +26,7 @@ project = "viscotack"
 author = "The viscotack developers"
 project_copyright = author
 version = release = __version__
-# `make docs-pages` checks the links of the pages alone: no reference, and no example is run.
+# `make lint` checks the links of the pages alone: no reference, and no example is run.
 PAGES_ALONE = "pages" in tags  # noqa: F821  # given by Sphinx
 root_doc = "docs/index"
 include_patterns = [
@@ -42,7 +42,14 @@ include_patterns = [
     "tests/data/README.md",
     "data/viscotack_data/README.md",
 ]
-exclude_patterns = ["**/node_modules", ".*", "out", "build", "**/sg_execution_times.rst"]
+exclude_patterns = [
+    "research/paper/manuscript.md",
+    "**/node_modules",
+    ".*",
+    "out",
+    "build",
+    "**/sg_execution_times.rst",
+]
 extensions = ["myst_parser"]
 extensions += (
     []

@@ -1,9 +1,9 @@
 """Is the default good to what it says? Cases over the whole range against converged runs.
 
-`python benchmarks/accuracy.py [--count 30]`: force and work of the default setting beside those at
+`python -m research.accuracy [--count 30]`: force and work of the default setting beside those at
 a 20 times better accuracy, the error estimate beside the true error, the energy residual, the time.
 
-`python benchmarks/accuracy.py --drawn 200 --seed 1`: stated errors of force, work and depth of the
+`python -m research.accuracy --drawn 200 --seed 1`: stated errors of force, work and depth of the
 pull-off of random tests, spheres and punches of `drawn_tests.py`, beside runs ten times as
 accurate. Ten minutes on two cores.
 """

@@ -1,6 +1,6 @@
 """How often the intervals of a fit hold the truth, under errors that laboratories have.
 
-    python benchmarks/coverage.py [--draws 200] [--only WORDS] [--processes 2]
+    python -m research.coverage [--draws 200] [--only WORDS] [--processes 2]
 
 In each situation a known solid is measured again and again, each time with fresh errors, and
 fitted; counted is how often the 90 % interval of each quantity holds the true value. A bound ("at

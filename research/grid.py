@@ -1,16 +1,16 @@
 """The grid beside contacts of revolution and beside itself on finer pixels.
 
-python benchmarks/grid.py spheres           # forces, works and processor time of 22 spheres
-python benchmarks/grid.py pixels            # errors of the force by pixels per zone
-python benchmarks/grid.py trust --seed 1    # stated errors of drawn spheres
-python benchmarks/grid.py random --count 50 # drawn problems: endings, residuals and times
-python benchmarks/grid.py superposition     # asperities by themselves beside the grid
-python benchmarks/grid.py places            # errors by the place of the apex within a pixel
-python benchmarks/grid.py criteria --seed 5 --count 24  # the bearing area beside the grid
-python benchmarks/grid.py areas             # contact of hard rough maps by the pressure
-python benchmarks/grid.py peer              # elastic spheres beside the package Adhesion, in pairs
-python benchmarks/grid.py size              # time and memory by the number of pixels
-python benchmarks/grid.py inner --limit 30  # time of an inner iteration and memory, to 1024 x 1024
+python -m research.grid spheres           # forces, works and processor time of 22 spheres
+python -m research.grid pixels            # errors of the force by pixels per zone
+python -m research.grid trust --seed 1    # stated errors of drawn spheres
+python -m research.grid random --count 50 # drawn problems: endings, residuals and times
+python -m research.grid superposition     # asperities by themselves beside the grid
+python -m research.grid places            # errors by the place of the apex within a pixel
+python -m research.grid criteria --seed 5 --count 24  # the bearing area beside the grid
+python -m research.grid areas             # contact of hard rough maps by the pressure
+python -m research.grid peer              # elastic spheres beside the package Adhesion, in pairs
+python -m research.grid size              # time and memory by the number of pixels
+python -m research.grid inner --limit 30  # time of an inner iteration and memory, to 1024 x 1024
 """
 
 import argparse

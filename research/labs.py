@@ -1,6 +1,6 @@
 """Put studies of synthetic labs to the test, from DMA and rig curves to a forecast.
 
-    python benchmarks/labs.py [--growing|--disturbed] [--tabor 10 1e4] [--count 20] [--first 0]
+    python -m research.labs [--growing|--disturbed] [--tabor 10 1e4] [--count 20] [--first 0]
                               [--out labs.jsonl]
 
 Each lab has a solid, an interface, a lens and a rig of its own, drawn from a seed: Tabor numbers 10

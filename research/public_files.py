@@ -1,6 +1,6 @@
 """Read every rheology file of public repositories, and hold what was read against another parse.
 
-``python benchmarks/public_files.py FOLDER...`` takes checkouts of RepTate, RheoJAX, pyRheo,
+``python -m research.public_files FOLDER...`` takes checkouts of RepTate, RheoJAX, pyRheo,
 mastercurves, pyvisco, RHEOS and of the repositories in :data:`PAGE` (any folders do), reads each
 data file in them as it is, and prints how many
 
@@ -645,7 +645,7 @@ checkouts of the repositories, measures and writes the page; `--compare FILE` co
 some of them with a page, and `--names FILE` writes the outcome of each file as CSV:
 
 ```console
-python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
+python -m research.public_files RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
     Thin-Rheology rheology-data-toolkit RheometerPlots dma-prony-validation perssonmodelling \\
     rheologyEvaluation MATLAB-DMA2Prony Clinckspoor-Rheology RheometerData rheology-fit \\
     rheology-health-monitoring Viscoelastic-fitting Viscoelastic_Fit --page docs/public-files.md

@@ -1,6 +1,6 @@
 """Read public files of tack tests and force curves, and hold them against the raw numbers.
 
-    python benchmarks/public_tack_files.py FOLDER... [--names]
+    python -m research.public_tack_files FOLDER... [--names]
 
 Records of JPK texts are held against the columns that NumPy reads. For every cycle that is read:
 the pull-off against the raw extremum of that retraction, and the speed against a line through

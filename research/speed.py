@@ -1,6 +1,6 @@
 """How much faster than the published algorithm, at no less accuracy, in one run on one machine.
 
-`python benchmarks/speed.py`: each case by the plain twin and by the simulation, in turn; the error
+`python -m research.speed`: each case by the plain twin and by the simulation, in turn; the error
 of both is measured against a converged simulation. The simulation is asked for less accuracy until
 it is just no worse than the twin. About four minutes.
 """

@@ -1,6 +1,6 @@
 """What `viscotack.predict` holds on fresh cases: coverage, abstentions and the worst errors.
 
-`python -m benchmarks.fresh_coverage --seed 41 --labels FOLDER [--counts ...]`: the cases of
+`python -m research.surrogate_coverage --seed 41 --labels FOLDER [--counts ...]`: the cases of
 `training/fresh_cases.py` beside the surrogates alone (a budget of milliseconds). A curve is
 compared at every simulated step between zero force (or a start in tension) and the pull-off.
 """

@@ -1,4 +1,4 @@
-"""The API under thousands of invented requests: `make test-outside`, figures in docs/api.md."""
+"""Thousands of invented requests to the API: `make test MARK=outside`, figures in docs/api.md."""
 
 import re
 import shutil

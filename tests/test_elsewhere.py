@@ -9,15 +9,15 @@ import sys
 import pytest
 
 from app_server import running
-from docs import sessions as docs_check
+from docs import sessions
 
-PAGE = docs_check.ROOT / "docs/elsewhere.md"
+PAGE = sessions.ROOT / "docs/elsewhere.md"
 
 
 @pytest.mark.outside
 def test_octave_prints_what_predict_answers(tmp_path):
     octave = shutil.which("octave-cli") or pytest.fail("install Debian's package octave")
-    docs_check.stage(tmp_path)
+    sessions.stage(tmp_path)
     program = tmp_path / "bin/viscotack"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m viscotack "$@"\n')

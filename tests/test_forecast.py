@@ -579,7 +579,7 @@ def test_tables_with_other_columns_are_refused(columns, words):
         vt.predict_table(columns)
 
 
-# Many rows. How long they take is measured by benchmarks/surrogate_page.py. -----------------
+# Many rows. -----------------------------------------------------------------------------------
 
 
 def test_a_long_table_over_the_whole_range_is_inside():

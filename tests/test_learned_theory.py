@@ -128,7 +128,6 @@ def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
 
 
 def test_errors_are_measured_on_other_solids():
-    pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
     from research.training.rows import of_arrays
     from research.training.train_short_range import measured
 

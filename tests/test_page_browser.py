@@ -1,6 +1,6 @@
 """The page in a real browser: what a newcomer does, and what it costs. docs/app.md has the figures.
 
-Chromium without a window, `make test-outside`; figures are printed with ``-s``.
+Chromium without a window, `make test MARK=outside`; figures are printed with ``-s``.
 """
 
 import json

@@ -10,16 +10,14 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from docs import sessions as docs_check
-from viscotack import datasets
+from docs import sessions
 
 ROOT = Path(__file__).parents[1]
-REPLICATION = sorted((ROOT / "research/replication").rglob("*.md"))
 PAGES = [
     ROOT / "README.md",
     *(ROOT / f"{word}.md" for word in ("CONTRIBUTING", "CODE_OF_CONDUCT", "SECURITY")),
     *sorted((ROOT / "docs").glob("*.md")),
-    *REPLICATION,
+    *sorted((ROOT / "research").rglob("*.md")),
 ]
 
 
@@ -29,7 +27,7 @@ NOT_AT_HAND = ("tcp://", "tls://", "viscotack app")
 ASKS_A_SERVER = ROOT / "docs/api.md"
 OWN = ROOT / "docs/own.md"
 # From rig files to a report takes half a minute, in the README and in docs/tack_tests.md alike.
-STUDY = docs_check.SLOW
+STUDY = sessions.SLOW
 
 
 def name(page):
@@ -82,18 +80,10 @@ def studies():
     return sorted(found - {()})
 
 
-def tenth(name):
-    """Write every tenth row of a set into this folder: what is tested is that examples run."""
-    parquet = pytest.importorskip("pyarrow.parquet", reason="comes with viscotack[campaign]")
-    rows = datasets.load(name)
-    parquet.write_table(rows.take(list(range(0, len(rows), 10))), f"{name}.parquet")
-    return Path(f"{name}.parquet")
-
-
 @pytest.fixture
 def anywhere(tmp_path, monkeypatch):
     """Stand in a folder that looks like the checkout, and may be written to."""
-    docs_check.stage(tmp_path)
+    sessions.stage(tmp_path)
     save_files_of(OWN, tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(tmp_path)
@@ -120,17 +110,10 @@ def test_first_steps_have_an_example_in_python(anywhere, capsys):
 
 @pytest.mark.parametrize(
     "page",
-    # the learning study on bands of the broad set takes half a minute
-    [
-        pytest.param(p, marks=[pytest.mark.slow] * (p in REPLICATION))
-        for p in PAGES[1:]
-        if p != ASKS_A_SERVER
-    ],
+    [page for page in PAGES[1:] if page != ASKS_A_SERVER],
     ids=name,
 )
-def test_python_of_the_pages_runs(page, anywhere, monkeypatch):
-    if page in REPLICATION:
-        monkeypatch.setattr("viscotack.datasets.path", tenth)
+def test_python_of_the_pages_runs(page, anywhere):
     for example in blocks(page, "python"):
         exec(compile(example, page.name, "exec"), {})
 
@@ -152,13 +135,13 @@ def compare(lines, shown):
     for line in lines:
         if line not in shown:
             run([line])
-        elif wrong := docs_check.difference(shown[line], docs_check.printed(line)):
+        elif wrong := sessions.difference(shown[line], sessions.printed(line)):
             pytest.fail(f"{line}\n  {wrong}\nrun: python docs/sessions.py --write")
 
 
 @pytest.mark.parametrize("page", short())
 def test_commands_of_the_pages_run_and_print_what_is_shown(page, anywhere):
-    shown = docs_check.sessions((ROOT / page).read_text())
+    shown = sessions.sessions((ROOT / page).read_text())
     compare(short()[page], {session.command: session for session in shown})
 
 
@@ -178,7 +161,7 @@ def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
 
 @pytest.mark.slow
 def test_studies_of_the_pages_run_and_print_what_is_shown(anywhere):
-    shown = (x for page in docs_check.PAGES for x in docs_check.sessions(page.read_text()))
+    shown = (x for page in sessions.PAGES for x in sessions.sessions(page.read_text()))
     assert studies()
     compare(itertools.chain(*studies()), {session.command: session for session in shown})
 
@@ -196,14 +179,14 @@ def test_studies_of_the_pages_run_and_print_what_is_shown(anywhere):
     ],
 )
 def test_lines_agree_to_the_last_digit_shown(shown, printed, same):
-    assert docs_check.agrees(shown, printed) is same
+    assert sessions.agrees(shown, printed) is same
 
 
 def test_a_stale_session_is_found_and_renewed(monkeypatch):
     page = "Text 1.0\n```console\n$ viscotack x\na 1.2\n...\nz 3\n$ viscotack y\n```\n"
-    (session,) = docs_check.sessions(page)
-    assert docs_check.difference(session, ["a 1.2", "b", "c", "z 3"]) == ""
-    assert "1.5" in docs_check.difference(session, ["a 1.5", "b", "z 3"])
-    assert "lines" in docs_check.difference(session, ["a 1.2"])
-    fresh = docs_check.renewed(page, {session: ["a 1.5", "b", "z 4"]})
+    (session,) = sessions.sessions(page)
+    assert sessions.difference(session, ["a 1.2", "b", "c", "z 3"]) == ""
+    assert "1.5" in sessions.difference(session, ["a 1.5", "b", "z 3"])
+    assert "lines" in sessions.difference(session, ["a 1.2"])
+    fresh = sessions.renewed(page, {session: ["a 1.5", "b", "z 4"]})
     assert fresh == page.replace("1.2", "1.5").replace("z 3", "z 4")

@@ -1,4 +1,4 @@
-"""The built site in a real browser: `make docs`, then `make test-outside`.
+"""The built site in a real browser: `make docs`, then `make test MARK=outside`.
 
 Figures are printed with ``-s``.
 """

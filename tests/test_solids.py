@@ -105,7 +105,6 @@ def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
 
 
 def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
-    pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
     from research.training import likeness
 
     tests, creep = likeness.made_up(150, 50)

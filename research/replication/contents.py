@@ -39,13 +39,6 @@ class Part:
 
 CONTENTS = (
     Part(
-        room="research.replication.learning",
-        options="--table rows.csv --out out/learning --jobs 2",
-        claim="What learned models of detachment are worth, on random rows and on new materials",
-        source="Maghami, PhD thesis (2025), chapter 5, Tables 5.1 to 5.4 and appendix X",
-        time="29 min of processor time, 18 min on two cores",
-    ),
-    Part(
         room="research.replication.published",
         options="--table rows.csv --workers 2 --write research/replication/published",
         claim="How good the published table of detachments is, row by row",

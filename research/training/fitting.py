@@ -182,7 +182,7 @@ def _jax() -> Any:
         import jax
     except ImportError:
         raise ModuleNotFoundError(
-            "training needs JAX; install it with pip install -e '.[train]'"
+            "training needs JAX; install it with pip install -e '.[research]'"
         ) from None
     jax.config.update("jax_enable_x64", True)
     jax.config.update("jax_platforms", "cpu")

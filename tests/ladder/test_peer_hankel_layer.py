@@ -1,8 +1,7 @@
 """A bonded layer of Poisson ratio 0.49 beside `tests/hankel_layer.py`, a code of its own.
 
 That code shares nothing with the package: rings of uniform pressure, a transfer function by matrix
-exponentials, and the hereditary integral summed over all steps. `benchmarks/layer_peer.py` compares
-more cases on finer rings.
+exponentials, and the hereditary integral summed over all steps.
 """
 
 import numpy as np

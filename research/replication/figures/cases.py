@@ -162,11 +162,6 @@ def tip_speed(edge_speed: Any, tabor: float = TABOR, alpha: float = ALPHA) -> An
     return np.asarray(edge_speed) * np.pi * alpha**2 / ALPHA_LJ**2 * tabor**2
 
 
-def zone_speed(edge_speed: Any, tabor: float = TABOR) -> Any:
-    """Return the speed of the steady crack, in E0* h0^2/(dg tau0), of an edge speed."""
-    return np.asarray(edge_speed) * tabor**2
-
-
 def elastic_ratio(tabor: Any) -> Any:
     """Return f(mu), the elastic Lennard-Jones pull-off force over that of JKR."""
     return theory.lennard_jones.pull_off_ratio(tabor)

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 SIZE = (10.0, 4.2)
 EXPONENTS = (0.2, 0.6, 1.6)
 _DEPTH = 73.0
+# Modulus ratios over which Sec. 5.4.1 compares model and descriptor.
+TREND = (0.5, 0.2, 0.1, 0.05, 0.02)
 RATES = np.geomspace(0.1, 1e9, 33)
 POINTS = np.geomspace(0.1, 1e9, 8)
 
@@ -62,7 +64,20 @@ def numbers(bench: Bench) -> Numbers:
     r = rows()
     near = (np.abs(np.log(r.tabor / TABOR)) < 0.02) & (r.preload > 50) & (r.modulus_ratio == K)
     like = [int(np.sum(near & (r.exponent == n))) for n in EXPONENTS]
-    return curves(bench.each, tabor=TABOR, depth=_DEPTH) | {"rows_like_it": like}
+    found = curves(bench.each, tabor=TABOR, depth=_DEPTH) | {"rows_like_it": like}
+    return found | {"trend": trend()}
+
+
+def trend() -> list[Numbers]:
+    """Return force by rate of the model with the descriptor and of the descriptor, by ratio."""
+    case = {"rate": RATES, "tabor": TABOR, "exponent": 0.6, "preload": _DEPTH}
+    return [
+        {
+            "paml": predicted(FORCE_PAML, modulus_ratio=k, **case),
+            "theory": analytic(modulus_ratio=k, **case),
+        }
+        for k in TREND
+    ]
 
 
 def draw(numbers: Numbers, figure: Figure) -> None:

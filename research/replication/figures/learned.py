@@ -2,7 +2,7 @@
 
 ``viscotack.datasets`` has 8,505 detachments whose inputs are spread as Table A.1 says, simulated by
 this package: none is repeated, none has a placeholder for its work. What models learn from the
-authors' published rows is in replication/learning/README.md.
+authors' published rows is in the study `published-rows`.
 """
 
 from __future__ import annotations

@@ -28,13 +28,15 @@ if TYPE_CHECKING:
 SIZE = (6.6, 4.4)
 # Contacts of shorter range than this in the glassy state are near to JKR.
 LEAST_TABOR = 1.0
+# Ends of ranges of the modulus ratio for which the largest share is stated.
+RATIOS = (1e-3, 0.05, 0.2, 0.3, 1.0)
 _SHOWN = 500
 
 
 def numbers(bench: Bench) -> Numbers:
     """Return works over the bound by glassy Tabor number, of rows that start in compression."""
     unit = float(jkr.work_to_instability(**UNIT)) / CHAPTER_4
-    share, glassy, below, all_below = [], [], [], 0
+    share, glassy, ratio, below, all_below = [], [], [], [], 0
     for name in ("thesis", "broad"):
         rows = datasets.load(name)
         k, mu, work = (
@@ -46,17 +48,22 @@ def numbers(bench: Bench) -> Numbers:
         known = pressed & np.isfinite(work)
         share.append((work / (unit * mu * np.pi ** (2 / 3) * k ** (-5 / 3)))[known])
         glassy.append((mu * k ** (1 / 3))[known])
+        ratio.append(k[known])
         jkr_work = float(jkr.work_to_pull_off(**UNIT)) / CHAPTER_4 * mu * np.pi ** (2 / 3)
         below.append(float(np.min((work / jkr_work)[known])))
         all_below += int(np.sum((work < jkr_work)[known]))
     every, tabor = np.concatenate(share), np.concatenate(glassy)
-    short = tabor > LEAST_TABOR
+    short, k = tabor > LEAST_TABOR, np.concatenate(ratio)
+    ranges = list(zip(RATIOS, RATIOS[1:], strict=False))
     some = np.random.default_rng(1).permutation(len(every))[:_SHOWN]
     return {
         "unit": unit,
         "rows": len(every),
         "short_rows": int(np.sum(short)),
         "largest_short": float(np.max(every[short])),
+        "largest_by_ratio": [
+            float(np.max(every[short & (k >= low) & (k < high)])) for low, high in ranges
+        ],
         "largest": float(np.max(every)),
         "largest_at_tabor": float(tabor[int(np.argmax(every))]),
         "glassy_tabor": tabor[some],

@@ -16,7 +16,6 @@ from viscotack.theory import persson_brener, rate
 from ..table import Array, Detachments
 
 INPUTS = ("log10 preload", "tabor", "log10 rate", "log10 modulus ratio", "exponent")
-DESCRIPTOR = "descriptor"
 
 
 class Descriptor(StrEnum):
@@ -88,11 +87,6 @@ def features(rows: Detachments, descriptor: Descriptor) -> Array:
     if descriptor is Descriptor.NONE:
         return inputs(rows)
     return np.column_stack([inputs(rows), crack_amplification(rows, descriptor)])
-
-
-def feature_names(descriptor: Descriptor) -> tuple[str, ...]:
-    """Return the name of each column of `features`."""
-    return INPUTS if descriptor is Descriptor.NONE else (*INPUTS, DESCRIPTOR)
 
 
 def target(rows: Detachments, which: Target) -> Array:

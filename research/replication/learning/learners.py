@@ -21,7 +21,7 @@ def check_installed() -> None:
     except ImportError as error:
         raise ModuleNotFoundError(
             f"learning needs scikit-learn and xgboost, and {error.name} is missing; install them "
-            "with pip install --editable '.[replication]'"
+            "with pip install --editable '.[research]'"
         ) from None
     assert sklearn and xgboost
 

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..table import Array, Detachments
-from .features import inputs
+from ..table import Array
 
 Rows = npt.NDArray[np.intp]
 
@@ -16,8 +15,6 @@ _SAME = 0.06
 # Inputs that agree to this many decimals of their features are the same input.
 _DECIMALS = 6
 FOLDS = 5
-# Of combinations of solid and Tabor number: this many folds, each of whole combinations.
-COMBINATION_FOLDS = 10
 RANDOM = "random rows"
 
 
@@ -77,40 +74,3 @@ def group_split(name: str, groups: npt.NDArray[np.intp], seed: int, folds: int =
     """Return folds that no group is in two of."""
     some = random_split(int(groups.max()) + 1, seed, min(folds, int(groups.max()) + 1))
     return Split(name, some.fold[groups], some.labels)
-
-
-def band_split(name: str, values: Array, bands: int = 8) -> Split:
-    """Return a fold for each of some bands of an input with about as many rows in each.
-
-    Rows with the same value are in the same band, so there may be fewer.
-    """
-    edges = np.unique(np.quantile(values, np.linspace(0, 1, bands + 1)))
-    fold = np.searchsorted(edges[1:-1], values, side="right").astype(np.intp)
-    used, fold = np.unique(fold, return_inverse=True)
-    labels = tuple(
-        f"{values[fold == i].min():.3g} to {values[fold == i].max():.3g}" for i in range(len(used))
-    )
-    return Split(f"a new band of {name}", fold, labels)
-
-
-def same_input(rows: Detachments) -> npt.NDArray[np.intp]:
-    """Return a number for each row that rows with the same five inputs share."""
-    _, found = np.unique(np.round(inputs(rows), _DECIMALS), axis=0, return_inverse=True)
-    return np.ravel(found)
-
-
-def grouped_splits(
-    rows: Detachments, seed: int, *, folds: int = FOLDS, combination_folds: int = COMBINATION_FOLDS
-) -> tuple[Split, ...]:
-    """Return the random split and those by input, solid and Tabor number; at least two folds."""
-    solid = np.stack([rows.tabor, rows.modulus_ratio, rows.exponent], axis=1)
-    _, combination = np.unique(solid, axis=0, return_inverse=True)
-    splits = (
-        random_split(len(rows), seed, folds),
-        group_split("a new input", same_input(rows), seed, folds),
-        group_split("a new (mu, k, n)", np.ravel(combination), seed, combination_folds),
-        value_split("mu", rows.tabor),
-        value_split("n", rows.exponent),
-        value_split("k", rows.modulus_ratio),
-    )
-    return tuple(split for split in splits if len(split.labels) > 1)

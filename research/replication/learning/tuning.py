@@ -7,10 +7,9 @@ import numpy as np
 
 from ..table import Array, Detachments
 from .features import Descriptor, Target, features, target
-from .learners import Learner, network
+from .learners import network
 from .splits import random_split
-from .thesis import STOPPED_AT, TRAINING_ROWS
-from .validation import Trial, score
+from .thesis import STOPPED_AT
 
 Part = dict[str, Any]
 
@@ -18,7 +17,6 @@ _RATES, _DEPTHS = (0.02, 0.05, 0.1, 0.3), (4, 6, 8)
 # A boosting stops when this many rounds have not helped the rows held out.
 _PATIENCE, _MOST_ROUNDS, _HELD_OUT = 50, 2000, 0.15
 _TREES = (1, 2, 5, 10, 20, 50, 100, 200)
-_SHARES = (0.1, 0.2, 0.4, 0.7, 1.0)
 _LAYERS = ((50,), (100,), (50, 50), (100, 100), (50, 50, 50), (100, 100, 100))
 _ACTIVATIONS = ("relu", "tanh", "logistic")
 
@@ -76,34 +74,6 @@ def forest_curve(rows: Detachments, descriptor: Descriptor, *, seed: int, quick:
         errors["rmse_trained"].append(_rmse(forest, train, y_train))
         errors["rmse_held_out"].append(_rmse(forest, held, y_held))
     return {"descriptor": descriptor.value, "trees": list(trees), **errors}
-
-
-def rows_curve(
-    rows: Detachments, learner: Learner, descriptor: Descriptor, *, seed: int, quick: bool
-) -> Part:
-    """Return the error by the number of rows learned from, and a power law carried to 6804.
-
-    That is how many the thesis learned from; a table that holds a part of its rows has fewer.
-    """
-    shuffled = np.random.default_rng(seed).permutation(len(rows))
-    counts, errors = [], []
-    for share in _SHARES[-2:] if quick else _SHARES:
-        some = rows.chosen(shuffled[: round(share * len(rows))])
-        split = random_split(len(some), seed)
-        trial = Trial(Target.FORCE, descriptor, learner)
-        found = score(some, trial, split, seed=seed, quick=quick)
-        counts.append(round(len(some) * (1 - 1 / len(split.labels))))
-        errors.append(1e3 * float(found.mse.mean()))
-    slope, level = np.polyfit(np.log(counts), np.log(errors), 1)
-    return {
-        "descriptor": descriptor.value,
-        "model": learner.name,
-        "training_rows": counts,
-        "mse_1e-3": errors,
-        "exponent": float(slope),
-        "thesis_training_rows": TRAINING_ROWS,
-        "mse_1e-3_at_thesis_rows": float(np.exp(level + slope * np.log(TRAINING_ROWS))),
-    }
 
 
 def architectures(X: Array, Y: Array, *, seed: int, quick: bool) -> list[Part]:

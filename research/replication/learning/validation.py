@@ -58,11 +58,6 @@ class Score:
         """Mean square error of all held-out predictions."""
         return float(np.mean((self.true - self.predicted) ** 2))
 
-    @property
-    def typical_error(self) -> float:
-        """Root mean square of the log10 as a relative error of the quantity itself."""
-        return relative(self.pooled_mse)
-
 
 def relative(mse: float) -> float:
     """Return the relative error that a mean square error of log10 stands for.
@@ -85,11 +80,6 @@ def r_squared(true: Array, predicted: Array) -> float:
     """
     spread = np.sum((true - np.mean(true)) ** 2)
     return float(1 - np.sum((true - predicted) ** 2) / spread) if spread > 0 else float("nan")
-
-
-def work_rows(rows: Detachments, which: Target) -> Any:
-    """Return a mask of the rows whose target is known."""
-    return rows.work_known if which is Target.WORK else np.ones(len(rows), dtype=bool)
 
 
 def score(

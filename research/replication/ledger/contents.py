@@ -15,7 +15,7 @@ CHAPTERS: dict[str, tuple[Claim, ...]] = {
     "Chapter 5: simulated campaigns and what is learned from them": learning.CLAIMS,
 }
 # What was found here, and the thesis does not say.
-OWN: tuple[Claim, ...] = (*spheres.OWN, *rubber.OWN)
+OWN: tuple[Claim, ...] = (*spheres.OWN, *rubber.OWN, *learning.OWN)
 
 
 def of_thesis() -> tuple[Claim, ...]:

@@ -72,6 +72,18 @@ def _new_n(of: Of) -> Measured:
     )
 
 
+def _trend(of: Of) -> Measured:
+    logs = [np.log(each["paml"] / each["theory"]) for each in of("5.5")["trend"]]
+    first, *_, last = (100 * (np.exp(np.max(np.abs(off))) - 1) for off in logs)
+    forces = [np.concatenate([x[w] for x in of("5.5")["trend"]]) for w in ("paml", "theory")]
+    order = float(np.corrcoef(np.log(forces))[0, 1])
+    return Measured(
+        order,
+        f"correlation {order:.3f} of the logarithms over all rates; off by {first:.0f} % at most "
+        f"at k = 0.5 and {last:.0f} % at k = 0.02",
+    )
+
+
 def _new_k(of: Of) -> Measured:
     plain, augmented = of("published-rows")["new_k"]
     return Measured(
@@ -305,6 +317,20 @@ def _impossible(of: Of) -> Measured:
     )
 
 
+OWN = (
+    Claim(
+        "new-materials",
+        "not claimed",
+        "R2 for a modulus ratio that was not learned",
+        "none",
+        _new_k,
+        (-1, 0.8),
+        Verdict.HOLDS,
+        "it is missed with and without the descriptor; the thesis claims new exponents "
+        "(`new-exponents`) and a trend (`trend-with-modulus-ratio`)",
+    ),
+)
+
 CLAIMS = (
     Claim(
         "tables",
@@ -377,14 +403,14 @@ CLAIMS = (
         "one exponent held out at a time, all R2 together",
     ),
     Claim(
-        "new-materials",
-        "Sec. 5.4.1, 6.2.5",
-        "…modulus ratios that were not learned",
-        0.9995,
-        _new_k,
-        (-1, 0.8),
-        Verdict.FAILS,
-        "a modulus ratio that was not learned is missed with and without it",
+        "trend-with-modulus-ratio",
+        "Sec. 5.4.1",
+        "The model with the descriptor captures the trend with k from 0.5 to 0.02",
+        "reliably",
+        _trend,
+        (0.97, 1.0),
+        Verdict.HOLDS,
+        "beside the descriptor, at 73 h0, μ = 3.24, n = 0.6; most rows have k = 0.1",
     ),
     Claim(
         "best-model",

@@ -66,8 +66,8 @@ _ERRORS = (
     "Errors of simulations are the solver's own estimates, which cover the true error in nine of "
     "ten cases and more ([performance](performance.md)). Figures are in the "
     "[gallery](gallery.md); the authors' rows are judged [one by "
-    "one](../research/replication/published/README.md), and what models learn "
-    "from them [on a page of its own](../research/replication/learning/README.md)."
+    "one](../research/replication/published/README.md); `random-rows` and `new-materials` "
+    "below have what models learn from them."
 )
 _READING = (
     "Units: P̂ is P/(πRΔγ0) as in chapter 4; rates are rτ0/h0; k P/P_JKR is k times the force in "
@@ -170,6 +170,7 @@ Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
 
        W ≤ 1.156939 μ π^(2/3) k^(−5/3)    [1.5 πRΔγ0 h0]
 
-It is not sharp: a relaxed bulk and a fast crack do not go together. In the 17,378 rows of the
-shipped sets that start in compression the largest share of it is 0.67 where μk^(1/3) > 1
-(`bound-at-all-rates`). Forces of long range, which pull outside the contact, are not covered."""
+It is not sharp: a relaxed bulk and a fast crack do not go together. The largest share of it in the
+rows of the shipped sets that start in compression with μk^(1/3) > 1 falls with k, as
+`bound-at-all-rates` states. Forces of long range, which pull outside the contact, are not
+covered."""

@@ -153,10 +153,11 @@ def _exponent(of: Of) -> Measured:
     v = 1e6 * n["speed"]
     inside = (v >= 1) & (v <= 1000)
     light, heavy = (n[name]["exponent"][inside] for name in ("1.5 mN", "150 mN"))
+    close = 1e6 * float(np.interp(0.27, heavy, n["speed"][inside]))
     return Measured(
-        float(np.max(light)),
+        float(np.max(heavy)),
         f"{np.min(light):.2f} to {np.max(light):.2f} from 1.5 mN at 1 to 1000 µm/s, "
-        f"{np.min(heavy):.2f} to {np.max(heavy):.2f} from 150 mN",
+        f"{np.min(heavy):.2f} to {np.max(heavy):.2f} from 150 mN, 0.27 at {close:.0f} µm/s",
     )
 
 
@@ -360,8 +361,8 @@ CLAIMS = (
         "A Gent-Schultz edge of 0.41 gives P_po ∝ r^0.27",
         0.27,
         _exponent,
-        (0.2, 0.26),
-        Verdict.FAILS,
-        "the exponent drifts with speed and preload; its limit is 3ξ/(3 + ξ) = 0.365",
+        (0.28, 0.36),
+        Verdict.CORRECTED,
+        "one of the local exponents: they drift with speed and preload, to 3ξ/(3 + ξ) = 0.361",
     ),
 )

@@ -286,9 +286,11 @@ def _lower(of: Of) -> Measured:
 
 def _bound(of: Of) -> Measured:
     n = of("work-bound")
+    soft, middle, _, stiff = n["largest_by_ratio"]
     return Measured(
         float(n["largest_short"]),
-        f"{n['largest_short']:.2f} of it at most in {n['short_rows']} rows with μk^(1/3) > 1; "
+        f"in {n['short_rows']} rows with μk^(1/3) > 1 at most {stiff:.2f} of it at k ≥ 0.3, "
+        f"{middle:.2f} at k of 0.05 to 0.2, {soft:.2f} below; "
         f"long ranges leave it (μk^(1/3) = {n['largest_at_tabor']:.2g}: {n['largest']:.1f})",
     )
 

@@ -7,8 +7,6 @@ its radius equals the pull-off force. The energy of a crack that accelerates ris
 shrinks, and the tension then exceeds the Hertz force, by half in computed cases. In a retraction
 the edge only recedes, so no later peak is expected to exceed F once the Hertz force at the edge is
 below half of F. The factor of a half is a heuristic.
-
-`benchmarks/peaks.py` compares runs that end by this rule with complete runs.
 """
 
 from __future__ import annotations

@@ -16,7 +16,6 @@ from viscotack.result.parts import Span, spans
 # Shares in the error: of the difference to the companion over what its errors exceed those of the
 # run by; of the energy that is missing after the cycle; of what moving between meshes took; and of
 # the hysteresis times the accuracy. Each alone is small by chance now and then.
-# `benchmarks/energy_books.py --hysteresis` counts how often the sum covers the error.
 _DIFFERENCE, _MISSING, _MESHES, _FLOOR = 1.5, 1.0, 0.5, 0.15
 
 

@@ -9,7 +9,7 @@ from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 
-# Lower bounds of stated relative errors, shown by benchmarks/datasets.py to hold in 95 % of the
+# Lower bounds of stated relative errors, which hold in 95 % of the
 # rows: for all spheres, for deeply pressed ones, and for those of large Tabor number and small
 # modulus ratio, whose trajectories come close to jumps.
 LEAST_ERRORS = {"force_error": 1e-3, "work_error": 5e-3}

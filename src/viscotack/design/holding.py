@@ -26,7 +26,7 @@ from viscotack.protocol import AtForce
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
 from viscotack.traction import LennardJones
 
-# Relative standard error of the load against simulations (benchmarks/holding.py).
+# Relative standard error of the load against simulations.
 HELD_ERROR = 0.01
 # Loads and radii of the integral; smallest radius, and excess of the least load over the elastic
 # pull-off force; part of the largest energy at which the edge is as good as detached.

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
 
 
-# Range of the extrapolation that was compared with simulations (`benchmarks/beyond.py`).
+# Range of the extrapolation that was compared with simulations.
 LEAST_TABOR, MOST_RATE, LEAST_RATIO = 1e-3, 1e16, 1e-6
 SLOWER = "below a rate of {:g} the force tends to its slow limit in proportion to the rate"
 # Increase of half an interval of log10 per decade of smaller Tabor number.

@@ -145,7 +145,7 @@ def depth_between(found: Prediction) -> tuple[float, float] | None:
 
     The force is flat there, so an error :math:`\Delta W` of the work corresponds to an error
     :math:`\Delta W/P` of the depth. The error of the depth at zero force and that of the curve over
-    the travel from there are added in quadrature (`benchmarks/depth_interval.py`).
+    the travel from there are added in quadrature.
     """
     curve, work = found.curve, found.work_to_pull_off
     if curve is None or found.curve_band is None or work is None or found.work_interval is None:

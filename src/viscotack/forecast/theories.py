@@ -39,7 +39,7 @@ from .two_peaks import two_peaks
 _LAWS = (LennardJones, Dugdale, Exponential, Tabulated)
 _RELAXED = (AtDepth, AtForce, AtRadius)
 # Ranges where nine of ten cases are inside the bands of the closed forms
-# (`benchmarks/rate_law.py`); rate in
+# ; rate in
 # h0/tau0. Other laws by their effective range and the steepest fall of the tension
 # [strength^2/work].
 CLOSED_FORM = Verified(

@@ -47,7 +47,7 @@ _THINNED = 4  # one of this many samples of a posterior serves for Tabor numbers
 _NEAR = 1.0  # distance of an interface from the likely ones up to which its error counts
 
 # Error common to all measured forces, whose zero is separated from attraction out of contact by a
-# model: at a Tabor number of 1, and the largest one (`benchmarks/bent_zero.py`).
+# model: at a Tabor number of 1, and the largest one.
 _BENT, _MOST_BENT = 0.02, 0.004
 
 _NO_TIER = "the theory does not hold, and the Tabor number is too large to simulate"

@@ -1,6 +1,6 @@
 """Uncertainty of the steady-crack contact model, measured against simulations.
 
-`benchmarks/crack_contact.py` makes the comparison; this module contains its outcome and range.
+This module contains the outcome of a comparison with simulations, and its range.
 The model neglects the zone length relative to the contact radius and to the travel of the edge;
 the band has a term for each.
 """
@@ -21,7 +21,7 @@ from viscotack.traction import LennardJones, grows
 
 # Contributions to the band: error of the simulations at default accuracy; second-order effect of
 # the range [over effective^2]; influence of the start [over zone lengths]; histories
-# (`benchmarks/crack_contact.py`); and growing interfaces (`tests/ladder/test_growing_crack.py`).
+# ; and growing interfaces (`tests/ladder/test_growing_crack.py`).
 _GROWING_BAND = 0.02
 _LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.15, 0.012
 # What work, curve and travel to zero force are less certain by than the force, at Tabor numbers of
@@ -42,7 +42,7 @@ _MEASURED_FROM_REST = {
     "modulus_ratio": (1e-4, 1.0),
     "rate over the Tabor number": (0.0, 1e6),
 }
-# Ranges of the simulated histories (`benchmarks/crack_histories.py`).
+# Ranges of the simulated histories.
 _MEASURED_HISTORIES = {
     "tabor": (8.0, 60.0),
     "modulus_ratio": (0.03, 1.0),

@@ -35,7 +35,7 @@ from viscotack.traction import LennardJones, has_rest
 
 # Error of the table of elastic pull-off forces, relative to simulations.
 _TABLE_ERROR = 0.005
-# Contribution of the coupling to the band of each contact (`benchmarks/window.py`).
+# Contribution of the coupling to the band of each contact.
 _COUPLING_BAND = 0.01
 # Smallest travel of the edge of the opening contact to the largest tension [zone lengths], if its
 # energy exceeds `_SLOW`.

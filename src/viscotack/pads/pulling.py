@@ -18,8 +18,7 @@ part of the travel: each pad is computed behind its share of them,
 .. math:: \frac1k + \frac{n}{K} + \overline{\sum_j c_{ij}},
 
 for n pads that touch, as if the others carried the same force. With equal pads this is exact. With
-unequal ones the interval has a part of the difference to pads that move at V
-(`benchmarks/arrays.py` compares it with coupled simulations).
+unequal ones the interval has a part of the difference to pads that move at V.
 """
 
 from __future__ import annotations

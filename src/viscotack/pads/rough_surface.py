@@ -47,7 +47,7 @@ from viscotack.traction import has_rest
 from .curve import Curve, side_by_side
 from .family import Family, Pull, pad_curve
 
-# Largest share of the surface for which results are given (benchmarks/grid.py superposition).
+# Largest share of the surface for which results are given (research/grid.py superposition).
 LARGEST_SHARE = 0.15
 # Largest difference of the force from that of the grid there, viscoelastic and elastic; fast pulls
 # differ most.

@@ -33,7 +33,7 @@ _ZONE = 0.75
 _STEEPEST, _FEWEST = 0.5, 2.0
 # Range of the heights of an even map [equilibrium gaps].
 _EVEN = 1e-6
-# Most pixels: 512 x 512 take 0.5 GB and two minutes (benchmarks/grid.py size).
+# Most pixels: 512 x 512 take 0.5 GB and two minutes (research/grid.py size).
 _MOST = 2048 * 2048
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
 # warning, the third is recommended.

@@ -36,7 +36,7 @@ from viscotack.version import __version__
 from .problem import COARSE, COARSEST, FINE, RoughProblem
 from .result import FieldMap, RoughResult
 
-# Largest relative error of the force by pixels per zone, measured on spheres (benchmarks/grid.py
+# Largest relative error of the force by pixels per zone, measured on spheres (research/grid.py
 # pixels); that of an elastic solid, whose edge moves from pixel to pixel.
 _PIXELS = (1.0, 1.5, 2.0, 3.0, 4.0)
 _ERRORS = (0.12, 0.05, 0.02, 4.5e-3, 1.3e-3)

@@ -150,7 +150,7 @@ class PunchContact:
 
         The contact does not grow with the depth. The tension therefore grows at a constant rate
         until the crack runs, and the crack does not stop. None of 150 random punches
-        (`benchmarks/peaks.py`) had a second peak.
+        had a second peak.
         """
         return 0.0
 

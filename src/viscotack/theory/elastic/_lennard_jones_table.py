@@ -1,4 +1,4 @@
-"""Computed elastic pull-off of a Lennard-Jones sphere; written by benchmarks/elastic_table.py.
+"""Computed elastic pull-off of a Lennard-Jones sphere; written by research/elastic_table.py.
 
 Tabor number, pull-off force [1.5 pi R w] and work to pull-off from zero force [1.5 pi R w h0], at
 the Chebyshev points of ln mu. Estimated solver errors: 5e-5 of the force, 3e-4 of the work.

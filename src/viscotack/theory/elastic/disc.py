@@ -9,7 +9,7 @@ beside the crack's own length, at the strength of the interface everywhere:
 being equal at the crossover radius, here of a half-space. On a layer Kendall's force follows from
 the stiffness of the disc. Around it a law of traction lies below both; with Dugdale's
 the march is 2.8, 0.8 and 0.2 % below Kendall at :math:`\sqrt{a \Delta\gamma_0/E^*}/h_0` of 4, 8
-and 16 (`benchmarks/profiles.py`).
+and 16.
 
 Source: Kendall (1971), doi:10.1088/0022-3727/4/8/320. Depth and stiffness of the disc are in
 :mod:`viscotack.theory.elastic.profiles`.

@@ -12,7 +12,7 @@ errors 1e-4 (force) and 5e-4 (work). Outside, the limits are continued with thei
 mu, :math:`\tfrac43 - f \sim \mu^{3/2}` and :math:`f - 1 \sim \mu^{-2} (c + \ln\mu)`, through the
 last value of the table: errors below 1e-3 of the force and 1 % of the work.
 
-Source: this package; the table is computed by ``benchmarks/elastic_table.py``; limits of Bradley
+Source: this package; the table is computed by ``research/elastic_table.py``; limits of Bradley
 (1932), Philosophical Magazine 13, 853 (no DOI known to this package), and Johnson, Kendall &
 Roberts (1971), doi:10.1098/rspa.1971.0141.
 """

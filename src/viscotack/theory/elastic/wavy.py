@@ -16,7 +16,7 @@ tension. It may be several times that of the smooth sphere.
 
 Range: short-range adhesion and a contact without holes, as after a firm preload on waves that are
 not too steep. The solid is elastic and separation slow; in a viscoelastic solid the gain in force
-decreases with the speed (`benchmarks/profiles.py`).
+decreases with the speed.
 
 Source: Guduru (2007), J. Mech. Phys. Solids 55, 445, doi:10.1016/j.jmps.2006.09.002.
 """

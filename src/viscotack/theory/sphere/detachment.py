@@ -31,7 +31,7 @@ mu to 8; alpha = pi/9 in the tip length, as fitted in the thesis) nine of ten sp
 speed if the bulk is halfway between rubber and glass, in force if mu is near 1 and the start light.
 Below mu = 1 nine of ten speeds agree within a third; forces do not.
 
-Source: this package; ``benchmarks/rate_law.py`` measures the scatter. No DOI: the parts are
+Source: this package. No DOI: the parts are
 Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, and Johnson, Kendall & Roberts (1971),
 doi:10.1098/rspa.1971.0141.
 """

@@ -17,7 +17,7 @@ simulated speed of a standard solid (k = 0.1, mu = 3.24) is 0.9 to 3 times the f
 
 For simulations over Tabor numbers 0.3 to 8, modulus ratios 1e-3 to 0.3 and rates 0.1 to 1e8, nine
 of ten cases differ by up to a factor of 7, and by 40 with the Tabor number of the case; in the
-range of the fit by 5 (``benchmarks/rate_law.py``). The fit reproduces the authors' tables. For
+range of the fit by 5. The fit reproduces the authors' tables. For
 predictions use :mod:`viscotack.theory.sphere.detachment`, which differs by 1.25 in speed.
 
 Source: Maghami, PhD thesis (2025), Eq. 4.24, published as doi:10.1016/j.jmps.2024.105844.

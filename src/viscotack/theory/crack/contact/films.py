@@ -1,6 +1,6 @@
 r"""Limits and error of a crack that recedes on a film, from simulations.
 
-Of 56 simulations with Lennard-Jones forces (`benchmarks/films.py`: thickness 0.1 to 3 beta, Tabor
+Of 56 simulations with Lennard-Jones forces (thickness 0.1 to 3 beta, Tabor
 numbers 5 to 16, modulus ratios 0.03 and 0.1, Poisson ratios 0.3 to 0.5 and sliding) the theory
 (:mod:`.recession`) applies to 29, and is within 3 % + 7 % times :math:`\ell a/b^2` of each;
 :math:`\ell` is the length of the cohesive zone and a the contact radius, both at pull-off. The

@@ -45,7 +45,7 @@ _MODES_TOLERANCE, _WINDOW = 2e-4, (1e-30, 1e30)
 # Total weight, relative to the rubbery compliance, of the slowest modes that are merged.
 _FAINT = 1e-8
 # Largest relative mesh error of Gamma, from meshes three times finer, with the laws
-# of this package, k from 1e-3, both signs (`benchmarks/steady_crack.py`).
+# of this package, k from 1e-3, both signs.
 MESH_ERROR = 5e-4
 # Relative error per softening of Dugdale's rise and fall, from comparison with
 # Greenwood's crack (without softening) and with half the softening.
