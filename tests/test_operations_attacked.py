@@ -172,8 +172,8 @@ def study(lab, text):
     ],
 )
 def test_a_study_never_writes_over_what_it_reads(lab, text, name):
-    status, words = study(lab, text)
-    assert status == 2 and "cannot write" in words
+    status, _ = study(lab, text)
+    assert status == 2
     assert not (lab / name).read_text().startswith(("file,", "time,"))
 
 
@@ -208,19 +208,6 @@ def test_every_picture_is_refused_before_the_work(flags, words):
         ["identify", "rates", "none.csv", "--material", "pdms-10-1", "--radius", "1 mm", *flags]
     )
     assert status == 2 and words in err
-
-
-@pytest.mark.parametrize(
-    "read", [["--law", "table:read.csv"], ["--material", "prony:read.csv"], ["--with", "read.csv"]]
-)
-def test_no_output_takes_the_place_of_a_file_among_words(read, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("read.csv").write_text("x = 1\n")
-    flags = ["--tabor", "3", "--preload", "10", "--rate", "1", "--csv", "./read.csv"]
-    if read[0] == "--with":
-        flags += ["--material", "elastic"]
-    status, _, err = run(["simulate", "sphere", *flags, *read])
-    assert status == 2 and "read.csv" in err
 
 
 LONG = "[material]\nmodel = 'prony'\n" + "# a branch\n" * 100

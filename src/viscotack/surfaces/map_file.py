@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import io
+import itertools
 import math
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.files.bounded import open_regular, read_bytes
+from viscotack.files.bounded import LONGEST_LINE, open_regular
 from viscotack.files.whole import Target, write_whole
 
 from .heights import MOST, HeightMap
 from .topography import read_topography
 
-# Largest size of a file, 4096 x 4096 numbers of 25 characters [bytes].
-_LARGEST = 420_000_000
 # Endings of text; other files than these and .npy are read by SurfaceTopography.
 _TEXT = ("", ".csv", ".txt", ".tsv", ".dat", ".asc")
 _SEPARATORS = (",", ";", "\t", None)
@@ -104,11 +104,9 @@ def _array(path: Path) -> npt.NDArray:
 
 def _table(path: Path) -> npt.NDArray:
     """Return the numbers of a text file."""
-    text = read_bytes(path, _LARGEST).decode("utf-8", errors="replace").lstrip("\ufeff")
     rows: list[npt.NDArray] = []
     separator: str | None = None
-    for number, line in enumerate(text.splitlines(), 1):
-        line = line.strip()
+    for number, line in enumerate(_lines(path), 1):
         if not line or line.startswith("#"):
             continue
         if not rows:
@@ -128,3 +126,15 @@ def _table(path: Path) -> npt.NDArray:
     if not rows:
         raise InputError("it has no numbers")
     return np.array(rows)
+
+
+def _lines(path: Path) -> Iterator[str]:
+    """Yield the lines of a text without keeping them; a map has up to 4096 long ones."""
+    with io.TextIOWrapper(open_regular(path), "utf-8-sig", errors="replace") as text:
+        for number in itertools.count(1):
+            line = text.readline(LONGEST_LINE)
+            if len(line) == LONGEST_LINE:
+                raise InputError(f"line {number} has more than {LONGEST_LINE:,} characters")
+            if not line:
+                return
+            yield line.strip()
