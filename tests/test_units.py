@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack
+from viscotack.errors import InputError
 from viscotack.units import finite, parse, positive, readable, readable_interval
 
 
@@ -182,3 +183,19 @@ def test_no_other_module_chooses_prefixes():
         lines = [x for x in path.read_text("utf-8").splitlines() if ">>>" not in x]
         assert not [x for x in lines if 'f"' in x and by_hand.search(x)], path
         assert not [x for x in lines if x.startswith("_PREFIXES")], path
+
+
+@pytest.mark.parametrize("text", ["\u0665 mm", "5.\u0661 mm", "1_0 mm"])
+def test_other_digits_than_0_to_9_are_refused(text):
+    with pytest.raises(InputError):
+        parse(text, "m")
+    with pytest.raises(InputError):
+        parse(text.removesuffix(" mm"), "1")
+    with pytest.raises(InputError, match="radius"):
+        finite("radius", text.removesuffix(" mm"), "m")
+
+
+def test_a_temperature_is_not_below_absolute_zero():
+    assert parse("-273 degC", "K") == pytest.approx(0.15)
+    with pytest.raises(InputError, match="-274 degC"):
+        parse("-274 degC", "K")
