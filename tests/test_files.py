@@ -2,6 +2,7 @@ import csv
 import errno
 import io
 import os
+import shutil
 import socket
 import stat
 import subprocess
@@ -350,6 +351,15 @@ def test_a_command_writes_over_nothing_that_it_read(command, kept, spelled, lab,
     assert call(*command.split(), lab / f"new{Path(kept).suffix}") == 0
     assert call(*command.split(), spelled(Path(kept)), "--force") == 2
     assert (lab / kept).read_bytes() == before
+
+
+def test_a_table_goes_into_the_folder_of_the_files_that_it_is_of(tmp_path, monkeypatch):
+    example = Path("examples/from_rig/lens_1_um_s.csv").resolve()
+    shutil.copy(example, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    assert call("test", "read", ".", "--csv", "rows.csv") == 0
+    assert call("test", "read", ".", "--csv", "lens_1_um_s.csv", "--force") == 2
+    assert Path("lens_1_um_s.csv").read_bytes() == example.read_bytes()
 
 
 def test_a_rough_test_does_not_write_over_its_map(lab):

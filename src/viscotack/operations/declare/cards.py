@@ -13,6 +13,7 @@ from typing import Any, ClassVar, Protocol
 
 from viscotack.cards import Quantity, plausible
 from viscotack.errors import InputError
+from viscotack.files.bounded import note_read
 from viscotack.units import is_number, parse
 
 # Of a table that an operation keeps in memory.
@@ -426,8 +427,9 @@ class Folder(Card):
     form: ClassVar = "folder"
 
     def read(self, value: Any, place: Place) -> Path:
-        """Return the path of the folder."""
-        return place.file(_name(value))
+        """Return the path of the folder, into which no output may be written."""
+        note_read(path := place.file(_name(value)))
+        return path
 
     def written(self, value: Any) -> Any:
         """Return the path; `study_text` makes it relative to the study."""
