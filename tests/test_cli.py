@@ -1,5 +1,6 @@
 import json
 import os
+import shlex
 import subprocess
 import sys
 import threading
@@ -12,6 +13,7 @@ import viscotack
 from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
 from viscotack import methods
+from viscotack.app import cli
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
@@ -353,3 +355,35 @@ def test_a_true_simulation_from_a_terminal(tmp_path):
     assert answer["pull_off_force"] == pytest.approx(1.1137, rel=2e-3)
     assert answer["status"].startswith("still in contact")
     assert answer["wall_time_s"] > 0
+
+
+RIG = "test read examples/from_rig/lens_1_um_s.csv"
+
+
+@pytest.mark.parametrize(
+    ("command", "flag"),
+    [
+        (f"{RIG} --force-unit nonsense", "--force-unit"),
+        (f"{RIG} --length-unit N", "--length-unit"),
+        ("uncertainty examples/from_toml/lens.toml --scatter ''", "--scatter"),
+        ("uncertainty examples/from_toml/lens.toml --scatter traction.range", "--scatter"),
+        (
+            "material fit none.csv --poisson-ratio 0.5 --glass-transition '-300 degC' "
+            "--reference-temperature '20 degC'",
+            "--glass-transition",
+        ),
+        ("predict sphere --tabor 1e308 --material elastic --preload 5", "--tabor"),
+        ("simulate sphere --tabor 1 --material elastic --preload 5 --thickness 1e308", "--thick"),
+    ],
+)
+def test_a_refused_value_names_its_option(command, flag, capsys):
+    assert exit_status(shlex.split(command)) == 2
+    assert flag in capsys.readouterr().err
+
+
+def test_an_interrupt_while_modules_load_has_the_status_of_ctrl_c(monkeypatch):
+    def load():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "command", load)
+    assert exit_status(["predict"]) == 130

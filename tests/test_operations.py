@@ -292,11 +292,9 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
     before = (folder / "lens_1_um_s.csv").read_bytes()
     for other in ("lens_1_um_s.csv", "asked.toml"):
         study.write_text(asked + f'csv = "{other}"\n')
-        status, _, words = run(["study", study])
-        assert status == 2 and "cannot write" in words
+        assert run(["study", study])[0] == 2
     study.write_text('operation = "simulate"\nproblem = "lens.toml"\n[write]\ncsv = "lens.toml"')
-    status, _, words = run(["study", study])
-    assert status == 2 and "cannot write" in words
+    assert run(["study", study])[0] == 2
     assert (folder / "lens_1_um_s.csv").read_bytes() == before
 
 

@@ -181,7 +181,7 @@ def test_a_table_keeps_its_rows_their_order_and_its_other_columns(tmp_path, caps
     assert written[1]["work_to_pull_off"] == "" and float(written[1]["pull_off_force"]) > 1
     assert written[2]["pull_off_force"] == "" and "got 7" in written[2]["why"]
     assert written[3]["why"] == "modulus_ratio is 'soft', not a number"
-    assert call(cases, "--csv", answers) == 0
+    assert call(cases, "--csv", answers, "--force") == 0
     out = capsys.readouterr().out
     assert out.startswith("5 rows, 2 inside") and "no answer            2" in out
 
@@ -316,7 +316,7 @@ def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):
     # tension is positive, as `simulate --csv` has it
     assert float(rows[-1]["stress"]) == pytest.approx(found["pull_off_stress"])
     assert float(rows[0]["stress"]) < 0 and picture.exists()
-    pad = answer(capsys, PAD, "--curve", curve)
+    pad = answer(capsys, PAD, "--curve", curve, "--force")
     strength = vt.read_case(PAD).traction.strength
     assert pad["pull_off_stress_Pa"] == pytest.approx(pad["pull_off_stress"] * strength)
     assert list(table(curve)[0])[3:] == ["depth_m", "stress_Pa", "ligament_m"]

@@ -127,7 +127,7 @@ def test_a_film_for_ffmpeg_has_every_frame(small, monkeypatch):
     whole, frame = int(Path("a.mp4").read_text()), 800 * 352 * 4
     assert whole % frame == 0 and 3 <= whole // frame <= 6
     program.write_text(f"#!{sys.executable}\nraise SystemExit(1)")
-    done = CliRunner().invoke(application(), line)
+    done = CliRunner().invoke(application(), [*line, "--force"])
     assert done.exit_code == 2 and "ffmpeg did not write the film" in done.output
 
 

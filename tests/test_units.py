@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viscotack.units import parse, positive, readable, readable_interval
+from viscotack.errors import InputError
+from viscotack.units import finite, parse, positive, readable, readable_interval
 
 
 @pytest.mark.parametrize(
@@ -156,3 +157,19 @@ def test_an_uncertainty_below_the_last_digit_is_omitted():
 @pytest.mark.parametrize("value", [3.125e-10, 4.5e-7, 8e-5, 0.0625, 1.0, 512.0])
 def test_what_is_written_for_people_is_read_again(value, unit):
     assert parse(readable(value, unit), unit) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["\u0665 mm", "5.\u0661 mm", "1_0 mm"])
+def test_other_digits_than_0_to_9_are_refused(text):
+    with pytest.raises(InputError):
+        parse(text, "m")
+    with pytest.raises(InputError):
+        parse(text.removesuffix(" mm"), "1")
+    with pytest.raises(InputError, match="radius"):
+        finite("radius", text.removesuffix(" mm"), "m")
+
+
+def test_a_temperature_is_not_below_absolute_zero():
+    assert parse("-273 degC", "K") == pytest.approx(0.15)
+    with pytest.raises(InputError, match="-274 degC"):
+        parse("-274 degC", "K")

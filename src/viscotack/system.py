@@ -167,13 +167,6 @@ def is_running(process: int) -> bool:
     return psutil.pid_exists(process)
 
 
-def address_space() -> float:
-    """Return the address space of this process [bytes]."""
-    import psutil
-
-    return float(psutil.Process().memory_info().vms)
-
-
 def resident_memory(process: int | None = None) -> float:
     """Return the resident memory of a process [bytes], by default of this; 0 if it has ended."""
     import psutil

@@ -11,7 +11,9 @@ from typing import Any
 
 from viscotack.errors import InputError
 
-_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_NUMBER_AND_UNIT = re.compile(
+    r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*"
+)
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*[A-Za-zµμ°Ω%][^,]*|[+-]?\d*,\d+")
 # Users write "J/m2" or "J/m^2"; the unit library needs "J/m**2".
 # The unit library ignores other characters and would read "5 ?m" as metres.
@@ -109,6 +111,8 @@ def parse(value: str | float, unit: str) -> float:
         raise InputError(f"{value!r} has no unit; write it behind the number, as in '1 {unit}'")
     if words != "":
         number = _converted(value, number, words, unit)
+    if unit == "K" and number < 0:
+        raise InputError(f"{value!r} lies below absolute zero")
     return finite(repr(value), number, unit)
 
 
@@ -146,6 +150,8 @@ def finite(name: str, value: Any, unit: str) -> float:
     """Convert a value to a finite float; InputError with name and unit otherwise."""
     words = "" if unit == "1" else f" {unit}"
     try:
+        if isinstance(value, str) and not is_number(value):
+            raise ValueError
         # Adding zero turns -0.0 into 0.0: equal objects then have equal records.
         number = float(value) + 0.0
     except (TypeError, ValueError, OverflowError):
@@ -157,6 +163,21 @@ def finite(name: str, value: Any, unit: str) -> float:
     if not math.isfinite(number):
         raise InputError(f"{name} must be finite, got {number}{words}")
     return number
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a number without a unit, in the digits 0 to 9.
+
+    Examples
+    --------
+    >>> is_number("-1.5e3"), is_number("1_000"), is_number("\u0663")
+    (True, False, False)
+    """
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return text.isascii() and "_" not in text
 
 
 def positive(name: str, value: Any, unit: str) -> float:

@@ -5,11 +5,6 @@ from typing import Any
 from viscotack.errors import NotInstalled, install_command
 
 
-def import_arrow(given: None) -> None:
-    """Import pyarrow, before the memory of a process is limited."""
-    arrow()
-
-
 def arrow(stored: str = "campaigns are stored") -> Any:
     """Import pyarrow and the submodules used in this package.
 

@@ -5,6 +5,7 @@ Every file that is opened here is noted, so that a command does not write over w
 
 import os
 import stat
+import zipfile
 from contextlib import suppress
 from pathlib import Path
 from typing import IO
@@ -17,9 +18,8 @@ LARGEST_TEXT = 100_000_000
 LARGEST_PART = 2_000_000_000
 # Longest line of a text [bytes]: a table of it has tens of thousands of columns.
 LONGEST_LINE = 1_000_000
-# Largest size that is unpacked of any file, and more per byte of the file [bytes]: numbers compress
-# less.
-_UNPACKED, _UNPACKED_PER_BYTE = 50e6, 50.0
+# Largest size of an archive when unpacked: results with their fields, maps [bytes].
+LARGEST_UNPACKED = 1e9
 _AT_ONCE = 1 << 20
 # Device and number of the files and folders that the command has read.
 _READ: set[tuple[int, int]] = set()
@@ -101,11 +101,17 @@ def check_lines(path: str | os.PathLike[str], content: bytes, most: int = LONGES
         begin = end + 1
 
 
-def check_unpacked(size: float, packed: float) -> None:
-    """Refuse a file of `packed` bytes that would take far more memory than numbers do."""
-    most = _UNPACKED + _UNPACKED_PER_BYTE * packed
+def check_unpacked(file: IO[bytes], most: float = LARGEST_UNPACKED) -> bool:
+    """Refuse a zip archive that unpacks to more bytes than `most`; whether it is an archive."""
+    if not zipfile.is_zipfile(file):
+        return False
+    try:
+        with zipfile.ZipFile(file) as archive:
+            size = sum(member.file_size for member in archive.infolist())
+    except zipfile.BadZipFile as error:
+        raise InputError(f"it is a damaged archive: {error}") from None
     if size > most:
         raise InputError(
-            f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of {most / 1e6:.0f} MB "
-            "of a file of its size"
+            f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of {most / 1e6:.0f} MB"
         )
+    return True

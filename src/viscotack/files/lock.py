@@ -75,7 +75,10 @@ def locked(folder: Path) -> Iterator[Hold]:
             )
         os.ftruncate(handle, 0)
         os.lseek(handle, 0, os.SEEK_SET)
-        os.write(handle, f"process {os.getpid()} on {socket.gethostname()}\n".encode())
+        try:
+            os.write(handle, f"process {os.getpid()} on {socket.gethostname()}\n".encode())
+        except OSError as error:
+            raise InputError(f"cannot write {path}: {error.strerror}") from None
         yield Hold(path, handle)
         os.ftruncate(handle, 0)
     finally:

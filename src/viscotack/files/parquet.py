@@ -14,8 +14,6 @@ from .bounded import LARGEST_PART, read_bytes
 def read_parquet(path: Path, sha256: str, columns: Sequence[str] | None = None) -> Any:
     """Return the table of a Parquet file whose bytes have a hash.
 
-    A forged file of a kilobyte may unpack to gigabytes: see `viscotack.campaign.apart`.
-
     Raises
     ------
     FileNotFoundError
@@ -36,23 +34,12 @@ def read_parquet(path: Path, sha256: str, columns: Sequence[str] | None = None) 
         )
     pa = arrow()
     try:
-        # RowGroupMetaData.column, which counts values, aborts the process if the metadata is forged
         file = pa.parquet.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
         known = file.schema_arrow.names
         wanted = None if columns is None else [name for name in columns if name in known]
         # threads of Arrow that still run when Python ends may abort the process
         return file.read(columns=wanted, use_threads=False)
-    except MemoryError:  # one of Arrow's, too
-        raise
-    except (OSError, pa.ArrowException) as error:
-        raise InputError(damaged(path, error)) from None
-
-
-def check_parquet(path: Path, sha256: str) -> None:
-    """Read a Parquet file, for the errors of `read_parquet`."""
-    read_parquet(path, sha256)
-
-
-def damaged(path: Path, why: object) -> str:
-    """Return the message about a damaged part of a campaign."""
-    return f"{path} is damaged: {why}; move it away, and run the campaign again for its cases"
+    except (OSError, MemoryError, pa.ArrowException) as error:
+        raise InputError(
+            f"{path} is damaged: {error}; move it away, and run the campaign again for its cases"
+        ) from None

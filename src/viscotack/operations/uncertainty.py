@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
 from viscotack.materials.passport import Passport
-from viscotack.units import readable
+from viscotack.units import is_number, readable
 
 from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import FileOfNames, Named, Number, Placed, Text, Whole
+from .declare.cards import FileOfNames, Named, Number, Place, Placed, Text, Whole
 from .declare.options import Operation
 from .declare.statement import INDENTERS, Stated, Statement
 from .forecast import fitted
@@ -17,6 +17,30 @@ from .parts.solid import passport_of, published
 
 if TYPE_CHECKING:
     from viscotack.forecast.uncertainty import Uncertainty
+
+
+def deviation_of(text: str) -> tuple[str, float]:
+    """Return the path and the relative standard deviation of a text, "geometry.radius 2 %"."""
+    name, _, rest = text.strip().partition(" ")
+    rest = rest.strip()
+    number = rest.removesuffix("%").strip()
+    if not is_number(number):
+        raise InputError(
+            f'expected a number of the problem and its deviation, "geometry.radius 2 %", got '
+            f"{text!r:.60}"
+        )
+    return name, float(number) / (100 if rest.endswith("%") else 1)
+
+
+@dataclass(frozen=True)
+class Deviation(Text):
+    """The path of a number and its relative standard deviation, as text."""
+
+    def read(self, value: Any, place: Place) -> str:
+        """Return the text, which must have both."""
+        words = super().read(value, place)
+        deviation_of(words)
+        return words
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +70,9 @@ class OfUncertainty(Operation):
     ]
     scatter: Annotated[
         tuple[str, ...],
-        Text('A number and its relative standard deviation, "protocol.speed 5 %".', metavar="TEXT"),
+        Deviation(
+            'A number and its relative standard deviation, "protocol.speed 5 %".', metavar="TEXT"
+        ),
     ] = ()
     passport: Annotated[
         str | Passport | None,
@@ -197,20 +223,6 @@ class OfUncertainty(Operation):
 
 # Number of interfaces sampled from a study.
 _INTERFACES = 64
-
-
-def deviation_of(text: str) -> tuple[str, float]:
-    """Return the path and the relative standard deviation of a text, "geometry.radius 2 %"."""
-    name, _, rest = text.strip().partition(" ")
-    rest = rest.strip()
-    try:
-        part = float(rest.removesuffix("%")) / (100 if rest.endswith("%") else 1)
-    except ValueError:
-        raise InputError(
-            f'expected a number of the problem and its deviation, "geometry.radius 2 %", got '
-            f"{text!r:.60}"
-        ) from None
-    return name, part
 
 
 def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
 
 from .payload import Hold
 from .pulling import MOST_PADS, Backing, PadArray, grid
-from .scatter import Scatter
+from .scatter import Scatter, check_draws
 
 _TABLES = ("pad", "array", "backing", "pull", "hold")
 _OF_BACKING = {
@@ -124,6 +124,7 @@ def read_array(
     layout = Table(path, "array", tables)
     places = _places(layout)
     scatter, draws = _scatter(layout)
+    check_draws(draws, len(places))
     array = layout.make(
         PadArray,
         problem,

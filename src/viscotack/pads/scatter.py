@@ -132,11 +132,7 @@ def array_yield(
     ValueError
         If an array has no relaxed start, or as for :func:`pull_array`.
     """
-    count = len(array.positions)
-    if not 1 <= draws * count <= _MOST_DRAWN or draws < 1:
-        raise InputError(
-            f"{draws:,} arrays of {count:,} pads: up to {_MOST_DRAWN:,} pads are drawn in all"
-        )
+    check_draws(draws, len(array.positions))
     arrays = [scatter.of(array, number) for number in range(draws)]
     pull = prepared(arrays, speed=speed, preload=preload, accuracy=accuracy, time_limit=time_limit)
     forces = np.empty(draws)
@@ -145,6 +141,15 @@ def array_yield(
         progress((number + 1) / draws)
     share = float(np.mean(forces >= load))
     return ArrayYield(share, wilson(share, draws), np.sort(forces), load)
+
+
+def check_draws(draws: int, count: int) -> None:
+    """Refuse more arrays of so many pads than are drawn."""
+    if not 1 <= draws * count <= _MOST_DRAWN or draws < 1:
+        raise InputError(
+            f"draws: {draws:,} arrays of {count:,} pads; up to {_MOST_DRAWN:,} pads are drawn in "
+            "all"
+        )
 
 
 def wilson(share: float, count: int) -> tuple[float, float]:

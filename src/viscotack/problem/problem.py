@@ -39,7 +39,9 @@ from viscotack.units import positive
 
 Tabor = Annotated[
     float,
-    Quantity("1", "mu", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)", above=0, example="3.24"),
+    Quantity(
+        "1", "mu", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)", above=0, most=1e12, example="3.24"
+    ),
 ]
 if TYPE_CHECKING:
     _TaborOrNone = Any  # code for one symmetry need not check for None again

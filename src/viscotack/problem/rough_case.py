@@ -19,7 +19,7 @@ from viscotack.geometry import HalfSpace
 from viscotack.problem import revolution
 from viscotack.protocol import Retraction
 from viscotack.surfaces import HeightMap, bumps, pillars, read_map, self_affine, sphere
-from viscotack.surfaces.heights import FEWEST, MOST
+from viscotack.surfaces.heights import FEWEST, MOST_GENERATED
 
 # Generated maps: their function, numbers that are needed, and numbers that may be given.
 KINDS: dict[str, tuple[Any, tuple[str, ...], tuple[str, ...]]] = {
@@ -38,7 +38,8 @@ def _length(symbol: str, words: str, example: str, **range: Any) -> Quantity:
 
 
 _Pixels = Annotated[
-    float, Quantity("1", "N", "pixels of each side", least=FEWEST, most=MOST, example="128")
+    float,
+    Quantity("1", "N", "pixels of each side", least=FEWEST, most=MOST_GENERATED, example="128"),
 ]
 _Pixel = Annotated[float, _length("dx", "side of a pixel", "1 um")]
 _HeightUnit = Annotated[float, _length("u", "unit of the heights of a file", "1 nm")]

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.units import positive
 
-from .heights import HeightMap
+from .heights import FEWEST, MOST_GENERATED, HeightMap
 
 
 def sphere(pixels: int, pixel: float, *, radius: float) -> HeightMap:
@@ -78,6 +78,7 @@ def self_affine(
     """
     if not 0 <= hurst <= 1:
         raise InputError(f"the Hurst exponent lies between 0 and 1, got {hurst}")
+    _check(pixels)
     many = pixels if periodic else 2 * pixels
     side = many * pixel
     q = 2 * np.pi * np.fft.fftfreq(many, pixel)
@@ -144,17 +145,26 @@ def pillars(
     return HeightMap(np.where(away <= radius, positive("height", height, "m"), 0.0), pixel, True)
 
 
+def _check(pixels: int) -> None:
+    """Refuse a map of too many pixels before it takes memory."""
+    if not FEWEST <= pixels <= MOST_GENERATED:
+        raise InputError(f"pixels must lie between {FEWEST} and {MOST_GENERATED}, got {pixels}")
+
+
 def _centred(pixels: int, pixel: float) -> npt.NDArray:
+    _check(pixels)
     return (np.arange(pixels) + 0.5 - pixels / 2) * positive("pixel", pixel, "m")
 
 
 def _lattice(pixels: int, pixel: float, spacing: float) -> tuple[int, npt.NDArray, npt.NDArray]:
     """Return the number of cells of a side, and the centre of the cell of each pixel."""
+    _check(pixels)
     side = pixels * positive("pixel", pixel, "m")
     each = round(side / positive("spacing", spacing, "m"))
-    if each < 1 or abs(each * spacing - side) > 1e-6 * side:
+    if not 1 <= each <= pixels or abs(each * spacing - side) > 1e-6 * side:
         raise InputError(
-            f"the side, {side:g} m, must be a multiple of the spacing, got {spacing:g} m"
+            f"the side, {side:g} m, must be a multiple of the spacing, got {spacing:g} m; the "
+            f"spacing is at least a pixel"
         )
     x = (np.arange(pixels) + 0.5) * pixel
     return each, (np.floor(x / spacing) + 0.5) * spacing, x

@@ -10,8 +10,8 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.units import positive
 
-# Smallest and largest number of pixels of a side.
-FEWEST, MOST = 8, 4096
+# Smallest and largest number of pixels of a side, and the largest of a generated map.
+FEWEST, MOST, MOST_GENERATED = 8, 4096, 2048
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import io
+import itertools
 import math
 import os
 import re
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,14 +16,12 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.files.bounded import open_regular, read_bytes
+from viscotack.files.bounded import LONGEST_LINE, open_regular
 from viscotack.units import parse, readable
 
 from .heights import MOST, HeightMap
 from .topography import read_topography
 
-# Largest size of a file, 4096 x 4096 numbers of 25 characters [bytes].
-_LARGEST = 420_000_000
 # Endings of text; other files than these and .npy are read by SurfaceTopography.
 _TEXT = ("", ".csv", ".txt", ".tsv", ".dat", ".asc")
 _SEPARATORS = (";", "\t", ",", None)
@@ -171,13 +172,11 @@ def _array(path: Path) -> npt.NDArray:
 
 def _table(path: Path) -> tuple[npt.NDArray, _Header]:
     """Return the numbers of a text file, and its header."""
-    text = read_bytes(path, _LARGEST).decode("utf-8", errors="replace").lstrip("\ufeff")
     rows: list[npt.NDArray] = []
     comments: list[str] = []
     separator: str | None = None
     commas = False
-    for number, line in enumerate(text.splitlines(), 1):
-        line = line.strip()
+    for number, line in enumerate(_lines(path), 1):
         if line.startswith("#"):
             comments.append(line)
         if not line or line.startswith("#"):
@@ -204,3 +203,15 @@ def _table(path: Path) -> tuple[npt.NDArray, _Header]:
     if not rows:
         raise InputError("it has no numbers")
     return np.array(rows), _header(comments)
+
+
+def _lines(path: Path) -> Iterator[str]:
+    """Yield the lines of a text without keeping them; a map has up to 4096 long ones."""
+    with io.TextIOWrapper(open_regular(path), "utf-8-sig", errors="replace") as text:
+        for number in itertools.count(1):
+            line = text.readline(LONGEST_LINE)
+            if len(line) == LONGEST_LINE:
+                raise InputError(f"line {number} has more than {LONGEST_LINE:,} characters")
+            if not line:
+                return
+            yield line.strip()

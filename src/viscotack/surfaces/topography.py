@@ -8,7 +8,6 @@ Bruker, Zygo, Keyence, JPK, Nanosurf, X3P and others, which state the size of a 
 from __future__ import annotations
 
 import math
-import zipfile
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,8 @@ from viscotack.files.bounded import check_unpacked, open_regular
 
 from .heights import MOST, HeightMap
 
+# First bytes, by which a text is told, and its largest size [bytes].
+_LOOKED, _LARGEST_TEXT = 4096, 20_000_000
 # Relative differences of the sides of a pixel: square, and noted where larger; refused.
 _EXACT, _SQUARE = 1e-6, 0.01
 
@@ -36,9 +37,13 @@ def read_topography(
             f"{install_command('surfaces')}; or export the heights as text or .npy"
         ) from None
     with open_regular(path) as file:
-        if zipfile.is_zipfile(file):
-            with zipfile.ZipFile(file) as archive:
-                check_unpacked(sum(m.file_size for m in archive.infolist()), path.stat().st_size)
+        is_text = b"\0" not in file.read(_LOOKED)
+        if is_text and path.stat().st_size > _LARGEST_TEXT:
+            raise InputError(
+                f"it is a text of more than {_LARGEST_TEXT / 1e6:g} MB, of which SurfaceTopography "
+                "takes many times the size; save the rows of the map as .txt or .npy"
+            )
+        check_unpacked(file)
     try:
         with library.open_topography(str(path)) as reader:
             channel = reader.default_channel

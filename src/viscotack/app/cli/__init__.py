@@ -1,5 +1,6 @@
 """The command line: ``viscotack simulate sphere ...``. Words in, words and pictures out."""
 
+import sys
 from collections.abc import Sequence
 from functools import lru_cache
 from importlib import import_module
@@ -38,4 +39,7 @@ def command() -> Any:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line with these arguments, or with those of the process."""
-    command()(None if arguments is None else list(arguments), prog_name="viscotack")
+    try:
+        command()(None if arguments is None else list(arguments), prog_name="viscotack")
+    except KeyboardInterrupt:  # while modules load; Typer handles a later one, with the same status
+        sys.exit(130)

@@ -1,7 +1,7 @@
 """The command-line application and its error handling.
 
 Exit status: 0 success; 1 the simulation failed (its status gives the reason); 2 invalid input, or a
-file could not be written; 3 a defect of viscotack.
+file could not be written; 3 a defect of viscotack; 130 interrupted by ctrl-C.
 With --json exactly one object is written to standard output, everything else to standard error.
 """
 

@@ -124,7 +124,13 @@ class Writing:
 
     def answer(self, text: str) -> None:
         """Print the answer; on standard error if a table is written to standard output."""
-        typer.echo(harmless(text), err=self._taken)
+        try:
+            typer.echo(harmless(text), err=self._taken)
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            name = "standard error" if self._taken else "standard output"
+            raise InputError(f"cannot write to {name}: {error.strerror}") from None
 
     def end(self) -> None:
         """End the command with exit status 2 if a file could not be written."""

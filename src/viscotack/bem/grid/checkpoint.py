@@ -72,7 +72,7 @@ class Checkpoint:
                 arrays = read_arrays(file, lambda name: bool(_NAME.fullmatch(name)), _LARGEST)
             stored = str(arrays.pop("key"))
         except (ValueError, OSError, KeyError, EOFError, zlib.error, BadZipFile) as error:
-            raise InputError(f"{path} is not a checkpoint: {error}; remove it") from None
+            raise InputError(f"{path} is not a checkpoint: {error}; name another file") from None
         if stored != key:
             raise InputError(
                 f"{path} is the checkpoint of another problem, accuracy, number of maps or "

@@ -13,7 +13,8 @@ from typing import Any, ClassVar, Protocol
 
 from viscotack.cards import Quantity, plausible
 from viscotack.errors import InputError
-from viscotack.units import parse
+from viscotack.files.bounded import note_read
+from viscotack.units import is_number, parse
 
 # Of a table that an operation keeps in memory.
 _MOST_ROWS = 100_000
@@ -212,7 +213,7 @@ class Whole(Card):
     def read(self, value: Any, place: Place) -> int:
         """Return the number within its range."""
         try:
-            number = int(value)
+            number = int(value) if not isinstance(value, str) or is_number(value) else None
         except (TypeError, ValueError, OverflowError):
             number = None
         is_fraction = isinstance(value, float) and value != number
@@ -240,6 +241,8 @@ class Text(Card):
         """Return the words."""
         if isinstance(value, bool) or not isinstance(value, str | int | float):
             raise InputError(f"expected text, got {value!r:.60}")
+        if not str(value).strip():
+            raise InputError("must not be empty")
         return str(value)
 
 
@@ -424,8 +427,9 @@ class Folder(Card):
     form: ClassVar = "folder"
 
     def read(self, value: Any, place: Place) -> Path:
-        """Return the path of the folder."""
-        return place.file(_name(value))
+        """Return the path of the folder, into which no output may be written."""
+        note_read(path := place.file(_name(value)))
+        return path
 
     def written(self, value: Any) -> Any:
         """Return the path; `study_text` makes it relative to the study."""
@@ -491,15 +495,6 @@ def rows_of_file(path: Path) -> tuple[Mapping[str, str], ...]:
     if len(rows) > _MOST_ROWS:
         raise InputError(f"{path} has more than {_MOST_ROWS:,} rows; run a campaign")
     return rows
-
-
-def is_number(text: str) -> bool:
-    """Return whether a text is a number without a unit."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _name(value: Any) -> str:

@@ -90,7 +90,9 @@ class Here:
 
     def file(self, name: str) -> Path:
         """Return the path of a file, which no output may overwrite."""
-        note_read(path := self.folder / name)
+        path = self.folder / name
+        if path.is_file():
+            note_read(path)
         return path
 
     def within(self, path: Path) -> "Here":

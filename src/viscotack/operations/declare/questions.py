@@ -225,6 +225,7 @@ _LAYER = {
         "b/beta",
         "thickness of the layer, a half-space when left out; beta = (R^2 dg0/E0*)^(1/3)",
         above=0,
+        most=1e9,
     )
 }
 _PUNCH = plane.SIZES | {"cohesion": cards(Groups)["cohesion"].card}

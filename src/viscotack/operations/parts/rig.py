@@ -1,6 +1,6 @@
 """Options for the files of a tack tester or microscope."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -43,6 +43,21 @@ class Sign(Choice):
         return "+" if value > 0 else "-"
 
 
+@dataclass(frozen=True)
+class Unit(Text):
+    """The unit of a quantity of a tack test: "force", "travel" or "time"."""
+
+    of: str = field(default="", kw_only=True)
+
+    def read(self, value: Any, place: Place) -> str:
+        """Return the unit, which must be one of the quantity."""
+        from viscotack.lab.tack.headings import factor
+
+        words = super().read(value, place)
+        factor(words, self.of)
+        return words
+
+
 @dataclass(frozen=True, kw_only=True)
 class Rig(Part):
     """Options that describe the files of a rig and the rig itself."""
@@ -50,9 +65,13 @@ class Rig(Part):
     table: ClassVar = "read"
 
     format: Annotated[str | None, Text("Format of the files, if it is not detected.")] = None
-    force_unit: Annotated[str | None, Text("Unit such as mN, if not in the file.")] = None
-    length_unit: Annotated[str | None, Text("Unit such as um, if not in the file.")] = None
-    time_unit: Annotated[str | None, Text("Unit such as s, if not in the file.")] = None
+    force_unit: Annotated[str | None, Unit("Unit such as mN, if not in the file.", of="force")] = (
+        None
+    )
+    length_unit: Annotated[
+        str | None, Unit("Unit such as um, if not in the file.", of="travel")
+    ] = None
+    time_unit: Annotated[str | None, Unit("Unit such as s, if not in the file.", of="time")] = None
     force_column: Annotated[
         str | None,
         Text("Heading or number of the force column, if not detected.", metavar="NAME"),
