@@ -18,8 +18,8 @@ import numpy as np
 
 from research.cases import spread, spread_out, words
 from research.drawn_tests import drawn
+from research.drawn_tests import words as test_words
 from research.in_time import spread_in_time
-from research.random_problems import words as test_words
 from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
 from viscotack.bem import SimulationError
 from viscotack.bem.twins.plain_sphere import plain_solve

@@ -1,6 +1,6 @@
 """Random tests as laboratories make them: spheres and punches that a second or two answers.
 
-Each is made of a seed and its number. `random_problems.py` draws from a wider and harder field.
+Each is made of a seed and its number alone.
 """
 
 from __future__ import annotations
@@ -9,22 +9,107 @@ from typing import Any
 
 import numpy as np
 
-from research.random_problems import Luck, solid
 from viscotack import (
     Approach,
     AtDepth,
     Dugdale,
     Dwell,
+    Elastic,
     Exponential,
     FlatPunch,
     Groups,
     Layer,
     LennardJones,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
     Retract,
+    StandardSolid,
 )
 from viscotack.traction import effective_range
 
 _PUNCHES, _WITH_SPRING, _WITH_HISTORY = 0.3, 0.25, 0.3
+
+
+class Luck:
+    """Random draws of the kinds that are needed here."""
+
+    def __init__(self, *seed: int) -> None:
+        self._random = np.random.default_rng(seed)
+
+    def decades(self, low: float, high: float) -> float:
+        """Return a number whose logarithm is anywhere between two."""
+        return float(10 ** self._random.uniform(np.log10(low), np.log10(high)))
+
+    def within(self, low: float, high: float, size: int | None = None) -> Any:
+        """Return a number between two, or an array of such numbers."""
+        found = self._random.uniform(low, high, size)
+        return float(found) if size is None else found
+
+    def count(self, low: int, high: int) -> int:
+        """Return a whole number between two, which are among them."""
+        return int(self._random.integers(low, high + 1))
+
+    def one(self, weights: dict[Any, float]) -> Any:
+        """Return one of some things, each as often as its weight says."""
+        share = np.array(list(weights.values()))
+        return list(weights)[self._random.choice(len(share), p=share / share.sum())]
+
+    def happens(self, share: float) -> bool:
+        """Return whether something happens that does so in this share of cases."""
+        return bool(self._random.random() < share)
+
+
+def solid(luck: Luck) -> Any:
+    """Return a reduced material with a modulus ratio from 1e-3 to 1."""
+    kind = luck.one(
+        {Elastic: 0.2, StandardSolid: 0.25, RetardationPowerLaw: 0.3, Prony: 0.15}
+        | {RelaxationPowerLaw: 0.1}
+    )
+    if kind is Elastic:
+        return Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    glassy = luck.decades(1.0, 1e3)
+    if kind is Prony:
+        arms = luck.count(2, 6)
+        share = luck.within(0.05, 1.0, arms)
+        times = 10.0 ** -np.cumsum([0.0, *luck.within(0.3, 1.2, arms - 1)])
+        arm = (glassy - 1) * share / share.sum()
+        branches = [(float(E), float(t)) for E, t in zip(arm, times, strict=True)]
+        return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
+    more = {} if kind is StandardSolid else {"exponent": luck.within(0.2, 1.5)}
+    return kind(rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0, **more)
+
+
+def words(groups: Groups) -> str:
+    """Return a problem in a few words."""
+    material: Any = groups.material
+    traction: Any = groups.traction
+    if groups.in_plane_strain:
+        what = (
+            f"punch {groups.geometry.half_width:.3g} on {groups.body.thickness:.3g} "
+            f"{type(groups.body.base).__name__.lower()}, cohesion {groups.cohesion:.2g}"
+        )
+    else:
+        shape: Any = groups.geometry
+        what = f"{shape.word}, mu {groups.tabor:.3g} (effective {groups.effective_tabor:.3g})"
+        if isinstance(groups.body, Layer):
+            what += f" on {groups.body.thickness:.3g} {groups.body.base}"
+    numbers = {n: getattr(traction, n) for n in ("decay", "rise", "fall") if hasattr(traction, n)}
+    of_law = "".join(f" {name} {value:.2g}" for name, value in numbers.items())
+    machine = [_brief(groups.start), *map(_brief, groups.moves)]
+    machine += [] if groups.rate is None else [f"pull {groups.rate:.3g}"]
+    machine += [] if groups.stiffness is None else [f"spring {groups.stiffness:.2g}"]
+    return (
+        f"{what}; {traction.word}{of_law} strength {traction.strength:.3g}; "
+        f"{material.word} k {material.modulus_ratio:.3g}; {', '.join(machine)}"
+    )
+
+
+def _brief(noun: Any) -> str:
+    """Return a start or a move as its name and its numbers."""
+    values = [_brief(v) if hasattr(v, "__dict__") else v for v in vars(noun).values()]
+    said = " ".join(v if isinstance(v, str) else f"{v:.3g}" for v in values)
+    return f"{type(noun).__name__} {said}"
 
 
 def drawn(seed: int, number: int) -> Groups:

@@ -3,20 +3,17 @@
 python -m research.grid spheres           # forces, works and processor time of 22 spheres
 python -m research.grid pixels            # errors of the force by pixels per zone
 python -m research.grid trust --seed 1    # stated errors of drawn spheres
-python -m research.grid random --count 50 # drawn problems: endings, residuals and times
 python -m research.grid superposition     # asperities by themselves beside the grid
 python -m research.grid places            # errors by the place of the apex within a pixel
 python -m research.grid criteria --seed 5 --count 24  # the bearing area beside the grid
 python -m research.grid areas             # contact of hard rough maps by the pressure
 python -m research.grid peer              # elastic spheres beside the package Adhesion, in pairs
 python -m research.grid size              # time and memory by the number of pixels
-python -m research.grid inner --limit 30  # time of an inner iteration and memory, to 1024 x 1024
 """
 
 import argparse
 import resource
 import sys
-import traceback
 from dataclasses import replace
 from itertools import product
 from time import process_time
@@ -26,7 +23,7 @@ from scipy.signal import resample
 from scipy.special import erf
 
 import viscotack as vt
-from viscotack.bem.grid.descent import _Tangent, equilibrium
+from viscotack.bem.grid.descent import equilibrium
 from viscotack.bem.grid.plane import Plane
 from viscotack.bem.grid.run import relaxed
 from viscotack.bem.machine import Hold
@@ -200,33 +197,6 @@ def drawn(rng, pixels):
         base = Bonded(poisson_ratio=0.5) if rng.random() < 0.5 else None
         body = Layer(thickness=thickness, **({"base": base} if base else {}))
     return RoughProblem(surface=surface, material=material, traction=law, protocol=test, body=body)
-
-
-def random(given):
-    """Simulate drawn problems and count how they end."""
-    rng = np.random.default_rng(given.seed)
-    endings: dict[str, int] = {}
-    worst = 0.0
-    for number in range(given.count):
-        began = process_time()
-        try:
-            problem = drawn(rng, given.pixels)
-            found = pull(problem, estimate_error=False, time_limit=given.limit)
-            word = found.status.split(";")[0][:60]
-            word = word.split(" at ")[0].split(" at depth")[0]
-            residual = found.energy_residual
-            if found.outcome is not vt.Outcome.STOPPED:
-                worst = max(worst, residual)
-            about = f"{residual:.1e} {found.statistics['steps']:.0f} steps"
-        except InputError as error:
-            word, about = f"refused: {error}"[:50], ""
-        except Exception:  # what is looked for
-            word, about = "TRACEBACK", traceback.format_exc().splitlines()[-1]
-        endings[word] = endings.get(word, 0) + 1
-        print(f"{number:4d} {process_time() - began:6.1f} s  {word}  {about}", flush=True)
-    for word, count in sorted(endings.items(), key=lambda pair: -pair[1]):
-        print(f"{count:5d}  {word}")
-    print(f"largest energy residual of complete runs: {worst:.1e}")
 
 
 def judge(inside, about, found, **off):
@@ -545,51 +515,6 @@ def size(given):
         )
 
 
-def inner(given):
-    """Show the time of an iteration of conjugate gradients, and the memory of a few steps."""
-    print(
-        "pixels    domain     s per inner iteration    ns per pixel log2 pixels   peak MB   B/pixel"
-    )
-    before = None
-    for side in (64, 128, 256, 512, 1024):
-        if side > given.pixels:
-            break
-        surface = self_affine(side, 1.0, hurst=0.8, rms_height=1.0, seed=4, shortest=8.0)
-        plane = Plane((side, side), 1.0, periodic=not given.free)
-        wide = plane.widened(np.maximum(surface.heights.ravel(), 0.0))
-        tangent = _Tangent(plane, plane.stiffness, plane.compliance, 1.0, wide, None)
-        apply, p = tangent.preconditioner(), plane.widened(surface.heights.ravel())
-        spent = []
-        for _ in range(5):
-            began = process_time()
-            for _ in range(max(1, 2_000_000 // side**2)):
-                z, _ = apply(p, 0.0)
-                tangent.times(z, 0.0)
-            spent.append((process_time() - began) / max(1, 2_000_000 // side**2))
-        many = wide.size
-        of_steps(side, not given.free, given.limit)
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        growth = "" if before is None else f"{(peak - before[0]) * 2**20 / (many - before[1]):8.0f}"
-        print(
-            f"{side:4d}^2 {'x'.join(map(str, plane.domain)):>10} {min(spent):14.5f} "
-            f"{1e9 * min(spent) / many / np.log2(many):22.2f} {peak:18.0f} {growth}",
-            flush=True,
-        )
-        before = peak, many
-
-
-def of_steps(side, periodic, limit):
-    """Approach a viscoelastic map of the benchmark of sizes, from afar, until a time limit."""
-    problem = of_size(side, periodic)
-    test = problem.protocol
-    moves = (Approach(speed=test.speed, to=test.start),)
-    problem = replace(problem, protocol=replace(test, start=Apart(60e-6), moves=moves))
-    try:
-        pull(problem, estimate_error=False, time_limit=limit)
-    except InputError:  # before the start was found
-        pass
-
-
 def of_size(side, periodic=True):
     """Return the problem of the benchmark of sizes."""
     surface = self_affine(
@@ -616,13 +541,11 @@ PARTS = (
     "places",
     "trust",
     "rough",
-    "random",
     "superposition",
     "criteria",
     "areas",
     "peer",
     "size",
-    "inner",
 )
 
 

@@ -209,7 +209,7 @@ def test_units_scale_out(case, modulus, time, gap):
 
 @related(3, case=contacts(material=series()), share=st.floats(0.1, 0.9))
 def test_an_arm_in_two_halves_changes_no_pull_off(case, share):
-    agree(pulled(case), pulled(replace(case, material=split(case.material, share))), 2e-3)
+    agree(pulled(case), pulled(replace(case, material=split(case.material, share))), ACCURACY)
 
 
 @related(3, case=contacts(material=standard_solids()))
@@ -243,7 +243,7 @@ def test_the_square_profile_is_the_sphere_and_a_stiff_spring_a_rigid_machine(cas
 def test_a_start_by_depth_or_force_is_the_same_start(case):
     force = float(solved(case, until="pull-off").force[0])
     assume(force > 0.05)
-    agree(pulled(case), pulled(replace(case, start=vt.AtForce(force))), 2e-3)
+    agree(pulled(case), pulled(replace(case, start=vt.AtForce(force))), ACCURACY)
 
 
 @related(3, case=contacts(), duration=decades(0.1, 100), share=st.floats(0.2, 0.8))
@@ -253,10 +253,10 @@ def test_rest_and_a_retraction_in_two_moves_change_nothing(case, duration, share
     result = solved(resting, until="pull-off")
     waits = result.time <= duration
     assert np.max(np.abs(result.force[waits] - result.force[0])) < 1e-6 * (1 + abs(result.force[0]))
-    agree(known, pulled(resting), 2e-3)
+    agree(known, pulled(resting), ACCURACY)
     # up to a place before the force is tensile
     way = vt.Retract(case.rate, vt.AtDepth(depth * (1 - 0.2 * share)))
-    agree(known, pulled(replace(case, moves=(way,))), 1e-2)
+    agree(known, pulled(replace(case, moves=(way,))), ACCURACY)
 
 
 @related(3, case=contacts())
