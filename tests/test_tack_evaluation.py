@@ -1,14 +1,12 @@
 """Cycles of tack tests: found by the signal, corrected, and refused where they say nothing."""
 
-import importlib.util
 import re
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+import rig_signals
 import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
@@ -188,22 +186,13 @@ def test_tests_that_cannot_be_evaluated_are_refused():
         record(replace(test, time=test.time[::-1]))
 
 
-def benchmark(name):
-    """Return a module of the folder `benchmarks`."""
-    path = Path(__file__).parents[1] / "benchmarks" / f"{name}.py"
-    spec = importlib.util.spec_from_file_location(name, path)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
 def test_textbook_signals_are_evaluated_within_their_uncertainties():
-    signals = benchmark("rig_signals")
-    found = [signals.judged(signals.textbook(np.random.default_rng([2, i]))) for i in range(40)]
+    found = [
+        rig_signals.judged(rig_signals.textbook(np.random.default_rng([2, i]))) for i in range(40)
+    ]
     assert [one for one in found if isinstance(one, str)] == []
     errors, ratios = np.moveaxis(np.array(found), -1, 0)
-    assert np.max(np.abs(ratios)) < signals.WRONG
+    assert np.max(np.abs(ratios)) < rig_signals.WRONG
     force, work, depth = np.sqrt(np.mean(errors**2, axis=0))
     assert force < 0.02 and work < 0.08 and depth < 0.05
     # neither too certain nor too careful
@@ -332,17 +321,17 @@ def test_noise_behind_a_soft_machine_makes_no_work_certain_by_chance():
 
 
 def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
-    signals, ratios = benchmark("rig_signals"), []
+    ratios = []
     for seed in range(20):
         rng = np.random.default_rng([9, seed])
-        test = signals.pure(rng)
+        test = rig_signals.pure(rng)
         steps = np.sqrt(np.gradient(test.time) / np.ptp(test.time))
         walk = np.cumsum(steps * rng.standard_normal(test.time.size))
         noise = 0.002 * rng.standard_normal(test.time.size)
         force = test.force + test.range * (0.02 * walk + noise)
         record = tack.TackRecord(test.time, force, test.depth, into=1)
-        found = signals.judged(signals.Signal(record, test.truth, {}))
-        ratios.append(found[signals.QUANTITIES.index("preload_depth")][1])
+        found = rig_signals.judged(rig_signals.Signal(record, test.truth, {}))
+        ratios.append(found[rig_signals.QUANTITIES.index("preload_depth")][1])
     assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 1.1
 
 

@@ -316,7 +316,7 @@ def draw_regimes(found: RegimeMap) -> "Figure":
     >>> law = pad.crack_law("greenwood", material=solid)
     >>> figure = draw_regimes(regime_map([1e-4, 2e-3], [1e-6, 1.0], pad, law))
     >>> figure.axes[0].get_xlabel()
-    'retraction speed [µm/s]'
+    'retraction speed [mm/s]'
     """
     from matplotlib.patches import Patch
 
