@@ -51,7 +51,7 @@ def answer(case: Case) -> Case:
     return {
         "exit": status,
         "outcome": found.get("outcome"),
-        "numbers": dict(numbers({k: v for k, v in found.items() if k not in LEFT_OUT})),
+        "numbers": dict(numbers(found)),
     }
 
 
@@ -60,6 +60,8 @@ def numbers(found: Any, path: str = "") -> Iterator[tuple[str, float]]:
     if isinstance(found, dict | list):
         pairs = found.items() if isinstance(found, dict) else enumerate(found)
         for key, value in pairs:
+            if key in LEFT_OUT:
+                continue
             yield from numbers(value, f"{path}.{key}" if path else str(key))
     elif isinstance(found, int | float) and not isinstance(found, bool):
         yield path, found
