@@ -1,4 +1,4 @@
-"""The cases that the benchmarks have in common, and where published data lie."""
+"""Cases that several commands of this folder take, and where published data lie."""
 
 from __future__ import annotations
 

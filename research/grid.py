@@ -516,7 +516,7 @@ def size(given):
 
 
 def of_size(side, periodic=True):
-    """Return the problem of the benchmark of sizes."""
+    """Return the problem whose cost by the size of the grid is measured."""
     surface = self_affine(
         side,
         10e-6,

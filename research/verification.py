@@ -70,7 +70,7 @@ TAIL = """
 - Above a Tabor number of 10, viscoelastic pull-offs are compared with no other code but with the
   contact whose edge is a steady crack ([its errors](steady_crack.md#against-simulation)).
 - The published table is a peer with its own errors, not truth: see the rows above 2 % that
-  replication/published lists, each with the converged value that decides.
+  research/replication/published lists, each with the converged value that decides.
 - Work to pull-off ends at a flat minimum: where it is tiny (shallow preloads at small Tabor
   numbers, work below 0.05), its relative error exceeds 1 % at the default accuracy; the estimate
   says so.

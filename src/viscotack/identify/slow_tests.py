@@ -277,7 +277,7 @@ def identify_slow(
             "contact_modulus must be a value [Pa] and a smaller uncertainty [Pa], got "
             f"{contact_modulus!r}"
         )
-    chosen = [_known(name, test) for name in dict.fromkeys(models)]
+    chosen = [_known(name) for name in dict.fromkeys(models)]
     chosen = [model for model in chosen if test.against == "radius" or model.by_depth is not None]
     if not chosen:
         raise InputError("Carpick's equation has no depth; fit another model, or contact radii")
@@ -427,7 +427,7 @@ def _work(alike: list[ModelFit], test: SlowTest, bounded: bool) -> Interval:
     )
 
 
-def _known(name: str, test: SlowTest) -> ElasticModel:
+def _known(name: str) -> ElasticModel:
     if name not in MODELS:
         raise InputError(f"models must be among {', '.join(MODELS)}; got {name!r}")
     return MODELS[name]

@@ -35,7 +35,7 @@ from . import Outcome, Result
 # minimum: radii above this fraction of that at pull-off.
 _ZONES, _BEYOND = 3.0, 0.5
 # Strain at the edge above which linear viscoelasticity is doubtful.
-LARGEST_STRAIN = 0.1
+_LARGEST_STRAIN = 0.1
 _ROOT, _LOAD = np.pi ** (1 / 3), 1.5 * np.pi
 _FEWEST = 8
 
@@ -178,9 +178,9 @@ def _words(gamma: float, bulk: float, strain: float | None, grown: bool) -> tupl
     ]
     if grown:
         said.append(f"the interface contributes a factor of {gamma / bulk:.3g}")
-    if strain is not None and strain > LARGEST_STRAIN:
+    if strain is not None and strain > _LARGEST_STRAIN:
         said.append(
-            f"the slope of the surface at the edge is {strain:.2g}: above {LARGEST_STRAIN:g} a "
+            f"the slope of the surface at the edge is {strain:.2g}: above {_LARGEST_STRAIN:g} a "
             "linear solid is doubtful"
         )
     return tuple(said)
