@@ -3,7 +3,6 @@
 import json
 import os
 import random
-import shutil
 import signal
 import subprocess
 import sys
@@ -21,8 +20,7 @@ from campaign_work import (
     told,
 )
 from processes import until
-from viscotack.campaign import Store, cluster, run
-from viscotack.campaign.cluster import security_of
+from viscotack.campaign import cluster, run
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")
 HERE = Path(__file__).parent
@@ -89,26 +87,6 @@ def held(*arguments):
         found.end()
 
 
-@pytest.fixture(scope="session")
-def certificates(tmp_path_factory):
-    """Return an authority, and a certificate and a key that it has signed, made here."""
-    if shutil.which("openssl") is None:
-        pytest.skip("openssl makes the certificates")
-    folder = tmp_path_factory.mktemp("certificates")
-    ca, ca_key, cert, key, wish = (
-        str(folder / name) for name in ("ca.pem", "ca.key", "cert.pem", "key.pem", "wish.pem")
-    )
-    openssl = ["openssl"]
-    curve = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes"]
-    for words in (
-        ["req", "-x509", *curve, "-keyout", ca_key, "-out", ca, "-subj", "/CN=ca", "-days", "2"],
-        ["req", *curve, "-keyout", key, "-out", wish, "-subj", "/CN=127.0.0.1"],
-        ["x509", "-req", "-in", wish, "-CA", ca, "-CAkey", ca_key, "-out", cert, "-days", "2"],
-    ):
-        subprocess.run([*openssl, *words], check=True, capture_output=True)
-    return Path(ca), Path(cert), Path(key)
-
-
 def told_by_one_process(tmp_path, plan, monkeypatch, work=stand_in):
     with monkeypatch.context() as patch:
         employ(patch, InlineCrew())
@@ -118,30 +96,6 @@ def told_by_one_process(tmp_path, plan, monkeypatch, work=stand_in):
 
 # Clusters of processes take ten seconds and more; what a crew does with its scheduler is held by
 # tests/test_campaign_crew.py.
-
-
-@pytest.mark.slow
-def test_a_cluster_with_certificates_gives_the_same_table_when_a_worker_is_killed(
-    tmp_path, monkeypatch, certificates
-):
-    plan, killed = plan_of(tmp_path, cases=40), []
-    with held(tmp_path, certificates) as dask:
-        assert dask.address.startswith("tls://")
-        dask.hire(2)
-
-        def murder(now):
-            if now.done > 10 and not killed:
-                killed.append(dask.workers[0].pid)
-                dask.workers[0].kill()
-
-        options = {"security": security_of(*certificates), "store_every": 0.1}
-        end = run(plan, tmp_path / "c", scheduler=dask.address, work=slow, report=murder, **options)
-        assert (end.done, end.failed) == (40, 0) and killed
-        # who has no certificate is not let in, and that is said
-        monkeypatch.setattr(cluster, "_CONNECT", 2.0)
-        with pytest.raises(ConnectionError, match="no scheduler answers at 'tls://"):
-            run(plan, tmp_path / "d", scheduler=dask.address, work=slow)
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
 
 
 @pytest.mark.slow
@@ -160,22 +114,4 @@ def test_twenty_workers_that_come_and_go_give_the_same_table(tmp_path, monkeypat
         options = {"work": slow, "report": stir, "store_every": 0.3}
         end = run(plan, tmp_path / "c", scheduler=dask.address, **options)
     assert (end.done, end.failed) == (400, 0)
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
-
-
-@pytest.mark.slow
-def test_a_scheduler_that_is_killed_ends_the_run_and_the_next_one_goes_on(tmp_path, monkeypatch):
-    plan = plan_of(tmp_path, cases=200)
-    with held(tmp_path) as dask:
-        dask.hire(2)
-
-        def murder(now):
-            if now.done > 20:
-                dask.scheduler.kill()
-
-        options = {"work": slow, "report": murder, "store_every": 0.2}
-        with pytest.raises(ConnectionError, match="connection to the scheduler was lost"):
-            run(plan, tmp_path / "c", scheduler=dask.address, **options)
-    assert 20 < Store(tmp_path / "c").results().num_rows < 200
-    assert run(plan, tmp_path / "c", workers=2, work=stand_in).done == 200
     assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
