@@ -11,7 +11,7 @@ import pytest
 
 from app_server import running
 from processes import children, lives, until
-from viscotack.app.cli.page import _query, _token
+from viscotack.app.cli.page import _token
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
 
@@ -26,26 +26,6 @@ def test_page_and_client_of_the_docs_are_answered(tmp_path, monkeypatch, capsys)
             assert b"how hard must one pull" in answer.read()
         exec(fences["python"].replace("http://localhost:8642", link.rstrip("/")), {})  # noqa: S102
     assert float(capsys.readouterr().out) == pytest.approx(4.668e-3, rel=0.01)
-
-
-def test_a_case_file_is_in_the_link_that_is_opened():
-    query = _query(Path("examples/from_toml/cone.toml"), ())
-    assert "cone.slope=0.05" in query
-
-
-def test_a_material_in_a_file_of_its_own_goes_into_the_link(tmp_path):
-    (tmp_path / "series.csv").write_text("modulus_ratio,relaxation_time_s\n5.0,0.001\n")
-    (tmp_path / "case.toml").write_text(
-        "[material]\nmodel = 'prony'\nrubbery_modulus = '1 MPa'\npoisson_ratio = 0.5\n"
-        "file = 'series.csv'\n[interface]\nlaw = 'lennard-jones'\n"
-        "work_of_adhesion = '50 mJ/m^2'\nequilibrium_gap = '1 um'\n[sphere]\nradius = '1 mm'\n"
-        "[protocol]\npreload_depth = '1 um'\nspeed = '10 um/s'\n"
-    )
-    from viscotack.operations.declare.state import state_of_query
-    from viscotack.problem.case_file import read_case
-
-    query = _query(tmp_path / "case.toml", ())
-    assert state_of_query(query).problem == read_case(tmp_path / "case.toml")
 
 
 def test_a_token_is_needed_beyond_this_machine_and_a_short_one_refused(monkeypatch):

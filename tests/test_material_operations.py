@@ -90,18 +90,6 @@ def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
         given("1,10")
 
 
-def test_over_http_no_passport_is_read_that_was_not_sent(lab):
-    assert asked("material show", lab, {"passport": "pdms.toml"})["name"].startswith("PDMS")
-    hidden = lab.parent / "secret.toml"
-    hidden.write_text("secret")
-    for word, name in (("show", "passport"), ("convert", "source"), ("export", "passport")):
-        more = {"to": "abaqus"} if word == "export" else {}
-        with pytest.raises(InputError, match="was sent with the request"):
-            asked(f"material {word}", lab, {name: str(hidden), **more})
-    with pytest.raises(InputError, match="pdms-10-1 is a published material; code takes a file"):
-        asked("material convert", lab, {"source": "pdms-10-1", "code": "abaqus"})
-
-
 def test_a_passport_is_converted_in_its_place(lab, tmp_path, capsys):
     file = tmp_path / "pdms.toml"
     write_passport(published("pdms-10-1"), file)

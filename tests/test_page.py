@@ -81,17 +81,3 @@ def test_a_refusal_names_the_field_that_it_belongs_to():
         where, words = named.search(str(error.value)).groups()
         assert (where, re.split(r"[ :]", words)[0]) == (table, key)
     assert r"/\[([\w-]+)\] (.*)/" in SCRIPTS["fields.js"]
-
-
-def test_the_examples_of_the_page_are_those_of_the_checkout():
-    examples = FOLDER.parents[3] / "examples"
-    known = {path.name: path.read_text() for path in examples.glob("*/*.toml")}
-    files = {
-        "design": "lift_and_let_go.toml",
-        "window": "kinetic_stamp.toml",
-        "array": "gripper_finger.toml",
-        "rough": "bumps.toml",
-    }
-    assert f"EXAMPLES = {list(files)}".replace("'", '"') in SCRIPTS["operations.js"]
-    for word, name in files.items():
-        assert (FOLDER / f"example-{word}.toml").read_text() == known[name]

@@ -56,6 +56,19 @@ def test_a_task_gets_what_was_asked_and_prepared_and_reports_progress(code):
         assert told == [0.1, 0.5, 1.0]
 
 
+@pytest.mark.parametrize("task", ["loop", "spin"])
+def test_a_task_that_is_stopped_is_interrupted_and_its_process_is_kept(clock, began, task):
+    with pool_of() as pool:
+        (before,) = pool.processes()
+        for number in range(3):
+            began.unlink(missing_ok=True)
+            pool.hand(number, f"pool_tasks:{task}", str(began), Limits(grace=inf))
+            until(lambda: pool.collect(0.0) is not None and began.exists())
+            pool.stop(number)
+            assert outcome(pool).kind == "stopped"
+        assert done(pool, "echo", 7).what["process"] == before
+
+
 def test_a_task_is_interrupted_at_its_time_limit_and_killed_after_the_grace(clock, began):
     with pool_of() as pool:
         (before,) = pool.processes()

@@ -4,16 +4,11 @@ import csv
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from synthetic import jkr_result
-from viscotack import methods
 from viscotack.forecast import cautions_on
-from viscotack.operations.parts import predict_table
-from viscotack.surrogate import store
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 RATE = ["--rate", "316.23"]
@@ -102,27 +97,6 @@ def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
     assert call(*words) == 0
     out = capsys.readouterr().out
     assert f"the prediction is {abs(off):.2%}" in out and "simulated in" in out
-
-
-def test_compare_reports_a_missed_interval_and_a_missing_simulation(monkeypatch, capsys):
-    words = [*SPHERE, *RATE, "--compare"]
-    monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_result())
-    found = answer(capsys, *words)
-    assert found["simulation"]["pull_off_force"] == pytest.approx(1, rel=1e-4)
-    assert found["difference"]["pull_off_force"] == pytest.approx(
-        found["pull_off_force"] / found["simulation"]["pull_off_force"] - 1, rel=1e-9, abs=0
-    )
-    assert found["interval_held"]["pull_off_force"] is False
-    assert call(*words) == 0
-    assert "% above; outside its interval" in capsys.readouterr().out
-    stopped = "stopped because the step became too small"
-    monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_result(status=stopped))
-    assert call(*words, "--json") == 1
-    found = json.loads(capsys.readouterr().out)
-    assert found["simulation"]["status"] == stopped and found["inside"]
-    assert found["difference"] == {"pull_off_force": None, "work_to_pull_off": None}
-    assert call(*words) == 1
-    assert stopped in capsys.readouterr().out
 
 
 def test_a_theory_predicts_outside_the_range_and_is_compared(capsys):
@@ -225,28 +199,6 @@ def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
     assert told[1][told[0].index("pull_off_force")] == pytest.approx(7.3, abs=0.1)
 
 
-def test_thousands_of_rows_are_a_matter_of_seconds(tmp_path, capsys):
-    count = 5000
-    limits = store.shipped().limits
-    draws = np.random.default_rng(0).uniform(size=(count, len(limits)))
-    low, high = np.log10(np.array(list(limits.values()))).T
-    cases, answers = tmp_path / "cases.csv", tmp_path / "answers.csv"
-    numbers = 10 ** (low + (high - low) * draws)
-    np.savetxt(cases, numbers, delimiter=",", header=",".join(limits), comments="")
-    found = answer(capsys, cases, "--csv", answers)
-    # the surrogate abstains in about 15 of 1,000 rows, which are neither simulated nor dropped
-    kept = found["inside"]
-    assert 0.97 * count < kept < count and found["methods"] == {"surrogate": kept}
-    written = table(answers)
-    assert len(written) == count
-    assert all("are not certain here" in r["why"] for r in written if not r["method"])
-    written = [r for r in written if r["method"]]
-    forces = np.array(
-        [[float(r[f"pull_off_force{e}"]) for e in ("_low", "", "_high")] for r in written]
-    )
-    assert len(written) == kept and np.all(np.diff(forces, axis=1) >= 0)
-
-
 def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys):
     cases, other = tmp_path / "cases.csv", tmp_path / "other.csv"
     cases.write_text("tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n")
@@ -287,20 +239,6 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
     ):
         assert words in wrong(capsys, *arguments), words
     assert not (tmp_path / "out.csv").exists()
-
-
-def test_a_table_is_refused_before_anything_is_predicted(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(predict_table, "predict_table", lambda *given, **options: 1 / 0)
-    cases, again, link = (tmp_path / name for name in ("cases.CSV", "again.csv", "link.csv"))
-    text = "tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n"
-    cases.write_text(text)
-    link.symlink_to(cases)
-    again.write_text("tabor,modulus_ratio,exponent,preload,rate,why\n1,0.1,0.8,5,10,x\n")
-    out = tmp_path / "out.csv"
-    assert "has the columns why already" in wrong(capsys, again, "--csv", out)
-    for same in (cases, tmp_path / "." / "cases.CSV", link):
-        assert "cannot write" in wrong(capsys, cases, "--csv", same)
-    assert cases.read_text() == text and not out.exists()
 
 
 def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):

@@ -1,8 +1,6 @@
 """How long a simulation may take."""
 
-import io
 import json
-import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +10,6 @@ import pytest
 from command_line import exit_status
 from viscotack import clock
 from viscotack.bem import SimulationError, solver
-from viscotack.errors import InputError
 from viscotack.materials import StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
@@ -28,13 +25,6 @@ WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 
 def refused(capsys, *arguments):
     assert exit_status([*WORDS, *arguments]) == 2
     return capsys.readouterr().err
-
-
-class Terminal(io.StringIO):
-    """Standard error that somebody looks at."""
-
-    def isatty(self):
-        return True
 
 
 class Clock:
@@ -100,23 +90,6 @@ def test_the_companion_is_within_the_limit_too(monkeypatch, hand):
     assert result.force.tolist() == whole.force.tolist()
 
 
-def test_a_limit_that_is_not_met_changes_nothing():
-    assert solve(SPHERE, time_limit=600).status == solve(SPHERE).status
-
-
-def test_of_two_limits_the_one_that_ends_first_counts(monkeypatch, hand):
-    for outer, inner in ((1.0, 5.0), (5.0, 1.0), (1.0, None)):
-        with clock.limited(outer):
-            with clock.limited(inner):
-                hand.now += 0.9
-                clock.look()
-                hand.now += 0.2
-                with pytest.raises(clock.TimeUp, match="limit of 1 s"):
-                    clock.look()
-            assert (clock.met() is None) == (outer == 5.0)
-        assert clock.met() is None
-
-
 FILES = ["lens_1_um_s.csv", "lens_1000_um_s.csv"]
 LIMITED = {
     "predict": ["sphere", *"--tabor 3 --modulus-ratio 0.1 --preload 5 --rate 10".split()]
@@ -150,17 +123,6 @@ def test_every_command_that_simulates_ends_in_time(command, monkeypatch, tmp_pat
     assert status in (2, 4) and "time limit of 2 s was met" in said
 
 
-def test_no_time_for_the_start_is_refused_in_words():
-    with pytest.raises(InputError, match="limit of 1e-09 s was met before the relaxed start"):
-        solve(SPHERE, time_limit=1e-9)
-
-
-@pytest.mark.parametrize("limit", [0.0, -1.0, float("nan")])
-def test_an_impossible_time_limit_is_refused(limit):
-    with pytest.raises(InputError, match="time_limit must be (positive|finite)"):
-        solve(SPHERE, time_limit=limit)
-
-
 def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, hand, capsys, tmp_path):
     slow(monkeypatch, hand)
     saved = tmp_path / "part.npz"
@@ -190,21 +152,3 @@ def test_progress_counts_time_depth_and_edge_and_ends_with_the_companion():
     assert sum(0.02 < share < 0.8 / 3 - 0.02 for share in seen) > 10
     assert sum(0.8 / 3 + 0.02 < share < 1.6 / 3 - 0.02 for share in seen) > 3
     assert sum(0.8 < share < 1 for share in seen) > 10
-
-
-def test_the_progress_line_forecasts_how_long_it_will_take(monkeypatch):
-    from viscotack.app.cli.reading import progress
-
-    screen = Terminal()
-    monkeypatch.setattr("sys.stderr", screen)
-    for name, value in {"TERM": "xterm", "COLUMNS": "120"}.items():
-        monkeypatch.setenv(name, value)
-    hand = Clock()
-    monkeypatch.setattr("rich.console.monotonic", hand)
-    with progress() as tell:
-        for share in (0.01, 0.02, 0.03, 0.04):
-            tell({"doing": "pulling", "share": share})
-            hand.now += 0.1
-    shown = re.sub(r"\x1b\[[^A-Za-z]*[A-Za-z]", "", screen.getvalue())
-    # a hundredth in a tenth of a second
-    assert "0:00:00 gone, about 0:00:10 to go" in shown

@@ -43,19 +43,6 @@ def bare(program, folder):
     )
 
 
-def test_a_file_system_without_locks_is_used_without_them(tmp_path):
-    program = """
-import os, viscotack.system as s
-def locking(*arguments):
-    raise OSError(22, "Invalid argument")
-s.msvcrt.locking = locking
-handle = s.open_itself(s.Path("lock"), os.O_CREAT)
-print(s.lock(handle))
-"""
-    told = bare(["-c", program], tmp_path)
-    assert told.stdout == "True\n", told.stderr
-
-
 @pytest.mark.parametrize("cases", [6, pytest.param(50, marks=pytest.mark.slow)])
 def test_a_campaign_runs_and_goes_on(cases, tmp_path):
     (tmp_path / "plan.toml").write_text(PLAN.format(cases // 2), encoding="utf-8")
