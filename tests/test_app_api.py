@@ -5,7 +5,6 @@ import json
 import os
 import signal
 from dataclasses import replace
-from pathlib import Path
 
 import httpx
 import pytest
@@ -15,8 +14,6 @@ from viscotack.app.api.guard import Guard, Rules
 from viscotack.app.engine.jobs import Engine, Limits
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 
-ROOT = Path(__file__).parents[1]
-LENS = ROOT / "examples/from_rig/lens_30_um_s.csv"
 OVER = ("done", "refused", "failed", "cancelled")
 
 
@@ -157,17 +154,6 @@ def test_no_request_reads_a_file_of_the_server(ask, table):
     answer = ask("POST", "/api/quick", json={"tables": FIRST | table})
     assert answer.status_code == 422
     assert "which is not allowed in a request" in answer.json()["error"]
-
-
-def test_a_file_of_a_rig_is_read_and_its_place_is_nobodys_business(ask):
-    sent = [("files", (f"../../{LENS.name}", LENS.read_bytes()))]
-    answer = ask("POST", "/api/test/read", files=sent, data={"outputs": "drawn"})
-    assert answer.status_code == 200
-    assert [test["file"] for test in answer.json()["tests"]] == [LENS.name]
-    assert answer.json()["beside"]["drawn"]["curves"][0]["pull_off_force"] == pytest.approx(
-        6.19e-3, rel=0.01
-    )
-    assert "viscotack-" not in answer.text
 
 
 def test_a_table_that_is_sent_changes_the_problem_sent_with_it(ask):

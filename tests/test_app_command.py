@@ -1,16 +1,12 @@
 """The command ``viscotack app``: what it needs, where it listens, what it prints."""
 
-import os
 import re
-import signal
-import sys
 import urllib.request
 from pathlib import Path
 
 import pytest
 
 from app_server import running
-from processes import children, lives, until
 from viscotack.app.cli.page import _token
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
@@ -37,11 +33,3 @@ def test_a_token_is_needed_beyond_this_machine_and_a_short_one_refused(monkeypat
     monkeypatch.setenv("VISCOTACK_TOKEN", "short")
     with pytest.raises(ValueError, match="16 characters or more"):
         _token("0.0.0.0")
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of other processes")
-def test_the_workers_end_with_a_server_that_is_killed():
-    with running() as (_, server):
-        workers = until(lambda: children(server))
-        os.kill(server, signal.SIGKILL)
-        until(lambda: not any(map(lives, workers)))

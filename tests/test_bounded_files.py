@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 
 from viscotack import load as load_result
@@ -21,32 +22,6 @@ from viscotack.lab.workbook_layout import sheets
 from viscotack.operations import ask
 from viscotack.surfaces import bumps, read_map, self_affine, sphere
 
-BOOK = {
-    "[Content_Types].xml": (
-        '<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/'
-        'content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-'
-        'package.relationships+xml"/><Default Extension="xml" ContentType="application/xml"/>'
-        '<Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-'
-        'officedocument.spreadsheetml.sheet.main+xml"/><Override PartName="/xl/worksheets/'
-        'sheet1.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.'
-        'worksheet+xml"/></Types>'
-    ),
-    "_rels/.rels": (
-        '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
-        '<Relationship Id="rId1" Type="http://schemas.openxmlformats.org/officeDocument/2006/'
-        'relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>'
-    ),
-    "xl/workbook.xml": (
-        '<workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r='
-        '"http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets>'
-        '<sheet name="a" sheetId="1" r:id="rId1"/></sheets></workbook>'
-    ),
-    "xl/_rels/workbook.xml.rels": (
-        '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
-        '<Relationship Id="rId1" Type="http://schemas.openxmlformats.org/officeDocument/2006/'
-        'relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>'
-    ),
-}
 HEAD = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main">'
 
 
@@ -57,15 +32,15 @@ def cell(place, inside="<v>1</v>", kind=""):
 
 
 def workbook(path, rows, dimension=""):
-    """Write a workbook with one sheet."""
-    packed = io.BytesIO()
+    """Write a workbook whose only sheet has rows as they are."""
+    book, blank = openpyxl.Workbook(), io.BytesIO()
+    book.active.title = "a"
+    book.save(blank)
     stated = f'<dimension ref="{dimension}"/>' if dimension else ""
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in BOOK.items():
-            archive.writestr(name, content)
-        sheet = f"{HEAD}{stated}<sheetData>{rows}</sheetData></worksheet>"
-        archive.writestr("xl/worksheets/sheet1.xml", sheet)
-    path.write_bytes(packed.getvalue())
+    sheet = f"{HEAD}{stated}<sheetData>{rows}</sheetData></worksheet>"
+    with zipfile.ZipFile(blank) as source, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as out:
+        for name in source.namelist():
+            out.writestr(name, sheet if name.endswith("sheet1.xml") else source.read(name))
     return load(path)
 
 

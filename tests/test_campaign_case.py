@@ -15,18 +15,14 @@ from viscotack import (
     AtDepth,
     Elastic,
     Groups,
-    InputError,
     Retract,
     pull_off,
     pull_off_force,
-    run_id,
-    solve,
     to_dict,
 )
 from viscotack.campaign import CaseSettings, measure
 from viscotack.campaign.case import (
     KEY_SHARES,
-    Unsolved,
     attempt,
     curve,
 )
@@ -58,40 +54,6 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     assert force[-1] == -pull_off_force(result) == force.min()
     assert np.diff(depth[:9], 2).min() > 0 and np.diff(depth[8:], 2).min() > 0, "ends are gathered"
     assert force[8] == pytest.approx(0, abs=1e-12) and np.all(force[:8] > 0), "tension has 16"
-
-
-def test_the_row_of_a_case_is_what_the_result_says():
-    row = measure(synthetic.GROUPS, QUICK)
-    result = solve(synthetic.GROUPS, accuracy=0.02, until="pull-off")
-    assert row["pull_off_force"] == pull_off_force(result)
-    assert row["error_estimate"] == result.error_estimate["force"]
-    assert row["error_estimate_work"] == result.error_estimate["work"]
-    assert (row["status"], row["method"]) == (result.status, "simulation")
-    assert row["steps"] == len(result.time) - 1
-    assert "numpy" in row["versions"]
-    kinds = {type(v) for v in row.values() if v is not None}
-    assert kinds <= {str, float, int, list}
-
-
-def test_an_answer_has_a_row_or_a_reason():
-    good = attempt(lambda problem, settings: {"id": run_id(problem)}, PROBLEM, QUICK)
-    assert good.row == {"id": run_id(synthetic.GROUPS)} and not good.failure
-    assert good.wall_time_s > 0 and good.peak_memory > 1e6
-
-    def fails(error):
-        def work(problem, settings):
-            raise error
-
-        answer = attempt(work, PROBLEM, QUICK)
-        assert answer.row is None
-        return answer.failure, answer.reason
-
-    assert fails(InputError("no contact")) == ("refused", "no contact")
-    # what nobody raised on purpose is a defect, and no answer of the physics
-    assert fails(ValueError("a defect")) == ("crashed", "ValueError: a defect")
-    assert fails(Unsolved("stopped because")) == ("stopped", "stopped because")
-    assert fails(KeyError("x")) == ("crashed", "KeyError: 'x'")
-    assert fails(MemoryError("no room"))[0] == "memory limit"
 
 
 def test_a_case_that_marches_too_long_ends_by_itself(monkeypatch):

@@ -1,4 +1,4 @@
-"""A Dask cluster: certificates, machines that come and go, of other programs, or none at all."""
+"""A Dask cluster whose machines come and go."""
 
 import json
 import os
@@ -38,39 +38,25 @@ def findable(monkeypatch):
 class Cluster:
     """A scheduler and workers, each a process of its own, over TCP."""
 
-    def __init__(self, folder, secured=None):
-        self.folder, self.secured = folder, secured
+    def __init__(self, folder):
+        self.folder = folder
         self.quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         self.workers = []
         file = folder / "scheduler.json"
         file.unlink(missing_ok=True)
-        words = ["--port", "0", "--no-dashboard", "--scheduler-file", str(file), *self.flags()]
+        words = ["--port", "0", "--no-dashboard", "--scheduler-file", str(file)]
         self.scheduler = subprocess.Popen([*DASK, "scheduler", *words], **self.quiet)
         until(lambda: file.exists() and file.read_text().endswith("}"))  # not whole at once
         self.address = json.loads(file.read_text())["address"]
 
-    def flags(self):
-        if self.secured is None:
-            return []
-        files = zip(("ca-file", "cert", "key"), self.secured, strict=True)
-        return [word for name, path in files for word in (f"--tls-{name}", str(path))]
-
-    def hire(self, count=1, path=None):
-        """Start workers; of the program at another path."""
-        words = ["--nthreads", "1", "--no-nanny", "--no-dashboard", *self.flags()]
+    def hire(self, count=1):
+        """Start workers."""
+        words = ["--nthreads", "1", "--no-nanny", "--no-dashboard"]
         words += ["--local-directory", str(self.folder)]
-        env = os.environ | ({"PYTHONPATH": path} if path else {})
         command = [*DASK, "worker", self.address, *words]
         self.workers += [
-            subprocess.Popen(command, env=env, cwd=self.folder, **self.quiet) for _ in range(count)
+            subprocess.Popen(command, cwd=self.folder, **self.quiet) for _ in range(count)
         ]
-
-    def await_workers(self, count):
-        """Wait until the scheduler knows so many."""
-        from distributed import Client
-
-        with Client(self.address, set_as_default=False) as client:
-            until(lambda: len(client.nthreads()) == count)
 
     def end(self):
         for process in [*self.workers, self.scheduler]:
@@ -79,23 +65,12 @@ class Cluster:
 
 
 @contextmanager
-def held(*arguments):
-    found = Cluster(*arguments)
+def held(folder):
+    found = Cluster(folder)
     try:
         yield found
     finally:
         found.end()
-
-
-def told_by_one_process(tmp_path, plan, monkeypatch, work=stand_in):
-    with monkeypatch.context() as patch:
-        employ(patch, InlineCrew())
-        run(plan, tmp_path / "here", work=work)
-    return told(tmp_path / "here")
-
-
-# Clusters of processes take ten seconds and more; what a crew does with its scheduler is held by
-# tests/test_campaign_crew.py.
 
 
 @pytest.mark.slow
@@ -114,4 +89,6 @@ def test_twenty_workers_that_come_and_go_give_the_same_table(tmp_path, monkeypat
         options = {"work": slow, "report": stir, "store_every": 0.3}
         end = run(plan, tmp_path / "c", scheduler=dask.address, **options)
     assert (end.done, end.failed) == (400, 0)
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
+    employ(monkeypatch, InlineCrew())
+    run(plan, tmp_path / "here", work=stand_in)
+    assert told(tmp_path / "c") == told(tmp_path / "here")

@@ -6,7 +6,6 @@ import pytest
 
 from campaign_work import InlineCrew, employ
 from command_line import exit_status
-from viscotack.campaign.running import Progress
 from viscotack.files.lock import locked
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]
@@ -54,23 +53,6 @@ def test_a_bare_csv_file_is_run_and_gives_its_columns_back(cases, crew, tmp_path
         assert row["status"].startswith("still in contact just past the pull-off")
     assert call("status", folder) == 0
     assert "2 of 2 cases done, 0 failed, 0 left" in capsys.readouterr().out
-
-
-def test_a_run_that_was_stopped_has_another_exit_status(cases, tmp_path, monkeypatch, capsys):
-    stopped = Progress(5, 2, 0, rate=1.0, elapsed_s=2.0, stopped=True)
-    monkeypatch.setattr("viscotack.campaign.run", lambda *_, **__: stopped)
-    assert call("run", cases, "--out", tmp_path / "study") == 1
-    assert "2 of 5 cases done, 0 failed, 3 left" in capsys.readouterr().out
-
-    def killed(*_, **__):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("viscotack.campaign.run", killed)
-    assert call("run", cases, "--out", tmp_path / "study") == 1
-    out, err = capsys.readouterr()
-    assert out == "" and "interrupted; the stored rows in" in err and "are safe" in err
-    assert call("run", cases, "--out", tmp_path / "study", "--json") == 1
-    assert json.loads(capsys.readouterr().out) == {"stopped": True, "reason": "interrupted"}
 
 
 def test_a_folder_in_use_is_refused(cases, tmp_path, capsys):

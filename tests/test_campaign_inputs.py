@@ -1,18 +1,11 @@
 """Plans over any number of a problem: bodies, tips, laws, and what the machine does."""
 
 import numpy as np
-import pytest
 
-from command_line import exit_status
 from viscotack import (
-    Approach,
-    AtDepth,
     AtForce,
     Bonded,
-    Cone,
-    Dwell,
     FlatPunch,
-    InputError,
     Layer,
     LennardJones,
     Problem,
@@ -21,7 +14,6 @@ from viscotack import (
     read_case,
 )
 from viscotack.campaign import (
-    every_combination,
     read_plan,
     space_filling,
 )
@@ -34,13 +26,6 @@ PAD = Problem(
     geometry=FlatPunch(half_width=1e-3),
     body=Layer(thickness=5e-5, base=Bonded(poisson_ratio=0.45)),
     protocol=Retraction(start=AtForce(2e3), speed=1e-4),
-)
-MOVES = (Approach(speed=1e-5, to=AtForce(1.5e-3)), Dwell(duration=60.0), Dwell(10.0, hold="force"))
-CONE = Problem(
-    material=RUBBER,
-    traction=LAW,
-    geometry=Cone(slope=0.1),
-    protocol=Retraction(start=AtDepth(2e-6), speed=1e-4, moves=MOVES),
 )
 PAD_FILE = """
 [material]
@@ -102,22 +87,3 @@ def test_a_file_and_python_state_the_same_cases(tmp_path):
     ours = space_filling(PAD, OVER_PAD, cases=20, method="latin-hypercube")
     assert read_plan(tmp_path / "plan.toml").cases == ours.cases and len(ours.cases) == 20
     assert ours.base == read_plan(tmp_path / "plan.toml").base
-
-
-def test_points_whose_numbers_do_not_go_together_are_left_out_and_counted(tmp_path, capsys):
-    over = {
-        "material.rubbery_modulus": {"log": ["0.1 MPa", "10 MPa"]},
-        "material.glassy_modulus": {"log": ["1 MPa", "100 MPa"]},
-    }
-    plan = space_filling(CONE, over, cases=64)
-    assert len(plan.cases) == 64 and 2 < plan.rejected < 20 and "modulus" in plan.refusal
-    assert all(p.material.glassy_modulus >= p.material.rubbery_modulus for p in problems(plan))
-    # but a grid is meant
-    with pytest.raises(InputError, match="block 1 .*modulus"):
-        every_combination(CONE, {path: ["1 MPa", "3 MPa"] for path in over})
-    (tmp_path / "pad.toml").write_text(PAD_FILE)
-    text = 'problem = "pad.toml"\n[[fill]]\ncases = 16\nmaterial.glassy_modulus = '
-    (tmp_path / "plan.toml").write_text(text + '{ log = ["0.5 MPa", "50 MPa"] }\n')
-    assert exit_status(["campaign", "plan", tmp_path / "plan.toml"]) == 0
-    out = capsys.readouterr().out
-    assert "points without a contact" in out and "first skipped point: " in out and "modulus" in out

@@ -9,23 +9,6 @@ from viscotack.problem.record import run_id
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
 HEADER = "tabor,modulus_ratio,exponent,preload,rate\n"
-LENS = """
-[material]
-model = "sls"
-rubbery_modulus = "1.5 MPa"
-glassy_modulus = "15 MPa"
-tau0 = "20 ms"
-poisson_ratio = 0.5
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.15 J/m^2"
-equilibrium_gap = "1.5 um"
-[sphere]
-radius = "5 mm"
-[protocol]
-preload_force = "1.5 mN"
-speed = "100 um/s"
-"""
 
 
 def written(folder, text, name="plan.toml"):

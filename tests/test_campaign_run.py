@@ -86,22 +86,6 @@ def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
     assert table(folder).equals(table_of_undisturbed(tmp_path))
 
 
-def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
-    collect = crew.collect
-
-    def twice(seconds):
-        answers = collect(seconds)
-        if len(crew.done) == 10:
-            os.kill(os.getpid(), signal.SIGINT)
-            os.kill(os.getpid(), signal.SIGINT)
-        return answers
-
-    monkeypatch.setattr(crew, "collect", twice)
-    with pytest.raises(KeyboardInterrupt):
-        run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert 0 < len(rates(tmp_path / "c")) <= 10
-
-
 def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
     crew = employ(monkeypatch, InlineCrew(deaths=[7.0] * 9))
     end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
@@ -144,12 +128,30 @@ def child(folder):
         stderr=subprocess.PIPE,
         text=True,
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE), *PACKAGES])},
+        start_new_session=True,
     )
 
 
 def news(started, told):
     """Return the first number that a child reports above what was told; "0" if it ends before."""
     return next((line for line in started.stdout if int(line) > told), "0")
+
+
+@pytest.mark.slow
+def test_kills_lose_nothing_and_duplicate_nothing(tmp_path, monkeypatch):
+    folder, reported = tmp_path / "c", 0
+    for _ in range(3):
+        started = child(tmp_path)
+        reported = int(news(started, reported))
+        assert reported > 0
+        os.killpg(started.pid, signal.SIGKILL)
+        started.communicate()
+        found = rates(folder)
+        assert reported <= len(found) == len(set(found)) < 400
+    assert run(plan_of(tmp_path, cases=400), folder, workers=2, work=stand_in).done == 400
+    employ(monkeypatch, InlineCrew())
+    run(plan_of(tmp_path, cases=400), tmp_path / "undisturbed", work=stand_in)
+    assert table(folder).equals(table(tmp_path / "undisturbed"))
 
 
 @pytest.mark.slow

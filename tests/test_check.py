@@ -208,13 +208,6 @@ def test_the_tiers_of_the_package_pass(tier, monkeypatch):
 # --- broken nouns -------------------------------------------------------------------------
 
 
-class Soft(vt.StandardSolid):
-    """Creep that ends at twice the rubbery compliance."""
-
-    def creep(self, time):
-        return 2 * super().creep(time)
-
-
 class Careless(vt.StandardSolid):
     """Modes whose error is stated a thousand times too small."""
 
@@ -262,13 +255,6 @@ class Steep(vt.Sphere):
         return 1.5 * super().flank(position)
 
 
-class Unscaled(vt.Sphere):
-    """A reduced shape that forgets the unit of heights."""
-
-    def reduced(self, along, height):
-        return super().reduced(along, along)
-
-
 class Lopsided(FOUNDATION):
     """A compliance that is not symmetric."""
 
@@ -294,14 +280,6 @@ class Boastful(Slow):
         return ""
 
 
-class Sure(Slow):
-    """An interval beside its force."""
-
-    def answer(self, problem, *, confidence=0.9):
-        found = super().answer(problem, confidence=confidence)
-        return replace(found, interval=(1.2 * found.pull_off_force, 1.3 * found.pull_off_force))
-
-
 class Dimensional(Slow):
     """Another answer in SI."""
 
@@ -318,18 +296,15 @@ def in_newtons(result):
 SI_ONLY = vt.Observable("in_newtons", "force in newtons", "force", in_newtons)
 
 MUTANTS: dict[str, tuple[Any, str]] = {
-    "wrong end of creep": (Soft(**SOLID), "creep ends at 1/rubbery_modulus"),
     "modes stated too well": (Careless(**SOLID), "tolerance 0.01: error: expected <= stated"),
     "not passive": (Active(**SOLID), "passive: the loss modulus is not negative"),
     "another complex modulus": (Shifted(**SOLID), "compliance is the transform of the creep"),
     "energy off by a factor": (Factored(WORK, GAP), "derivative of the energy by the gap"),
     "traction in kPa": (Kilo(WORK, GAP), "the traction does the work of adhesion"),
     "flank": (Steep(1e-3), "flank is the derivative of the gap"),
-    "units of heights": (Unscaled(1e-3), "reduced: gap with distances and gaps in other units"),
     "not reciprocal": (Lopsided(1e-4), "reciprocity: compliance is symmetric"),
     "negative energy": (Springy(1e-4), "energy is positive"),
     "boastful": (Boastful(), "an unverified solid is not covered"),
-    "interval beside the force": (Sure(), "the interval holds the force"),
     "another answer in SI": (Dimensional(), "same value as its dimensionless form"),
 }
 

@@ -20,6 +20,7 @@ def load(name):
     return module
 
 
+@pytest.mark.slow
 def test_a_lens_pulls_off_by_its_radius_and_its_work_of_adhesion(tmp_path, capsys):
     picture = tmp_path / "tornado.png"
     result = load("what_matters").main(picture, accuracy=5e-3)

@@ -51,12 +51,3 @@ def test_a_prediction_is_shown_with_its_interval_its_tier_and_its_curve(shown):
     assert picture(text).lstrip().startswith(b"<?xml")
     words, value, _ = rows(shown(vt.predict(PROBLEM.groups())))[0]
     assert value == f"{found.pull_off_force:.4g} x 1.5 pi R dg0"
-
-
-def test_a_result_is_shown_with_its_numerical_error_and_its_curve(shown):
-    result = vt.solve(PROBLEM, accuracy=0.02)
-    text, stated = shown(result), vt.summary(result)
-    words, value, error = rows(text)[0]
-    assert (words, value) == ("pull-off force", readable(stated["pull_off_force_N"], "N"))
-    assert error == f"{stated['error_estimate']['force']:.2g}"
-    assert stated["status"] in unescape(text) and b"<svg" in picture(text)

@@ -190,14 +190,6 @@ def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, http, mo
     assert found["Python"].refused == f"a rig of {tack_files.STIFFNESS:g} N/m"
 
 
-def test_every_door_refuses_a_compliant_rig_on_a_layer(folder, http):
-    given = RATES | {"thickness": "300 um", "bonded": 0.49, "compliance": "2 um/N"}
-    question = Question("identify rates", given)
-    found = through_all(question, http)
-    agree(question, found)
-    assert found["Python"].refused.startswith("on a layer, a compliant machine cannot be")
-
-
 @pytest.mark.parametrize("word", list(ASKED | NOT_DRAWN))
 def test_an_operation_is_written_as_a_study_and_read_again(word, folder):
     asked = take(operation(word), (ASKED | NOT_DRAWN)[word][-1], Here())

@@ -1,7 +1,7 @@
 """A law, a material, a shape and an observable of a user's own: one file each, and all is known."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,6 @@ from typer.testing import CliRunner
 import viscotack as vt
 from viscotack.app.cli import application
 from viscotack.campaign import Store, read_plan, run
-from viscotack.materials import WLF, Passport, read_passport, write_passport
 from viscotack.problem.nouns import known, own_nouns
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
@@ -135,31 +134,6 @@ def test_a_theory_predicts_with_own_parts():
     assert told == pytest.approx(json.loads(out)["pull_off_force"], rel=1e-5)
 
 
-def test_a_passport_holds_a_material_of_ones_own(tmp_path):
-    solid = ZENER(rubbery_modulus=1e6, glassy_modulus=1e8, tau0=0.1, order=0.6, poisson_ratio=0.5)
-    shift = WLF(reference_temperature=293.15, c1=8.0, c2=100.0)
-    file = tmp_path / "own.toml"
-    written = Passport(
-        name="own",
-        material=solid,
-        temperature=293.15,
-        shift=shift,
-        frequencies=(1.0, 1e4),
-        allowed=(replace(solid, order=0.5),),
-    )
-    write_passport(written, file)
-    assert read_passport(file, also=(MORSE, ZENER)) == written
-    with pytest.raises(vt.InputError, match=r"got 'cole-cole'; for a user-defined model, give"):
-        read_passport(file)
-    assert call("material", "show", file)[0] == 0
-    status, out, err = call(
-        "simulate", "sphere", "--material", file, *"--tabor 2 --preload 3 --rate 1".split(),
-        *"--json --until pull-off --accuracy 1e-2".split(),
-    )  # fmt: skip
-    assert status == 0, err
-    assert json.loads(out)["problem"]["material"]["type"] == "ColeCole"
-
-
 # --- and they are right -----------------------------------------------------------------------
 
 
@@ -179,30 +153,6 @@ def test_a_morse_law_of_short_range_pulls_like_jkr():
     force = vt.pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False))
     assert force == pytest.approx(1.0, abs=0.03)
     assert force != pytest.approx(1.0, abs=0.001)
-
-
-def test_cole_cole_of_order_near_one_tends_to_the_standard_solid():
-    standard = vt.StandardSolid(
-        rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
-    )
-    w = np.geomspace(1e-2, 1e4, 30)
-    off = []
-    for order in (0.9, 0.95):
-        solid = ZENER(
-            rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, order=order, poisson_ratio=0.5
-        )
-        difference = solid.complex_compliance(w) / standard.complex_compliance(w) - 1
-        off.append(np.max(np.abs(difference)))
-    assert off[1] < 0.55 * off[0]
-
-
-def test_the_modes_of_cole_cole_are_its_creep():
-    solid = ZENER(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, order=0.6, poisson_ratio=0.0)
-    modes = solid.retardation_modes(shortest=1e-3, longest=1e3, tolerance=1e-3)
-    t = np.geomspace(1e-3, 1e3, 40)
-    assert np.max(np.abs(modes.creep(t) - solid.creep(t))) < 1e-3
-    product = solid.complex_modulus(3.0) * solid.complex_compliance(3.0)
-    assert product == pytest.approx(1.0, rel=1e-12)
 
 
 # --- refusals ---------------------------------------------------------------------------------

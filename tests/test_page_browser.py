@@ -5,7 +5,6 @@ Chromium without a window, `make test MARK=outside`; figures are printed with ``
 
 import time
 from pathlib import Path
-from urllib.parse import urlsplit
 
 import pytest
 
@@ -75,21 +74,6 @@ def test_a_newcomer_sees_a_finished_moving_example_without_a_click(page, server)
     assert len(places) > 2
 
 
-def test_nothing_is_asked_of_another_place(browser, server):
-    context = browser.new_context(viewport=WIDE)
-    asked = []
-    context.on("request", lambda request: asked.append(request.url))
-    page = opened(context.new_page(), server[0])
-    for tab in TABS:
-        page.click(f"#tab-{tab}")
-    page.goto(f"{server[0]}api/docs")
-    page.wait_for_selector("h2")
-    context.close()
-    elsewhere = [x for x in asked if urlsplit(x).netloc != urlsplit(server[0]).netloc]
-    print(f"{len(asked)} requests, {len(elsewhere)} elsewhere")
-    assert [x for x in elsewhere if not x.startswith(("data:", "blob:"))] == []
-
-
 def test_a_dma_file_becomes_the_material_and_a_rig_file_stands_beside_the_forecast(page, server):
     opened(page, server[0])
     # one click chooses the file, one takes the material; what the file does not say becomes fields
@@ -154,33 +138,6 @@ def test_the_answer_is_that_of_predict_and_the_tiers_are_folded_beneath(page, se
     page.click("text=How do the theories compare")
     assert method in fold.locator("tbody th", has_text="(the answer)").inner_text()
     assert fold.locator("tbody tr").count() > 3
-
-
-def test_a_report_of_the_case_is_one_file(page, server):
-    opened(page, server[0])
-    until(page, "viscotack.verdict && viscotack.verdict.version === viscotack.version")
-    with page.expect_download() as waiting:
-        page.click("#save-report")
-    text = Path(waiting.value.path()).read_text()
-    for words in ("4.665 mN", "within the band", "<svg", "learned crack contact", "[sphere]"):
-        assert words in text
-    assert f"viscotack {vt.__version__}" in text and "src=" not in text and "var(--" not in text
-
-
-def test_cancel_takes_less_than_half_a_second(page, server):
-    opened(page, server[0])
-    page.evaluate("viscotack.settings.accuracy = 1e-5")
-    took = []
-    for _ in range(5):
-        page.evaluate("viscotack.cancelled = 0")
-        page.get_by_role("button", name="Simulate", exact=True).click()
-        until(page, "viscotack.run.state === 'running'")
-        page.wait_for_timeout(400)
-        page.click("#cancel")
-        until(page, "viscotack.cancelled > 0")
-        took.append(page.evaluate("viscotack.cancelled"))
-    print(f"cancel: {sorted(round(x) for x in took)} ms")
-    assert max(took) < 500
 
 
 def test_reload_and_link_restore_the_state(page, browser, server):

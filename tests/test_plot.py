@@ -103,34 +103,3 @@ def test_energy_picture_shows_where_the_work_went():
     assert "retardation time" in right.get_xlabel()
     with pytest.raises(ValueError, match="contains no energies"):
         draw_energy(jkr_result())
-
-
-@pytest.fixture(scope="module")
-def taps():
-    """Return two cycles from apart to apart."""
-    from viscotack import Apart, Approach, AtDepth, Groups, Retract, StandardSolid, solve
-
-    solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    tap = (Approach(5.0, AtDepth(2.0)), Retract(5.0, AtDepth(-15.0)))
-    groups = Groups(tabor=1.0, material=solid, start=Apart(10.0), rate=None, moves=2 * tap)
-    return solve(groups, accuracy=2e-2, estimate_error=False)
-
-
-def test_energy_is_drawn_by_time_where_a_depth_is_passed_more_than_once(taps):
-    from viscotack import draw_energy
-
-    axes, _ = draw_energy(taps).axes
-    assert axes.get_xlabel() == "time / time unit"
-    assert not axes.xaxis_inverted()
-    for line in axes.lines:
-        np.testing.assert_array_equal(line.get_xdata(), taps.time)
-
-
-def test_every_cycle_has_its_pull_off_marked(taps):
-    from viscotack import cycles
-
-    (axes,) = draw_force(taps).axes
-    ends = cycles(taps)
-    np.testing.assert_array_equal(mark(axes).get_xdata(), [end.depth_at_pull_off for end in ends])
-    np.testing.assert_array_equal(mark(axes).get_ydata(), [-end.pull_off_force for end in ends])
-    assert mark(axes).get_label() == f"pull-offs, the last {ends[-1].pull_off_force:.4g}"

@@ -30,6 +30,15 @@ OWN = ROOT / "docs/own.md"
 STUDY = sessions.SLOW
 
 
+# Their examples take more than four seconds.
+LONG = ("design", "punch", "rough_surfaces", "tack_tests", "traction-laws")
+
+
+def in_time(page, given=None):
+    """Return a parameter, slow where the examples of the page are."""
+    return pytest.param(given or page, marks=[pytest.mark.slow] * (page.stem in LONG))
+
+
 def name(page):
     """Return the path of a page from the root."""
     return str(page.relative_to(ROOT))
@@ -109,9 +118,7 @@ def test_first_steps_have_an_example_in_python(anywhere, capsys):
 
 
 @pytest.mark.parametrize(
-    "page",
-    [page for page in PAGES[1:] if page != ASKS_A_SERVER],
-    ids=name,
+    "page", [in_time(page) for page in PAGES[1:] if page != ASKS_A_SERVER], ids=name
 )
 def test_python_of_the_pages_runs(page, anywhere):
     for example in blocks(page, "python"):
@@ -139,7 +146,7 @@ def compare(lines, shown):
             pytest.fail(f"{line}\n  {wrong}\nrun: python docs/sessions.py --write")
 
 
-@pytest.mark.parametrize("page", short())
+@pytest.mark.parametrize("page", [in_time(ROOT / page, page) for page in short()])
 def test_commands_of_the_pages_run_and_print_what_is_shown(page, anywhere):
     shown = sessions.sessions((ROOT / page).read_text())
     compare(short()[page], {session.command: session for session in shown})

@@ -10,7 +10,6 @@ import synthetic
 from command_line import exit_status
 from viscotack import InputError, load, parse, save
 from viscotack.files.text import cell, harmless
-from viscotack.files.toml import parse_toml
 
 
 @pytest.mark.parametrize(
@@ -24,40 +23,6 @@ from viscotack.files.toml import parse_toml
 def test_numbers_in_the_text_of_a_unit_are_no_powers(words):
     with pytest.raises(InputError, match="exponents|unknown unit"):
         parse(words, "m")
-
-
-@pytest.mark.parametrize(
-    ("words", "unit", "value"),
-    [
-        ("152.3 mJ/m2", "J/m^2", 0.1523),
-        ("1 J/m^2", "J/m^2", 1.0),
-        ("2 kg m^-1 s^-2", "Pa", 2.0),
-        ("3 m²", "m^2", 3.0),
-        ("4 1/s", "1/s", 4.0),
-        ("4 s^-1", "1/s", 4.0),
-        ("4 s⁻¹", "1/s", 4.0),
-        ("5 (mm)^2", "m^2", 5e-6),
-        ("6 N/(m s^2)", "N/m/s^2", 6.0),
-    ],
-)
-def test_units_are_written_as_before(words, unit, value):
-    assert parse(words, unit) == pytest.approx(value)
-
-
-TOML = {
-    "brackets": ("a = " + "[" * 100_000, "too many nested brackets"),
-    "tables": ("a = " + "{b=" * 50_000, "too many nested brackets"),
-    "digits": ("a = " + "9" * 5_000, "invalid number"),
-    "long": ("a = 1 #" + "x" * 1_500_001, "more than the limit of 1,500,000"),
-    "word": ("x" * 1_000_000, "not a TOML file, line 1"),
-}
-
-
-@pytest.mark.parametrize(("text", "words"), TOML.values(), ids=TOML)
-def test_a_toml_file_that_is_deep_or_long_is_refused(text, words):
-    with pytest.raises(InputError, match=words) as caught:
-        parse_toml(text, "case.toml")
-    assert str(caught.value).startswith("case.toml") and len(str(caught.value)) < 400
 
 
 # --- archives -----------------------------------------------------------------------------------

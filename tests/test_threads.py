@@ -4,7 +4,6 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from threading import Barrier
 
 import pytest
 
@@ -63,22 +62,6 @@ def test_a_steady_crack_does_not_depend_on_the_speeds_that_were_asked_before(alo
     forget()
     SteadyCrack(SOLID, law).amplification(10.0)
     assert [asked(law, speed) for speed in SPEEDS] == expected
-
-
-def test_threads_that_ask_for_the_same_new_cracks_get_the_answers_of_one(alone):
-    law, expected = alone
-    forget()
-    SteadyCrack(SOLID, law).amplification(1e-9)  # all threads have one list of cracks
-    start = Barrier(4)
-
-    def ask(speed):
-        start.wait(60)
-        return asked(law, speed)
-
-    order = [*SPEEDS, *SPEEDS]
-    with ThreadPoolExecutor(4) as threads:
-        found = list(threads.map(ask, order))
-    assert found == expected + expected
 
 
 def test_the_blas_limit_holds_until_the_last_thread_is_done():

@@ -9,7 +9,7 @@ import pytest
 
 from command_line import exit_status
 from viscotack import clock
-from viscotack.bem import SimulationError, solver
+from viscotack.bem import SimulationError
 from viscotack.materials import StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
@@ -20,11 +20,6 @@ SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisso
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
 EXAMPLES = Path(__file__).parents[1] / "examples"
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
-
-
-def refused(capsys, *arguments):
-    assert exit_status([*WORDS, *arguments]) == 2
-    return capsys.readouterr().err
 
 
 class Clock:
@@ -72,24 +67,6 @@ def test_a_run_that_meets_its_time_limit_stops_and_keeps_what_there_is(monkeypat
     assert len(failure.value.result.time) > 2
 
 
-def test_the_companion_is_within_the_limit_too(monkeypatch, hand):
-    whole = solve(SPHERE, until="pull-off", estimate_error=False)
-    run, made = solver._run, []
-
-    def late(*arguments, **more):
-        made.append(arguments)
-        if len(made) == 2:
-            hand.now += 2.5
-        return run(*arguments, **more)
-
-    monkeypatch.setattr(solver, "_run", late)
-    result = solve(SPHERE, until="pull-off", time_limit=2.0, throw=False)
-    assert result.outcome is Outcome.STOPPED
-    assert "limit of 2 s was met while the error was estimated; give" in result.status
-    assert result.error_estimate is None
-    assert result.force.tolist() == whole.force.tolist()
-
-
 FILES = ["lens_1_um_s.csv", "lens_1000_um_s.csv"]
 LIMITED = {
     "predict": ["sphere", *"--tabor 3 --modulus-ratio 0.1 --preload 5 --rate 10".split()]
@@ -132,15 +109,6 @@ def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, hand, 
     assert answer["status"].startswith("stopped because the time limit of 0.6 s was met")
     assert answer["pull_off_force"] is None
     assert len(load(saved).time) > 2
-
-
-@pytest.mark.parametrize(
-    ("text", "said"), [("90", "'90' has no unit"), ("9 mm", "in s"), ("0 s", "must be positive")]
-)
-def test_a_time_limit_has_a_unit(text, said, capsys):
-    words = refused(capsys, "--rate", "10", "--time-limit", text)
-    assert words.startswith("viscotack: --time-limit") and said in words
-    assert 'for example "90 s"' in words or "must be positive" in words
 
 
 def test_progress_counts_time_depth_and_edge_and_ends_with_the_companion():
