@@ -1,6 +1,5 @@
 """Stand-ins for the solution of a case, importable by workers, and a crew within this process."""
 
-import atexit
 import ctypes
 import json
 import os
@@ -8,8 +7,6 @@ import signal
 from contextlib import contextmanager
 from pathlib import Path
 from time import sleep
-
-import numpy as np
 
 from viscotack import InputError
 from viscotack.campaign import Store, read_plan
@@ -34,27 +31,9 @@ def stand_in(problem, settings):
     return words | {"pull_off_force": 1 / problem.rate, "trajectory_force": curve}
 
 
-def rounded(problem, settings):
-    """Repeat an input, as a summary does, with its last digit lost."""
-    return stand_in(problem, settings) | {"modulus_ratio": 0.1 + 1e-16}
-
-
 def slow(problem, settings):
     """Do the same in about 20 ms."""
     sleep(0.02)
-    return stand_in(problem, settings)
-
-
-def unhurried(problem, settings):
-    """Do the same in about 0.1 s."""
-    sleep(0.1)
-    return stand_in(problem, settings)
-
-
-def gated(problem, settings):
-    """Wait for a file, but in the first ten cases."""
-    while problem.rate > 10 and not Path(os.environ["CAMPAIGN_TEST_BEGAN"], "go").exists():
-        sleep(0.01)
     return stand_in(problem, settings)
 
 
@@ -62,24 +41,6 @@ def picky(problem, settings):
     """Refuse every fifth rate."""
     if problem.rate % 5 == 0:
         raise InputError(f"no contact at a rate of {problem.rate:g}")
-    return stand_in(problem, settings)
-
-
-def broken(problem, settings):
-    """Crash, as a program with a fault does."""
-    raise TypeError("a fault of the program")
-
-
-def crash_at_seven(problem, settings):
-    """Crash in one case."""
-    return broken(problem, settings) if problem.rate == 7 else stand_in(problem, settings)
-
-
-def deadly(problem, settings):
-    """End the worker's process in one case."""
-    if problem.rate == 7:
-        os._exit(1)
-    sleep(0.01)
     return stand_in(problem, settings)
 
 
@@ -93,67 +54,6 @@ def waiting(problem, settings):
     """Wait in C, where no exception reaches."""
     tell_that_it_began()
     ctypes.CDLL(None).sleep(1000)
-
-
-def holding(problem, settings):
-    """Wait in C and let no other thread of the process do anything."""
-    tell_that_it_began()
-    ctypes.PyDLL(None).sleep(1000)
-
-
-class Stubborn:
-    """Waits where exceptions are swallowed."""
-
-    def __del__(self):
-        sleep(1000)
-
-
-def stubborn(problem, settings):
-    """Wait in the end of an object."""
-    tell_that_it_began()
-    Stubborn()
-
-
-def growing(problem, settings):
-    """Take 200 MB and go on."""
-    held = np.ones(25_000_000)
-    waiting(problem, settings)
-    return {"held": held}
-
-
-BALLAST = []
-
-
-def at_rest(problem, settings):
-    """Take 80 MB and keep them, as a cache does; less than a limit of 100 MB in each case."""
-    BALLAST.append(np.ones(10_000_000))
-    sleep(0.2)
-    return stand_in(problem, settings)
-
-
-def threads(problem, settings):
-    """Return how many threads linear algebra has, and where that was said."""
-    from threadpoolctl import threadpool_info
-
-    row = {name: os.environ.get(name) for name in os.environ if name.endswith("NUM_THREADS")}
-    return row | {"blas": max(pool["num_threads"] for pool in threadpool_info())}
-
-
-def last_words(problem, settings):
-    """Leave a file when the process ends by itself."""
-    atexit.register(Path(os.environ["CAMPAIGN_TEST_LAST_WORDS"], "last words").touch)
-    return {}
-
-
-def bare(problem, settings):
-    """Be said to come from elsewhere."""
-
-
-def trouble(problem, settings):
-    """Die in one case, and never end in another one."""
-    if problem.rate == 11:
-        holding(problem, settings)
-    return deadly(problem, settings)
 
 
 def interrupting(problem, settings):
@@ -176,21 +76,6 @@ def finished(store):
     """Return the names of the cases with a result, and the failures by name of the others."""
     failed = {row["name"]: row["failure"] for row in store.failures().to_pylist()}
     return {row["name"] for row in store.results().to_pylist()}, failed
-
-
-@contextmanager
-def flipped(folder, chance):
-    """Turn one bit of a file that is read, for the block."""
-    files = [*folder.glob("*/*.parquet"), folder / "cases.parquet", folder / "provenance.json"]
-    path = chance.choice(sorted(files))
-    content = path.read_bytes()
-    turned = bytearray(content)
-    turned[chance.randrange(len(turned))] ^= 1 << chance.randrange(8)
-    path.write_bytes(turned)
-    try:
-        yield path
-    finally:
-        path.write_bytes(content)
 
 
 class InlineCrew:

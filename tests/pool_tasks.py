@@ -5,22 +5,9 @@ import os
 import time
 from pathlib import Path
 
-import numpy as np
-import psutil
-
-from viscotack import InputError
-
 
 def prepare(given):
     return given
-
-
-def refuse(given):
-    raise InputError("this file is no noun")
-
-
-def fail(given):
-    raise KeyError("a fault of the program")
 
 
 def echo(asked, tell, context):
@@ -55,20 +42,3 @@ def hang(asked, tell, context):
 
 def die(asked, tell, context):
     os._exit(3)
-
-
-def nan(asked, tell, context):
-    return float("nan")
-
-
-def strange(asked, tell, context):
-    return {1, 2}
-
-
-def huge(asked, tell, context):
-    return np.ones(asked).sum()
-
-
-def niceness(asked, tell, context):
-    print("what a task prints is no message")
-    return psutil.Process().nice()

@@ -4,12 +4,9 @@ import os
 import time
 from pathlib import Path
 
-import pytest
-
 # Longest time to wait for a state [s]; it decides no test, so it may be as long as it wants.
 LONG = 120.0
 # What these tests claim does not hold on Windows: folders that are flushed, bounded address spaces.
-POSIX = pytest.mark.skipif(not hasattr(os, "O_DIRECTORY"), reason="only POSIX has it")
 
 
 def until(condition, seconds=LONG):

@@ -1,17 +1,13 @@
 """The command ``viscotack app``: what it needs, where it listens, what it prints."""
 
-import os
 import re
-import signal
-import sys
 import urllib.request
 from pathlib import Path
 
 import pytest
 
 from app_server import running
-from processes import children, lives, until
-from viscotack.app.cli.page import _query, _token
+from viscotack.app.cli.page import _token
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
 
@@ -28,26 +24,6 @@ def test_page_and_client_of_the_docs_are_answered(tmp_path, monkeypatch, capsys)
     assert float(capsys.readouterr().out) == pytest.approx(4.668e-3, rel=0.01)
 
 
-def test_a_case_file_is_in_the_link_that_is_opened():
-    query = _query(Path("examples/from_toml/cone.toml"), ())
-    assert "cone.slope=0.05" in query
-
-
-def test_a_material_in_a_file_of_its_own_goes_into_the_link(tmp_path):
-    (tmp_path / "series.csv").write_text("modulus_ratio,relaxation_time_s\n5.0,0.001\n")
-    (tmp_path / "case.toml").write_text(
-        "[material]\nmodel = 'prony'\nrubbery_modulus = '1 MPa'\npoisson_ratio = 0.5\n"
-        "file = 'series.csv'\n[interface]\nlaw = 'lennard-jones'\n"
-        "work_of_adhesion = '50 mJ/m^2'\nequilibrium_gap = '1 um'\n[sphere]\nradius = '1 mm'\n"
-        "[protocol]\npreload_depth = '1 um'\nspeed = '10 um/s'\n"
-    )
-    from viscotack.operations.declare.state import state_of_query
-    from viscotack.problem.case_file import read_case
-
-    query = _query(tmp_path / "case.toml", ())
-    assert state_of_query(query).problem == read_case(tmp_path / "case.toml")
-
-
 def test_a_token_is_needed_beyond_this_machine_and_a_short_one_refused(monkeypatch):
     monkeypatch.delenv("VISCOTACK_TOKEN", raising=False)
     assert _token("127.0.0.1") == ""
@@ -57,11 +33,3 @@ def test_a_token_is_needed_beyond_this_machine_and_a_short_one_refused(monkeypat
     monkeypatch.setenv("VISCOTACK_TOKEN", "short")
     with pytest.raises(ValueError, match="16 characters or more"):
         _token("0.0.0.0")
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of other processes")
-def test_the_workers_end_with_a_server_that_is_killed():
-    with running() as (_, server):
-        workers = until(lambda: children(server))
-        os.kill(server, signal.SIGKILL)
-        until(lambda: not any(map(lives, workers)))

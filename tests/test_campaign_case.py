@@ -15,18 +15,14 @@ from viscotack import (
     AtDepth,
     Elastic,
     Groups,
-    InputError,
     Retract,
     pull_off,
     pull_off_force,
-    run_id,
-    solve,
     to_dict,
 )
 from viscotack.campaign import CaseSettings, measure
 from viscotack.campaign.case import (
     KEY_SHARES,
-    Unsolved,
     attempt,
     curve,
 )
@@ -60,92 +56,6 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     assert force[8] == pytest.approx(0, abs=1e-12) and np.all(force[:8] > 0), "tension has 16"
 
 
-def test_a_start_in_tension_has_a_trajectory_of_one_part():
-    whole = synthetic.jkr_result(steps=400, end=0.7)
-    kept = np.flatnonzero(whole.force < -0.1)
-    names = ("time", "depth", "force", "contact_radius", "edge_speed")
-    late = synthetic.jkr_result(**{name: getattr(whole, name)[kept] for name in names})
-    row = curve(late, pull_off(late))
-    depth, force = np.array(row["trajectory_depth"]), np.array(row["trajectory_force"])
-    assert len(force) == 24 and force[0] == late.force[0] and force[-1] == force.min()
-    assert np.all(np.diff(depth, 2) > 0)
-    assert force == pytest.approx(exact_force(depth), abs=1e-3)
-
-
-def test_the_trajectory_ends_at_the_pull_off_before_a_jump():
-    whole, to_jump = (
-        curve(result, pull_off(result))
-        for result in (synthetic.jkr_result(end=0.5), synthetic.jkr_detachment())
-    )
-    assert to_jump == whole
-
-
-def test_a_jump_at_one_depth_does_not_break_the_curve():
-    whole = synthetic.jkr_result(steps=300)
-    i = 40
-    twice = {
-        name: np.insert(getattr(whole, name), i, getattr(whole, name)[i] + shift)
-        for name, shift in (("time", 0), ("depth", 0), ("force", 1), ("contact_radius", 0))
-    }
-    jumped = synthetic.jkr_result(**twice, edge_speed=np.insert(whole.edge_speed, i, 0.0))
-    found = pull_off(whole)
-    assert curve(jumped, found) == curve(whole, found)
-
-
-def test_the_row_of_a_case_is_what_the_result_says():
-    row = measure(synthetic.GROUPS, QUICK)
-    result = solve(synthetic.GROUPS, accuracy=0.02, until="pull-off")
-    assert row["pull_off_force"] == pull_off_force(result)
-    assert row["error_estimate"] == result.error_estimate["force"]
-    assert row["error_estimate_work"] == result.error_estimate["work"]
-    assert (row["status"], row["method"]) == (result.status, "simulation")
-    assert row["steps"] == len(result.time) - 1
-    assert "numpy" in row["versions"]
-    kinds = {type(v) for v in row.values() if v is not None}
-    assert kinds <= {str, float, int, list}
-
-
-def test_a_case_is_pulled_as_far_as_its_settings_say():
-    near = measure(synthetic.GROUPS, CaseSettings(accuracy=0.02, until="pull-off"))
-    far = measure(synthetic.GROUPS, CaseSettings(accuracy=0.02, until="detached"))
-    assert near.get("work_of_separation") is None and far["work_of_separation"] > 0
-    assert near["steps"] < far["steps"]
-
-
-def test_an_answer_has_a_row_or_a_reason():
-    good = attempt(lambda problem, settings: {"id": run_id(problem)}, PROBLEM, QUICK)
-    assert good.row == {"id": run_id(synthetic.GROUPS)} and not good.failure
-    assert good.wall_time_s > 0 and good.peak_memory > 1e6
-
-    def fails(error):
-        def work(problem, settings):
-            raise error
-
-        answer = attempt(work, PROBLEM, QUICK)
-        assert answer.row is None
-        return answer.failure, answer.reason
-
-    assert fails(InputError("no contact")) == ("refused", "no contact")
-    # what nobody raised on purpose is a defect, and no answer of the physics
-    assert fails(ValueError("a defect")) == ("crashed", "ValueError: a defect")
-    assert fails(Unsolved("stopped because")) == ("stopped", "stopped because")
-    assert fails(KeyError("x")) == ("crashed", "KeyError: 'x'")
-    assert fails(MemoryError("no room"))[0] == "memory limit"
-
-
-def test_a_stopped_simulation_is_a_failure_with_its_reason(monkeypatch):
-    from viscotack.campaign import case
-
-    stopped = synthetic.jkr_result(status="stopped because the bound of 9 steps was met")
-    monkeypatch.setattr(case, "solve", lambda *_, **__: stopped)
-    answer = attempt(measure, PROBLEM, QUICK)
-    assert (answer.failure, answer.reason) == ("stopped", stopped.status)
-    never = synthetic.jkr_result(start=2.3, end=2.2)
-    monkeypatch.setattr(case, "solve", lambda *_, **__: never)
-    answer = attempt(measure, PROBLEM, QUICK)
-    assert answer.failure == "refused" and "no pull-off" in answer.reason
-
-
 def test_a_case_that_marches_too_long_ends_by_itself(monkeypatch):
     # on a clock that goes on by a hundredth of a second whenever somebody looks at it
     ticks = count(100.0, 0.01)
@@ -174,21 +84,6 @@ def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
     assert row["trajectory_depth"][0] == pytest.approx(depths[1])
     assert row["travel_to_pull_off"] == pytest.approx(depths[1] - row["depth_at_pull_off"])
     assert np.all(np.diff(row["trajectory_depth"]) < 0)
-
-
-def test_a_pull_off_at_the_start_of_the_retraction_has_a_curve_of_one_point():
-    groups = vt.Groups(
-        tabor=0.3,
-        material=vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
-        start=vt.AtRadius(2.0),
-        rate=4e4,
-        traction=vt.Exponential(1.0, 1.0, 2.0),
-    )
-    # crashed: "x must contain only finite values"
-    row = measure(groups, CaseSettings(accuracy=0.01))
-    assert row["travel_to_pull_off"] == 0
-    assert set(row["trajectory_force"]) == {-row["pull_off_force"]}
-    assert vt.predict(groups, exact=True).curve.force[-1] < 0
 
 
 def test_the_curve_of_a_problem_in_si_has_each_column_in_si_too():

@@ -1,9 +1,8 @@
-"""A Dask cluster: certificates, machines that come and go, of other programs, or none at all."""
+"""A Dask cluster whose machines come and go."""
 
 import json
 import os
 import random
-import shutil
 import signal
 import subprocess
 import sys
@@ -21,8 +20,7 @@ from campaign_work import (
     told,
 )
 from processes import until
-from viscotack.campaign import Store, cluster, run
-from viscotack.campaign.cluster import security_of
+from viscotack.campaign import cluster, run
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")
 HERE = Path(__file__).parent
@@ -40,39 +38,25 @@ def findable(monkeypatch):
 class Cluster:
     """A scheduler and workers, each a process of its own, over TCP."""
 
-    def __init__(self, folder, secured=None):
-        self.folder, self.secured = folder, secured
+    def __init__(self, folder):
+        self.folder = folder
         self.quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         self.workers = []
         file = folder / "scheduler.json"
         file.unlink(missing_ok=True)
-        words = ["--port", "0", "--no-dashboard", "--scheduler-file", str(file), *self.flags()]
+        words = ["--port", "0", "--no-dashboard", "--scheduler-file", str(file)]
         self.scheduler = subprocess.Popen([*DASK, "scheduler", *words], **self.quiet)
         until(lambda: file.exists() and file.read_text().endswith("}"))  # not whole at once
         self.address = json.loads(file.read_text())["address"]
 
-    def flags(self):
-        if self.secured is None:
-            return []
-        files = zip(("ca-file", "cert", "key"), self.secured, strict=True)
-        return [word for name, path in files for word in (f"--tls-{name}", str(path))]
-
-    def hire(self, count=1, path=None):
-        """Start workers; of the program at another path."""
-        words = ["--nthreads", "1", "--no-nanny", "--no-dashboard", *self.flags()]
+    def hire(self, count=1):
+        """Start workers."""
+        words = ["--nthreads", "1", "--no-nanny", "--no-dashboard"]
         words += ["--local-directory", str(self.folder)]
-        env = os.environ | ({"PYTHONPATH": path} if path else {})
         command = [*DASK, "worker", self.address, *words]
         self.workers += [
-            subprocess.Popen(command, env=env, cwd=self.folder, **self.quiet) for _ in range(count)
+            subprocess.Popen(command, cwd=self.folder, **self.quiet) for _ in range(count)
         ]
-
-    def await_workers(self, count):
-        """Wait until the scheduler knows so many."""
-        from distributed import Client
-
-        with Client(self.address, set_as_default=False) as client:
-            until(lambda: len(client.nthreads()) == count)
 
     def end(self):
         for process in [*self.workers, self.scheduler]:
@@ -81,67 +65,12 @@ class Cluster:
 
 
 @contextmanager
-def held(*arguments):
-    found = Cluster(*arguments)
+def held(folder):
+    found = Cluster(folder)
     try:
         yield found
     finally:
         found.end()
-
-
-@pytest.fixture(scope="session")
-def certificates(tmp_path_factory):
-    """Return an authority, and a certificate and a key that it has signed, made here."""
-    if shutil.which("openssl") is None:
-        pytest.skip("openssl makes the certificates")
-    folder = tmp_path_factory.mktemp("certificates")
-    ca, ca_key, cert, key, wish = (
-        str(folder / name) for name in ("ca.pem", "ca.key", "cert.pem", "key.pem", "wish.pem")
-    )
-    openssl = ["openssl"]
-    curve = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes"]
-    for words in (
-        ["req", "-x509", *curve, "-keyout", ca_key, "-out", ca, "-subj", "/CN=ca", "-days", "2"],
-        ["req", *curve, "-keyout", key, "-out", wish, "-subj", "/CN=127.0.0.1"],
-        ["x509", "-req", "-in", wish, "-CA", ca, "-CAkey", ca_key, "-out", cert, "-days", "2"],
-    ):
-        subprocess.run([*openssl, *words], check=True, capture_output=True)
-    return Path(ca), Path(cert), Path(key)
-
-
-def told_by_one_process(tmp_path, plan, monkeypatch, work=stand_in):
-    with monkeypatch.context() as patch:
-        employ(patch, InlineCrew())
-        run(plan, tmp_path / "here", work=work)
-    return told(tmp_path / "here")
-
-
-# Clusters of processes take ten seconds and more; what a crew does with its scheduler is held by
-# tests/test_campaign_crew.py.
-
-
-@pytest.mark.slow
-def test_a_cluster_with_certificates_gives_the_same_table_when_a_worker_is_killed(
-    tmp_path, monkeypatch, certificates
-):
-    plan, killed = plan_of(tmp_path, cases=40), []
-    with held(tmp_path, certificates) as dask:
-        assert dask.address.startswith("tls://")
-        dask.hire(2)
-
-        def murder(now):
-            if now.done > 10 and not killed:
-                killed.append(dask.workers[0].pid)
-                dask.workers[0].kill()
-
-        options = {"security": security_of(*certificates), "store_every": 0.1}
-        end = run(plan, tmp_path / "c", scheduler=dask.address, work=slow, report=murder, **options)
-        assert (end.done, end.failed) == (40, 0) and killed
-        # who has no certificate is not let in, and that is said
-        monkeypatch.setattr(cluster, "_CONNECT", 2.0)
-        with pytest.raises(ConnectionError, match="no scheduler answers at 'tls://"):
-            run(plan, tmp_path / "d", scheduler=dask.address, work=slow)
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
 
 
 @pytest.mark.slow
@@ -160,22 +89,6 @@ def test_twenty_workers_that_come_and_go_give_the_same_table(tmp_path, monkeypat
         options = {"work": slow, "report": stir, "store_every": 0.3}
         end = run(plan, tmp_path / "c", scheduler=dask.address, **options)
     assert (end.done, end.failed) == (400, 0)
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
-
-
-@pytest.mark.slow
-def test_a_scheduler_that_is_killed_ends_the_run_and_the_next_one_goes_on(tmp_path, monkeypatch):
-    plan = plan_of(tmp_path, cases=200)
-    with held(tmp_path) as dask:
-        dask.hire(2)
-
-        def murder(now):
-            if now.done > 20:
-                dask.scheduler.kill()
-
-        options = {"work": slow, "report": murder, "store_every": 0.2}
-        with pytest.raises(ConnectionError, match="connection to the scheduler was lost"):
-            run(plan, tmp_path / "c", scheduler=dask.address, **options)
-    assert 20 < Store(tmp_path / "c").results().num_rows < 200
-    assert run(plan, tmp_path / "c", workers=2, work=stand_in).done == 200
-    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
+    employ(monkeypatch, InlineCrew())
+    run(plan, tmp_path / "here", work=stand_in)
+    assert told(tmp_path / "c") == told(tmp_path / "here")

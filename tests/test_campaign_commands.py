@@ -6,8 +6,6 @@ import pytest
 
 from campaign_work import InlineCrew, employ
 from command_line import exit_status
-from viscotack.campaign import CaseSettings
-from viscotack.campaign.running import Progress
 from viscotack.files.lock import locked
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]
@@ -55,65 +53,6 @@ def test_a_bare_csv_file_is_run_and_gives_its_columns_back(cases, crew, tmp_path
         assert row["status"].startswith("still in contact just past the pull-off")
     assert call("status", folder) == 0
     assert "2 of 2 cases done, 0 failed, 0 left" in capsys.readouterr().out
-
-
-def test_a_run_that_was_stopped_has_another_exit_status(cases, tmp_path, monkeypatch, capsys):
-    stopped = Progress(5, 2, 0, rate=1.0, elapsed_s=2.0, stopped=True)
-    monkeypatch.setattr("viscotack.campaign.run", lambda *_, **__: stopped)
-    assert call("run", cases, "--out", tmp_path / "study") == 1
-    assert "2 of 5 cases done, 0 failed, 3 left" in capsys.readouterr().out
-
-    def killed(*_, **__):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("viscotack.campaign.run", killed)
-    assert call("run", cases, "--out", tmp_path / "study") == 1
-    out, err = capsys.readouterr()
-    assert out == "" and "interrupted; the stored rows in" in err and "are safe" in err
-    assert call("run", cases, "--out", tmp_path / "study", "--json") == 1
-    assert json.loads(capsys.readouterr().out) == {"stopped": True, "reason": "interrupted"}
-
-
-def test_cases_without_a_result_have_an_exit_status(tmp_path, crew, capsys):
-    rows = [",".join(INPUTS), ",".join(ROWS[0]), ",".join(ROWS[0]).replace("2.0", "-90")]
-    (tmp_path / "cases.csv").write_text("\n".join(rows) + "\n")
-    words = ["run", tmp_path / "cases.csv", "--out", tmp_path / "study", "--accuracy", 0.02]
-    assert call(*words) == 4
-    assert "1 of 2 cases done, 1 failed, 0 left" in capsys.readouterr().out
-
-
-def test_progress_is_told_now_and_then_and_at_once_when_a_run_is_to_stop(
-    cases, tmp_path, monkeypatch, capsys
-):
-    def some(*_, report, **__):
-        for done in range(3):
-            report(Progress(4, done, 0, rate=1.0))
-        report(Progress(4, 3, 0, rate=1.0, stopped=True))
-        return Progress(4, 3, 0, elapsed_s=1.0, stopped=True)
-
-    monkeypatch.setattr("viscotack.campaign.run", some)
-    assert call("run", cases, "--out", tmp_path / "study") == 1
-    stop = "3 of 4 stored, 0 failed, 1.0 cases/s; finishing the running cases"
-    assert capsys.readouterr().err.splitlines() == [stop]
-    monkeypatch.setattr("viscotack.app.cli.reading.LINES", -1.0)
-    assert call("run", cases, "--out", tmp_path / "study") == 1
-    assert len(capsys.readouterr().err.splitlines()) == 4
-
-
-def test_settings_of_the_command_take_the_place_of_those_of_the_plan(cases, tmp_path, monkeypatch):
-    plans = []
-
-    def keep(plan, *_, **__):
-        plans.append(plan)
-        return Progress(2, 2, 0)
-
-    monkeypatch.setattr("viscotack.campaign.run", keep)
-    settings = ["--accuracy", 0.01, "--until", "detached", "--time-limit", "2 min"]
-    more = ["--memory-limit", "300 MB", "--shard", "1/2"]
-    assert call("run", cases, "--out", tmp_path / "study", *settings, *more) == 0
-    (plan,) = plans
-    assert plan.settings == CaseSettings(0.01, "detached", 120.0, 300e6)
-    assert len(plan.cases) == 1 and plan.shard == "1/2"
 
 
 def test_a_folder_in_use_is_refused(cases, tmp_path, capsys):

@@ -1,28 +1,20 @@
-import errno
 import os
 import signal
 import subprocess
 import sys
-from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from campaign_work import (
     InlineCrew,
-    crash_at_seven,
-    deadly,
     employ,
-    finished,
     interrupting,
     picky,
     plan_of,
     stand_in,
 )
 from viscotack.campaign import Store, run
-from viscotack.campaign.cluster import Gone
-from viscotack.campaign.running import PASSING
 
 HERE = Path(__file__).parent
 PACKAGES = [path for path in [os.environ.get("PYTHONPATH")] if path]
@@ -63,17 +55,6 @@ def test_what_is_stored_is_not_run_again(tmp_path, crew):
     assert len(rates(tmp_path / "c")) == 10
 
 
-def test_a_folder_goes_on_without_its_plan(tmp_path, crew):
-    folder = tmp_path / "c"
-    Store.create((folder.mkdir(), folder)[1], plan_of(tmp_path, cases=5))
-    end = run(None, folder, work=stand_in)
-    assert end.done == 5
-    with pytest.raises(FileNotFoundError):
-        run(None, tmp_path / "nowhere")
-    with pytest.raises(ValueError, match="holds no campaign"):
-        run(None, tmp_path)
-
-
 def test_failures_have_their_own_table_and_are_tried_again_on_demand(tmp_path, crew):
     folder, plan = tmp_path / "c", plan_of(tmp_path)
     end = run(plan, folder, work=picky)
@@ -89,52 +70,9 @@ def test_failures_have_their_own_table_and_are_tried_again_on_demand(tmp_path, c
     assert Store(folder).failures().num_rows == 0
 
 
-def test_a_crash_is_tried_again_by_the_next_run(tmp_path, crew):
-    folder, plan = tmp_path / "c", plan_of(tmp_path)
-    assert run(plan, folder, work=crash_at_seven).failed == 1
-    assert finished(Store(folder))[1].popitem()[1] in PASSING
-    assert run(plan, folder, work=stand_in).done == 20
-    assert table(folder).equals(table_of_undisturbed(tmp_path))
-
-
 def table_of_undisturbed(tmp_path):
     run(plan_of(tmp_path), tmp_path / "undisturbed", work=stand_in)
     return table(tmp_path / "undisturbed")
-
-
-def test_what_is_reported_done_is_stored(tmp_path, crew):
-    reports = []
-
-    def check(now):
-        done, failed = finished(Store(tmp_path / "c"))
-        reports.append(now.done)
-        assert (len(done), len(failed)) == (now.done, now.failed)
-
-    run(plan_of(tmp_path), tmp_path / "c", work=picky, report=check, store_every=0.0)
-    assert len(reports) > 10 and reports[-1] == 16
-
-
-def test_the_remaining_time_is_told(tmp_path, crew, monkeypatch):
-    # a clock on which each case takes half a second, of which it says 0.2 s
-    now, collect, seen = [100.0], crew.collect, []
-
-    def ticking(seconds):
-        now[0] += 0.5
-        return [(number, replace(a, wall_time_s=0.2)) for number, a in collect(seconds)]
-
-    monkeypatch.setattr(crew, "collect", ticking)
-    monkeypatch.setattr(import_module("viscotack.campaign.running"), "perf_counter", lambda: now[0])
-    options = {"work": stand_in, "report": seen.append, "store_every": 0.0}
-    run(plan_of(tmp_path, cases=40), tmp_path / "c", **options)
-    assert [report.done for report in seen] == [*range(1, 41), 40]
-    for report in seen[:40]:
-        assert report.elapsed_s == report.done / 2 and report.rate == 2.0
-        # all cases cost about the same, and the first ones a little more
-        assert report.remaining_s == pytest.approx((40 - report.done) / 2, rel=0.08, abs=1e-9)
-        assert report.remaining_s <= (40 - report.done) / 2 + 1e-9
-        assert report.worker_use == pytest.approx(0.2 * report.done / report.elapsed_s / 2)
-        assert report.peak_memory > 1e6
-    assert seen[10].remaining_s < seen[9].remaining_s
 
 
 def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
@@ -148,28 +86,6 @@ def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
     assert table(folder).equals(table_of_undisturbed(tmp_path))
 
 
-def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
-    collect = crew.collect
-
-    def twice(seconds):
-        answers = collect(seconds)
-        if len(crew.done) == 10:
-            os.kill(os.getpid(), signal.SIGINT)
-            os.kill(os.getpid(), signal.SIGINT)
-        return answers
-
-    monkeypatch.setattr(crew, "collect", twice)
-    with pytest.raises(KeyboardInterrupt):
-        run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert 0 < len(rates(tmp_path / "c")) <= 10
-
-
-def test_a_death_of_a_worker_costs_nothing(tmp_path, monkeypatch):
-    crew = employ(monkeypatch, InlineCrew(deaths=[7.0]))
-    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert (end.done, end.failed, crew.deaths) == (20, 0, [])
-
-
 def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
     crew = employ(monkeypatch, InlineCrew(deaths=[7.0] * 9))
     end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
@@ -180,57 +96,12 @@ def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
     assert crew.alone == [False, False, True] and len(crew.deaths) == 6
 
 
-def test_a_lost_scheduler_ends_the_run_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
-    collect = crew.collect
-
-    def lose(seconds):
-        if len(crew.done) >= 10:
-            raise Gone("the connection was lost")
-        return collect(seconds)
-
-    monkeypatch.setattr(crew, "collect", lose)
-    with pytest.raises(Gone):
-        run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert 0 < len(rates(tmp_path / "c")) < 10
-
-
-def test_a_full_disk_ends_the_run_and_leaves_a_store_that_opens(tmp_path, crew, monkeypatch):
-    folder, plan = tmp_path / "c", plan_of(tmp_path, cases=60)
-    sync, left = os.fsync, [60]
-
-    def fill_up(handle):
-        left[0] -= 1
-        if left[0] < 0:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        sync(handle)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "fsync", fill_up)
-        with pytest.raises(OSError, match="no space left for .*(results|provenance)"):
-            run(plan, folder, work=stand_in, store_every=0.0)
-    stored = rates(folder)
-    assert 0 < len(stored) < 60
-    crew.done.clear()
-    assert run(plan, folder, work=stand_in).done == 60
-    assert not set(crew.done) & set(stored)
-
-
 def test_processes_give_the_same_table(tmp_path, monkeypatch):
     end = run(plan_of(tmp_path), tmp_path / "c", workers=2, work=picky)
     assert (end.done, end.failed) == (16, 4) and 0 < end.worker_use < 1
     employ(monkeypatch, InlineCrew())
     run(plan_of(tmp_path), tmp_path / "d", work=picky)
     assert table(tmp_path / "c").equals(table(tmp_path / "d"))
-
-
-@pytest.mark.slow
-def test_processes_survive_a_case_that_kills_them(tmp_path, monkeypatch):
-    end = run(plan_of(tmp_path), tmp_path / "c", workers=2, work=deadly)
-    assert (end.done, end.failed) == (19, 1)
-    end = run(plan_of(tmp_path), tmp_path / "c", workers=1, work=stand_in)
-    assert (end.done, end.failed) == (20, 0)
-    employ(monkeypatch, InlineCrew())
-    assert table(tmp_path / "c").equals(table_of_undisturbed(tmp_path))
 
 
 CHILD = """
@@ -257,12 +128,30 @@ def child(folder):
         stderr=subprocess.PIPE,
         text=True,
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE), *PACKAGES])},
+        start_new_session=True,
     )
 
 
 def news(started, told):
     """Return the first number that a child reports above what was told; "0" if it ends before."""
     return next((line for line in started.stdout if int(line) > told), "0")
+
+
+@pytest.mark.slow
+def test_kills_lose_nothing_and_duplicate_nothing(tmp_path, monkeypatch):
+    folder, reported = tmp_path / "c", 0
+    for _ in range(3):
+        started = child(tmp_path)
+        reported = int(news(started, reported))
+        assert reported > 0
+        os.killpg(started.pid, signal.SIGKILL)
+        started.communicate()
+        found = rates(folder)
+        assert reported <= len(found) == len(set(found)) < 400
+    assert run(plan_of(tmp_path, cases=400), folder, workers=2, work=stand_in).done == 400
+    employ(monkeypatch, InlineCrew())
+    run(plan_of(tmp_path, cases=400), tmp_path / "undisturbed", work=stand_in)
+    assert table(folder).equals(table(tmp_path / "undisturbed"))
 
 
 @pytest.mark.slow

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,14 +16,11 @@ from viscotack.forecast.prediction import MEASURED
 from viscotack.forecast.simulation import SIMULATION
 from viscotack.forecast.theories import CRACK_CONTACT
 from viscotack.forecast.tiers import TIERS
-from viscotack.geometry import SHAPES
 from viscotack.geometry.hats import hat_areas
 from viscotack.materials import Modes
-from viscotack.materials.words import MODELS
 from viscotack.problem.nouns import own_nouns
-from viscotack.result import observables
 from viscotack.theory import lennard_jones
-from viscotack.traction import LAWS, Eyring, GentSchultz, Tabulated
+from viscotack.traction import Eyring, GentSchultz, Tabulated
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 MORSE, COLE_COLE, ROUNDED, LARGEST, FOUNDATION = own_nouns(
@@ -86,11 +83,6 @@ each_shape = pytest.mark.parametrize("shape", SHAPES_CHECKED.values(), ids=SHAPE
 # --- the nouns of the package, and those of the examples -----------------------------------------
 
 
-def test_no_noun_of_the_package_is_left_out():
-    assert MODELS.keys() <= MATERIALS.keys() and LAWS.keys() <= LAWS_CHECKED.keys()
-    assert SHAPES.keys() - {"punch"} <= SHAPES_CHECKED.keys()
-
-
 @each_material
 def test_materials_pass_the_checks_of_formulas_and_ways_in(material):
     check.check_material(material, thorough=False).raise_if_failed()
@@ -112,21 +104,10 @@ def test_bodies_pass(body):
 
 
 @pytest.mark.slow
-@each_material
-def test_materials_pass_in_simulations_theories_and_campaigns(material):
-    check.check_material(material).raise_if_failed()
-
-
-@pytest.mark.slow
-@each_law
-def test_laws_pass_in_simulations_and_campaigns(law):
-    check.check_law(law).raise_if_failed()
-
-
-@pytest.mark.slow
-@each_shape
-def test_shapes_pass_in_simulations_and_campaigns(shape):
-    check.check_shape(shape).raise_if_failed()
+def test_nouns_pass_in_simulations_theories_and_campaigns():
+    check.check_material(MATERIALS["fractional-zener"]).raise_if_failed()
+    check.check_law(LAWS_CHECKED["eyring"]).raise_if_failed()
+    check.check_shape(SHAPES_CHECKED["rounded-cone"]).raise_if_failed()
 
 
 @pytest.mark.slow
@@ -134,12 +115,7 @@ def test_shapes_pass_in_simulations_and_campaigns(shape):
     "observable",
     [
         LARGEST,
-        vt.Observable("force_of_it", "pull-off force", "force", vt.pull_off_force),
-        vt.Observable("depth_of_it", "depth at pull-off", "depth", vt.depth_at_pull_off),
         vt.Observable("work_of_it", "work to pull-off", "work", vt.work_to_pull_off),
-        vt.Observable(
-            "radius_of_it", "radius at pull-off", "radius", observables.contact_radius_at_pull_off
-        ),
     ],
     ids=lambda observable: observable.name,
 )
@@ -229,33 +205,7 @@ def test_the_tiers_of_the_package_pass(tier, monkeypatch):
     check.check_tier(tier, cases=cases, takes=takes, digits=digits).raise_if_failed()
 
 
-# --- every pair of nouns meets ------------------------------------------------------------------
-
-
-# --- twenty broken nouns -------------------------------------------------------------------------
-
-
-class Creeping(vt.StandardSolid):
-    """Creep that falls again."""
-
-    def creep(self, time):
-        t = np.asarray(time, dtype=float)
-        return super().creep(t) * (1 - 0.5 * np.exp(-(np.log(t / 5e-3 + 1e-300) ** 2)))
-
-
-class Soft(vt.StandardSolid):
-    """Creep that ends at twice the rubbery compliance."""
-
-    def creep(self, time):
-        return 2 * super().creep(time)
-
-
-class Shear(vt.StandardSolid):
-    """A contact modulus of shear."""
-
-    @property
-    def contact_modulus(self):
-        return self.rubbery_modulus / (2 * (1 + self.poisson_ratio))
+# --- broken nouns -------------------------------------------------------------------------
 
 
 class Careless(vt.StandardSolid):
@@ -265,14 +215,6 @@ class Careless(vt.StandardSolid):
         exact = super().retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
         times = tuple(1.01 * t for t in exact.times)
         return Modes(exact.instantaneous, exact.weights, times, 1e-3 * tolerance)
-
-
-class Coarse(vt.StandardSolid):
-    """Modes that are never closer than a tenth."""
-
-    def retardation_modes(self, *, shortest, longest, tolerance):
-        exact = super().retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
-        return replace(exact, error=0.1)
 
 
 class Active(vt.StandardSolid):
@@ -292,33 +234,11 @@ class Shifted(vt.StandardSolid):
         return 1 / self.complex_modulus(omega)
 
 
-class Unreduced(vt.StandardSolid):
-    """A reduced twin that keeps its time."""
-
-    def reduced(self):
-        return replace(super().reduced(), tau0=self.tau0)
-
-
 class Factored(vt.LennardJones):
     """An energy that is off by a tenth."""
 
     def energy(self, gap):
         return 1.1 * super().energy(gap)
-
-
-class Wrong(vt.LennardJones):
-    """A stiffness of the wrong sign."""
-
-    def stiffness(self, gap):
-        return -super().stiffness(gap)
-
-
-class Strong(vt.LennardJones):
-    """A strength that is twice the peak."""
-
-    @property
-    def strength(self):
-        return 2 * super().strength
 
 
 class Kilo(vt.LennardJones):
@@ -328,32 +248,11 @@ class Kilo(vt.LennardJones):
         return 1e-3 * super().traction(gap)
 
 
-class Tailless(vt.LennardJones):
-    """An energy beyond a gap that leaves out the tail."""
-
-    def energy_beyond(self, gap):
-        return 0.5 * super().energy_beyond(gap)
-
-
 class Steep(vt.Sphere):
     """A flank that is not the slope of the gap."""
 
     def flank(self, position):
         return 1.5 * super().flank(position)
-
-
-class Lifted(vt.Sphere):
-    """A tip that does not touch."""
-
-    def gap(self, position):
-        return super().gap(position) + 1e-6
-
-
-class Unscaled(vt.Sphere):
-    """A reduced shape that forgets the unit of heights."""
-
-    def reduced(self, along, height):
-        return super().reduced(along, along)
 
 
 class Lopsided(FOUNDATION):
@@ -374,26 +273,11 @@ class Springy(FOUNDATION):
         return B * hat_areas(nodes, symmetry)
 
 
-class Unmeasured(FOUNDATION):
-    """A body whose thickness is in metres whatever the unit of length."""
-
-    def reduced(self, along):
-        return self
-
-
 class Boastful(Slow):
     """Covers whatever it is given."""
 
     def covers(self, problem):
         return ""
-
-
-class Sure(Slow):
-    """An interval beside its force."""
-
-    def answer(self, problem, *, confidence=0.9):
-        found = super().answer(problem, confidence=confidence)
-        return replace(found, interval=(1.2 * found.pull_off_force, 1.3 * found.pull_off_force))
 
 
 class Dimensional(Slow):
@@ -405,42 +289,22 @@ class Dimensional(Slow):
         return replace(found, pull_off_force=factor * found.pull_off_force)
 
 
-# A solid with a number that says no unit.
-Cardless = dataclass(frozen=True, kw_only=True)(
-    type("Cardless", (vt.StandardSolid,), {"__annotations__": {"extra": float}, "extra": 1.0})
-)
-
-
 def in_newtons(result):
     return vt.pull_off_force(result) * (1.0 if result.scales is None else result.scales.force)
 
 
 SI_ONLY = vt.Observable("in_newtons", "force in newtons", "force", in_newtons)
-STEPS = vt.Observable("count_of_it", "number of steps", "1", lambda result: len(result.force))
 
 MUTANTS: dict[str, tuple[Any, str]] = {
-    "creep falls": (Creeping(**SOLID), "creep never falls with time"),
-    "wrong end of creep": (Soft(**SOLID), "creep ends at 1/rubbery_modulus"),
-    "contact modulus of shear": (Shear(**SOLID), "contact_modulus is E0/(1 - nu^2)"),
     "modes stated too well": (Careless(**SOLID), "tolerance 0.01: error: expected <= stated"),
-    "modes too coarse": (Coarse(**SOLID), "tolerance 0.0001: stated error: expected <= 0.0001"),
     "not passive": (Active(**SOLID), "passive: the loss modulus is not negative"),
     "another complex modulus": (Shifted(**SOLID), "compliance is the transform of the creep"),
-    "not reduced": (Unreduced(**SOLID), "reduced: rubbery modulus 1, time unit 1"),
-    "without a card": (Cardless(**SOLID), "has no card and so no unit"),
     "energy off by a factor": (Factored(WORK, GAP), "derivative of the energy by the gap"),
-    "stiffness of the wrong sign": (Wrong(WORK, GAP), "stiffness is the derivative"),
-    "strength too large": (Strong(WORK, GAP), "strength is the largest traction"),
     "traction in kPa": (Kilo(WORK, GAP), "the traction does the work of adhesion"),
-    "no tail": (Tailless(WORK, GAP), "energy_beyond is the integral of the energy"),
     "flank": (Steep(1e-3), "flank is the derivative of the gap"),
-    "tip apart": (Lifted(1e-3), "gap is 0 at the tip"),
-    "units of heights": (Unscaled(1e-3), "reduced: gap with distances and gaps in other units"),
     "not reciprocal": (Lopsided(1e-4), "reciprocity: compliance is symmetric"),
     "negative energy": (Springy(1e-4), "energy is positive"),
-    "units of thickness": (Unmeasured(1e-4), "reduced: influence with lengths in another unit"),
     "boastful": (Boastful(), "an unverified solid is not covered"),
-    "interval beside the force": (Sure(), "the interval holds the force"),
     "another answer in SI": (Dimensional(), "same value as its dimensionless form"),
 }
 
@@ -466,16 +330,9 @@ def test_a_broken_noun_fails_in_words_that_name_the_identity(noun, words):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("observable", "words"),
-    [
-        (SI_ONLY, "the dimensionless value is the same in SI"),
-        (STEPS, "refinement of steps and nodes"),
-    ],
-    ids=["in newtons", "number of steps"],
-)
-def test_a_broken_observable_fails_in_words(observable, words):
-    assert words in "\n".join(map(str, check.check_observable(observable).failures))
+def test_a_broken_observable_fails():
+    found = "\n".join(map(str, check.check_observable(SI_ONLY).failures))
+    assert "the dimensionless value is the same in SI" in found
 
 
 def test_an_exception_in_a_noun_is_a_finding_and_ends_no_other_check():
@@ -486,17 +343,3 @@ def test_an_exception_in_a_noun_is_a_finding_and_ends_no_other_check():
     found = check.check_material(Broken(**SOLID), thorough=False)
     assert "ZeroDivisionError: of my own" in str(found)
     assert sum(finding.passed for finding in found.findings) > 20
-
-
-def test_a_member_that_is_missing_is_the_only_finding():
-    @dataclass(frozen=True)
-    class Flat:
-        word: ClassVar[str] = "flat"
-        symmetry: ClassVar[str] = "revolution"
-
-        def gap(self, position):
-            return 0 * position
-
-    (finding,) = check.check_shape(Flat(), size=1e-4).findings
-    assert not finding.passed
-    assert finding.found == "no flank, reduced"

@@ -1,6 +1,5 @@
 """How a command starts: it imports what it needs, and its words complete in a shell."""
 
-import os
 import subprocess
 import sys
 
@@ -39,22 +38,3 @@ def loaded(arguments, modules):
 )
 def test_a_command_imports_nothing_that_it_does_not_need(arguments, modules):
     assert loaded(arguments, modules) == "[]"
-
-
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["viscotack", "th"], ["theory"]),
-        (["viscotack", "theory", "j"], ["jkr"]),
-        (["viscotack", "simulate", "sphere", "--tab"], ["--tabor"]),
-    ],
-)
-def test_words_are_completed_in_a_shell(words, expected):
-    environment = os.environ | {
-        "_VISCOTACK_COMPLETE": "complete_bash",
-        "COMP_WORDS": " ".join(words),
-        "COMP_CWORD": str(len(words) - 1),
-    }
-    command = [sys.executable, "-c", "from viscotack.app.cli import main; main()"]
-    done = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
-    assert done.stdout.split() == expected

@@ -20,33 +20,7 @@ def load(name):
     return module
 
 
-def test_every_example_is_run_here():
-    known = {
-        "pdms_lens.py",
-        "detach_once.py",
-        "fields.py",
-        "from_toml",
-        "cases.csv",  # its commands are run with the pages
-        "lenses.csv",  # its commands are run with the pages
-        "from_dma",  # its commands are run with the pages
-        "from_rig",
-        "own",  # test_own.py is all about them
-        "studies",  # test_operations_page.py
-        "window",  # test_window_file.py
-        "array",  # test_array_file.py
-        "rough",  # test_rough_file.py
-        "design",  # test_design_file.py
-        "afm",
-        "hysteresis.py",
-        "dwell_time.py",
-        "dead_load.py",
-        "growing_interface.py",
-        "what_matters.py",
-    }
-    found = {path.name for path in EXAMPLES.iterdir() if path.name != "__pycache__"}
-    assert found == known
-
-
+@pytest.mark.slow
 def test_a_lens_pulls_off_by_its_radius_and_its_work_of_adhesion(tmp_path, capsys):
     picture = tmp_path / "tornado.png"
     result = load("what_matters").main(picture, accuracy=5e-3)

@@ -7,11 +7,9 @@ import pytest
 
 from command_line import exit_status
 from viscotack.app.engine.operating import run_operation
-from viscotack.errors import InputError
 from viscotack.materials import StandardSolid, read_passport, write_passport
 from viscotack.materials.library import published
-from viscotack.operations import ask, operation
-from viscotack.operations.declare.options import Here, take
+from viscotack.operations import ask
 
 OPTIONS = {
     "poisson_ratio": 0.45,
@@ -77,39 +75,14 @@ def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, mon
     assert beside["files"]["output"] == beside["drawn"]["passport"]
 
 
-def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
-    def given(frequencies):
-        options = {"passport": "pdms-10-1", "to": "abaqus", "frequencies": frequencies}
-        return take(operation("material export"), options, Here())
-
-    said, meant = given("1 Hz,10 rad/s"), given([2 * np.pi, 10])
-    assert said == meant
-    with pytest.raises(InputError, match="--frequencies needs two values with a comma"):
-        given("1 Hz")
-    with pytest.raises(InputError, match="has no unit"):
-        given("1,10")
-
-
-def test_over_http_no_passport_is_read_that_was_not_sent(lab):
-    assert asked("material show", lab, {"passport": "pdms.toml"})["name"].startswith("PDMS")
-    hidden = lab.parent / "secret.toml"
-    hidden.write_text("secret")
-    for word, name in (("show", "passport"), ("convert", "source"), ("export", "passport")):
-        more = {"to": "abaqus"} if word == "export" else {}
-        with pytest.raises(InputError, match="was sent with the request"):
-            asked(f"material {word}", lab, {name: str(hidden), **more})
-    with pytest.raises(InputError, match="pdms-10-1 is a published material; code takes a file"):
-        asked("material convert", lab, {"source": "pdms-10-1", "code": "abaqus"})
-
-
-def test_a_passport_is_converted_in_its_place(lab, tmp_path, capsys):
+def test_a_passport_is_converted_and_never_over_itself(lab, tmp_path, capsys):
     file = tmp_path / "pdms.toml"
     write_passport(published("pdms-10-1"), file)
     command = ["material", "convert", file, "--temperature", "0 degC"]
     assert exit_status([*command, "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert exit_status([*command, "-o", file]) == 0
-    assert capsys.readouterr().out == ""
-    moved = read_passport(file)
+    assert exit_status([*command, "-o", file, "--force"]) == 2
+    assert exit_status([*command, "-o", tmp_path / "cold.toml"]) == 0
+    moved = read_passport(tmp_path / "cold.toml")
     assert moved.temperature == 273.15 == printed["temperature"]
     assert printed["material"]["tau0"] == moved.material.tau0

@@ -4,13 +4,11 @@ import json
 import re
 import shlex
 import shutil
-import tomllib
 from pathlib import Path
 
 import pytest
 
-from front_ends import Http, run
-from viscotack.operations import ask
+from front_ends import Http
 
 ROOT = Path(__file__).parents[1]
 PAGE, API = (ROOT / "docs" / name for name in ("operations.md", "api.md"))
@@ -55,24 +53,6 @@ def post(http, path, *body):
         else:
             data.setdefault(name, []).append(value)
     return http(path, data=data, files=files)
-
-
-def test_the_example_has_one_answer_in_all_interfaces(anywhere):
-    asked = ask("predict", problem="lens.toml", confidence=0.95)
-    asked.files["curve"](anywhere / "python.csv")
-    status, out, _ = run(["study", "examples/studies/predict.toml", "--json"])
-    assert status == 0
-    assert json.loads(out) == json.loads(json.dumps(asked.record()))
-    (stated,) = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-    study = anywhere / "examples/studies/predict.toml"
-    assert tomllib.loads(stated) == tomllib.loads(study.read_text(encoding="utf-8"))
-    http = Http()
-    (_, form) = curls(PAGE)
-    sent = post(http, *form).json()
-    http.close()
-    assert sent["pull_off_force_N"] == json.loads(out)["pull_off_force_N"]
-    curve = (anywhere / "python.csv").read_text()
-    assert sent["beside"]["files"]["curve"] == study.with_name("curve.csv").read_text() == curve
 
 
 @pytest.mark.parametrize("page", [PAGE, API], ids=lambda page: page.stem)

@@ -1,10 +1,8 @@
 """A law, a material, a shape and an observable of a user's own: one file each, and all is known."""
 
 import json
-import sys
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 import pytest
@@ -13,8 +11,6 @@ from typer.testing import CliRunner
 import viscotack as vt
 from viscotack.app.cli import application
 from viscotack.campaign import Store, read_plan, run
-from viscotack.materials import WLF, Passport, read_passport, write_passport
-from viscotack.materials.conversion import slowed
 from viscotack.problem.nouns import known, own_nouns
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
@@ -138,42 +134,6 @@ def test_a_theory_predicts_with_own_parts():
     assert told == pytest.approx(json.loads(out)["pull_off_force"], rel=1e-5)
 
 
-def test_a_passport_holds_a_material_of_ones_own(tmp_path):
-    solid = ZENER(rubbery_modulus=1e6, glassy_modulus=1e8, tau0=0.1, order=0.6, poisson_ratio=0.5)
-    shift = WLF(reference_temperature=293.15, c1=8.0, c2=100.0)
-    file = tmp_path / "own.toml"
-    written = Passport(
-        name="own",
-        material=solid,
-        temperature=293.15,
-        shift=shift,
-        frequencies=(1.0, 1e4),
-        allowed=(replace(solid, order=0.5),),
-    )
-    write_passport(written, file)
-    assert read_passport(file, also=(MORSE, ZENER)) == written
-    with pytest.raises(vt.InputError, match=r"got 'cole-cole'; for a user-defined model, give"):
-        read_passport(file)
-    assert call("material", "show", file)[0] == 0
-    status, out, err = call(
-        "simulate", "sphere", "--material", file, *"--tabor 2 --preload 3 --rate 1".split(),
-        *"--json --until pull-off --accuracy 1e-2".split(),
-    )  # fmt: skip
-    assert status == 0, err
-    assert json.loads(out)["problem"]["material"]["type"] == "ColeCole"
-
-
-def test_a_temperature_shifts_times_of_ones_own_by_their_cards():
-    @dataclass(frozen=True, kw_only=True)
-    class Renamed(vt.Elastic):
-        memory: Annotated[float, vt.Quantity("s", "T", "memory", above=0)]
-        slowness: Annotated[float, vt.Quantity("Pa s^0.5", "c", "slowness", above=0)]
-
-    solid = slowed(Renamed(rubbery_modulus=1e6, poisson_ratio=0.5, memory=2.0, slowness=3.0), 100)
-    assert (solid.memory, solid.slowness) == pytest.approx((200.0, 30.0), rel=1e-15)
-    assert solid.rubbery_modulus == 1e6
-
-
 # --- and they are right -----------------------------------------------------------------------
 
 
@@ -195,41 +155,7 @@ def test_a_morse_law_of_short_range_pulls_like_jkr():
     assert force != pytest.approx(1.0, abs=0.001)
 
 
-def test_cole_cole_of_order_near_one_tends_to_the_standard_solid():
-    standard = vt.StandardSolid(
-        rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
-    )
-    w = np.geomspace(1e-2, 1e4, 30)
-    off = []
-    for order in (0.9, 0.95):
-        solid = ZENER(
-            rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, order=order, poisson_ratio=0.5
-        )
-        difference = solid.complex_compliance(w) / standard.complex_compliance(w) - 1
-        off.append(np.max(np.abs(difference)))
-    assert off[1] < 0.55 * off[0]
-
-
-def test_the_modes_of_cole_cole_are_its_creep():
-    solid = ZENER(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, order=0.6, poisson_ratio=0.0)
-    modes = solid.retardation_modes(shortest=1e-3, longest=1e3, tolerance=1e-3)
-    t = np.geomspace(1e-3, 1e3, 40)
-    assert np.max(np.abs(modes.creep(t) - solid.creep(t))) < 1e-3
-    product = solid.complex_modulus(3.0) * solid.complex_compliance(3.0)
-    assert product == pytest.approx(1.0, rel=1e-12)
-
-
 # --- refusals ---------------------------------------------------------------------------------
-
-
-def test_a_file_that_defines_nothing_or_fails_is_refused(tmp_path):
-    (tmp_path / "empty.py").write_text("x = 1\n")
-    with pytest.raises(ValueError, match="defines no law, material, shape, body or observable"):
-        own_nouns([tmp_path / "empty.py"])
-    (tmp_path / "wrong.py").write_text("import nothing_of_the_kind\n")
-    with pytest.raises(ValueError, match="cannot be read: ModuleNotFoundError"):
-        own_nouns([tmp_path / "wrong.py"])
-    assert not any("wrong" in name for name in sys.modules)
 
 
 def test_times_and_moduli_of_ones_own_go_to_si_by_their_cards():
@@ -250,18 +176,3 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
     bare = type("Bare", (MORSE,), {"word": "bare", "__annotations__": {"extra": float}})
     with pytest.raises(ValueError, match="Bare.extra has no card and so no unit"):
         known((dataclass(frozen=True)(bare),))
-
-
-def test_a_geometry_that_is_not_reduced_is_refused():
-    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    with pytest.raises(ValueError, match=".slope 1 at distance 1., got Cone.slope=0.3."):
-        vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, geometry=vt.Cone(0.3))
-
-
-@pytest.mark.parametrize("name", ["status", "rate", "steps", "pull_off_force", "force_at_25"])
-def test_an_observable_has_a_name_of_its_own(name):
-    with pytest.raises(vt.InputError, match=f"must be a new one .* got '{name}'"):
-        vt.Observable(name, "words", "1", lambda result: 0.0)
-    one = vt.Observable("mine", "words", "1", lambda result: 0.0)
-    with pytest.raises(vt.InputError, match="two observables have the name mine"):
-        known((one, one))

@@ -39,25 +39,12 @@ def test_every_file_of_a_package_is_installed(folder, package):
     assert not idle
 
 
-def test_the_data_have_the_version_of_the_package():
-    version = project(ROOT)["project"]["version"]
-    assert version == __version__ == project(ROOT / "data")["project"]["version"]
-    assert f"viscotack-data=={version}" in project(ROOT)["project"]["optional-dependencies"]["data"]
-
-
 def test_the_package_has_the_checksum_of_every_data_set():
     digests = (PACKAGE / "datasets" / "SHA256SUMS").read_text().split()
     found = dict(zip(digests[1::2], digests[::2], strict=True))
     assert set(found) == {f"{name}.parquet" for name in datasets.NAMES}
     for name, digest in found.items():
         assert files.checksum((DATA / name).read_bytes()) == digest
-
-
-def test_data_sets_are_found_in_an_installed_distribution(tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "_CHECKOUT", tmp_path / "no checkout")
-    monkeypatch.syspath_prepend(DATA.parent)
-    assert datasets.path("broad") == DATA / "broad.parquet"
-    assert datasets.plan_path("broad") == DATA / "plans" / "broad.toml"
 
 
 def test_without_data_sets_the_error_has_the_command_that_installs_them(tmp_path, monkeypatch):

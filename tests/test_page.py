@@ -8,7 +8,7 @@ import pytest
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_verdict
 from viscotack.errors import InputError, OutOfRange
-from viscotack.forecast import advise, predict
+from viscotack.forecast import predict
 from viscotack.operations.declare.state import State
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.problem.case_file import case_of_tables
@@ -40,31 +40,6 @@ def test_the_answer_of_the_page_is_that_of_predict(tables):
     assert number["interval"] == pytest.approx([x * scale for x in found.interval], rel=1e-12)
 
 
-@examples
-def test_every_tier_is_compared_in_the_unit_of_the_answer(tables):
-    problem, found = case_of_tables(tables), verdict(tables)
-    tiers = {row["tier"]: row for row in found["tiers"]}
-    assert len(tiers) == len(found["tiers"]) > 4 and all(row["why"] for row in tiers.values())
-    if found["numbers"]:
-        number, *_ = found["numbers"]
-        row = tiers[number["method"]]
-        assert row["applies"] and row["value"] == pytest.approx(number["value"], rel=1e-12)
-    try:
-        estimates = advise(problem).estimates
-    except InputError:
-        assert found["words"] == []
-        return
-    assert list(tiers) == [each.tier for each in estimates]
-    for each in estimates:
-        value = (
-            None if each.pull_off_force is None else each.pull_off_force * problem.scales().force
-        )
-        assert tiers[each.tier]["value"] == value
-    assert not any(
-        each.tier in words.split(" ")[0] for each in estimates for words in found["words"]
-    )
-
-
 def test_a_refusal_names_the_field_that_it_belongs_to():
     named = re.compile(r"\[([\w-]+)\] (.*)")
     for table, key, value in (
@@ -81,17 +56,3 @@ def test_a_refusal_names_the_field_that_it_belongs_to():
         where, words = named.search(str(error.value)).groups()
         assert (where, re.split(r"[ :]", words)[0]) == (table, key)
     assert r"/\[([\w-]+)\] (.*)/" in SCRIPTS["fields.js"]
-
-
-def test_the_examples_of_the_page_are_those_of_the_checkout():
-    examples = FOLDER.parents[3] / "examples"
-    known = {path.name: path.read_text() for path in examples.glob("*/*.toml")}
-    files = {
-        "design": "lift_and_let_go.toml",
-        "window": "kinetic_stamp.toml",
-        "array": "gripper_finger.toml",
-        "rough": "bumps.toml",
-    }
-    assert f"EXAMPLES = {list(files)}".replace("'", '"') in SCRIPTS["operations.js"]
-    for word, name in files.items():
-        assert (FOLDER / f"example-{word}.toml").read_text() == known[name]

@@ -3,20 +3,16 @@
 Chromium without a window, `make test MARK=outside`; figures are printed with ``-s``.
 """
 
-import json
-import statistics
 import time
 from pathlib import Path
-from urllib.parse import urlsplit
 
-import numpy as np
 import pytest
 
 import viscotack as vt
 from app_server import browsing, running, until
 from viscotack.operations.parts.examples import EXAMPLES
 from viscotack.problem.case_file import case_of_tables
-from viscotack.units import readable, readable_interval
+from viscotack.units import readable
 
 pytestmark = pytest.mark.outside
 
@@ -62,16 +58,6 @@ def at_rest(page):
     until(page, "viscotack.run.version === viscotack.version && viscotack.run.state === 'done'")
 
 
-def slide(page, field, share):
-    """Move a slider as a hand does: an event of its input."""
-    page.eval_on_selector(
-        f"#{field} ~ .track input",
-        "(slider, share) => { slider.value = +slider.min + share * (slider.max - slider.min);"
-        " slider.dispatchEvent(new Event('input', { bubbles: true })); }",
-        share,
-    )
-
-
 def test_a_newcomer_sees_a_finished_moving_example_without_a_click(page, server):
     began = time.perf_counter()
     opened(page, server[0])
@@ -86,21 +72,6 @@ def test_a_newcomer_sees_a_finished_moving_example_without_a_click(page, server)
         places.add(page.input_value("[aria-label='Point along the simulated curve']"))
         page.wait_for_timeout(300)
     assert len(places) > 2
-
-
-def test_nothing_is_asked_of_another_place(browser, server):
-    context = browser.new_context(viewport=WIDE)
-    asked = []
-    context.on("request", lambda request: asked.append(request.url))
-    page = opened(context.new_page(), server[0])
-    for tab in TABS:
-        page.click(f"#tab-{tab}")
-    page.goto(f"{server[0]}api/docs")
-    page.wait_for_selector("h2")
-    context.close()
-    elsewhere = [x for x in asked if urlsplit(x).netloc != urlsplit(server[0]).netloc]
-    print(f"{len(asked)} requests, {len(elsewhere)} elsewhere")
-    assert [x for x in elsewhere if not x.startswith(("data:", "blob:"))] == []
 
 
 def test_a_dma_file_becomes_the_material_and_a_rig_file_stands_beside_the_forecast(page, server):
@@ -169,105 +140,6 @@ def test_the_answer_is_that_of_predict_and_the_tiers_are_folded_beneath(page, se
     assert fold.locator("tbody tr").count() > 3
 
 
-def test_numbers_are_those_of_the_package(page, server):
-    page.goto(server[0])
-    random = np.random.default_rng(4)
-    values = (random.uniform(1, 10, 300) * 10.0 ** random.integers(-14, 10, 300)).tolist()
-    values += [0.9999e-6, 0.99999e-6, 999.96, 1000.0, 1e-15, 0.0, -4.2e-3]
-    said = page.evaluate(
-        "(asked) => import('/page/numbers.js').then(({ said, between }) =>"
-        " asked.map(([v, unit]) => [said(v, unit), between(v, 1.0123 * Math.abs(v), unit)]))",
-        [[value, unit] for value in values for unit in ("N", "m/s", "J/m^2", "Pa", "1")],
-    )
-    expected = [
-        [readable(value, unit), readable_interval(value, 1.0123 * abs(value), unit)]
-        for value in values
-        for unit in ("N", "m/s", "J/m^2", "Pa", "1")
-    ]
-    assert [[each.replace("µ", "u") for each in pair] for pair in said] == expected
-
-
-def test_the_answer_stays_in_sight_of_the_inputs_on_a_phone(browser, server):
-    page = opened(browser.new_page(viewport=NARROW), server[0])
-    top = "document.querySelector('#sphere-radius').getBoundingClientRect().top"
-    print(f"the radius lies {page.evaluate(top):.0f} px from the top, {NARROW['width']} px wide")
-    assert page.evaluate(top) < NARROW["height"] / 2  # 4133 px when the inputs were below the views
-    page.click("summary:text('Material')")
-    page.locator("#material-poisson_ratio").scroll_into_view_if_needed()
-    seen = page.evaluate("document.querySelector('#best').getBoundingClientRect().top")
-    assert 0 <= seen < 1
-    assert page.evaluate("document.documentElement.scrollWidth") == NARROW["width"]
-    page.close()
-
-
-def test_old_numbers_are_dimmed_until_new_ones_come(page, server):
-    opened(page, server[0])
-    waiting = []
-    page.route("**/api/quick", lambda route: waiting.append(route))
-    before = page.inner_text("#best .large")
-    slide(page, "sphere-radius", 0.6)
-    until(page, "document.querySelector('#best').classList.contains('stale')")
-    assert page.inner_text("#best .large") == before
-    waiting[0].continue_()
-    page.unroute("**/api/quick")
-    until(page, "!document.querySelector('#best').classList.contains('stale')")
-    assert page.inner_text("#best .large") != before
-
-
-def test_a_report_of_the_case_is_one_file(page, server):
-    opened(page, server[0])
-    until(page, "viscotack.verdict && viscotack.verdict.version === viscotack.version")
-    with page.expect_download() as waiting:
-        page.click("#save-report")
-    text = Path(waiting.value.path()).read_text()
-    for words in ("4.665 mN", "within the band", "<svg", "learned crack contact", "[sphere]"):
-        assert words in text
-    assert f"viscotack {vt.__version__}" in text and "src=" not in text and "var(--" not in text
-
-
-def test_an_array_is_computed_from_an_example_that_is_changed_on_the_page(page, server):
-    opened(page, server[0])
-    page.click("#tab-array")
-    assert not page.is_visible("aside") and not page.is_visible("#best")
-    page.click("#array-example")
-    text = page.wait_for_selector("textarea[aria-label='file, as text']")
-    # without what takes half a minute: drawn arrays and the load left after a hold
-    long = ("height_scatter", "work_scatter", "seed", "draws", "hold_time")
-    lines = text.input_value().replace("rows = 3", "rows = 2").splitlines()
-    text.fill("\n".join(line for line in lines if not line.startswith(long)))
-    page.click("#array-ask")
-    page.wait_for_selector("#view-array img", timeout=60_000)
-    assert "pull-off force of 8 pads" in page.inner_text("#view-array pre")
-    page.click("#tab-contact")
-    assert page.is_visible("aside") and page.is_visible("#best")
-
-
-def test_a_view_and_its_operation_are_a_link(page, server):
-    page.goto(f"{server[0]}#operations=theory%20jkr")
-    page.wait_for_selector("#view-operations:not([hidden])")
-    assert page.input_value("#operation") == "theory jkr"
-    page.select_option("#operation", "theory maugis")
-    assert page.url.endswith("#operations=theory%20maugis")
-    page.click("#tab-report")
-    assert page.input_value("#report") == "report" and page.url.endswith("#report=report")
-
-
-def test_cancel_takes_less_than_half_a_second(page, server):
-    opened(page, server[0])
-    page.evaluate("viscotack.settings.accuracy = 1e-5")
-    took = []
-    for _ in range(5):
-        page.evaluate("viscotack.cancelled = 0")
-        page.get_by_role("button", name="Simulate", exact=True).click()
-        until(page, "viscotack.run.state === 'running'")
-        page.wait_for_timeout(400)
-        page.click("#cancel")
-        until(page, "viscotack.cancelled > 0")
-        took.append(page.evaluate("viscotack.cancelled"))
-    print(f"cancel: {sorted(round(x) for x in took)} ms")
-    assert max(took) < 500
-
-
 def test_reload_and_link_restore_the_state(page, browser, server):
     opened(page, server[0])
     page.select_option("#example", index=4)
@@ -291,38 +163,6 @@ def test_reload_and_link_restore_the_state(page, browser, server):
         until(each, "viscotack.kept.length === 1")
     assert page.get_attribute("#tab-record", "aria-selected") == "true"
     other.close()
-
-
-def test_file_command_line_and_python_give_the_same_digits(page, server, tmp_path):
-    import subprocess
-    import sys
-
-    opened(page, server[0])
-    force = page.evaluate("viscotack.run.answer.summary.pull_off_force_N")
-    page.click("#tab-record")
-    case = tmp_path / "case.toml"
-    case.write_text(page.inner_text("#record-file"))
-    line = next(x for x in page.inner_text("#record-command-line").split("\n") if "simulate" in x)
-    command = [sys.executable, "-m", *line.split(), "--json"]
-    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
-    assert json.loads(told.stdout)["pull_off_force_N"] == force
-    script = page.inner_text("#record-python").replace("print(vt.summary(result))", "")
-    script += "\nprint(repr(vt.summary(result)['pull_off_force_N']))"
-    told = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
-    )
-    assert float(told.stdout) == force
-
-
-def test_pictures_are_saved_as_svg_png_and_csv(page, server):
-    opened(page, server[0])
-    begins = {"SVG": b"<svg", "PNG": b"\x89PNG", "CSV": b'"infinitely slow'}
-    for kind, first in begins.items():
-        with page.expect_download() as waiting:
-            page.click(f"[aria-label='Save Load against depth as {kind}']")
-        content = Path(waiting.value.path()).read_bytes()
-        assert content.startswith(first) and len(content) > 2000
-        assert kind != "SVG" or b"var(--" not in content
 
 
 @pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
@@ -351,66 +191,3 @@ def test_axe_finds_nothing_serious(browser, server, size, theme):
     context.close()
     print({impact: len(rows) for impact, rows in found.items()}, found)
     assert found == {}
-
-
-def test_everything_is_reached_by_the_keyboard(page, server):
-    opened(page, server[0])
-    page.focus("#tab-contact")
-    page.keyboard.press("ArrowRight")
-    assert page.evaluate("document.activeElement.id") == "tab-material"
-    page.keyboard.press("ArrowLeft")
-    page.focus("#sphere-radius ~ .track input")
-    before = page.input_value("#sphere-radius")
-    page.keyboard.press("ArrowRight")
-    until(page, f"document.querySelector('#sphere-radius').value !== '{before}'")
-    page.focus("[aria-label='Point along the simulated curve']")
-    at_rest(page)
-    page.click("[aria-label='Pause or play the way along the curve']")
-    page.focus("[aria-label='Point along the simulated curve']")
-    page.keyboard.press("Home")
-    assert page.input_value("[aria-label='Point along the simulated curve']") == "0"
-
-
-DRAG = """async ([field, steps]) => {
-  const slider = document.querySelector(`#${field} ~ .track input`), took = [];
-  for (let i = 0; i < steps; i += 1) {
-    const began = performance.now();
-    slider.value = +slider.min + (0.3 + 0.4 * ((i * 0.618) % 1)) * (slider.max - slider.min);
-    slider.dispatchEvent(new Event('input', { bubbles: true }));
-    const version = viscotack.version;
-    await new Promise((done) => {
-      const look = () => (Number(document.body.dataset.drawn) >= version ? done()
-        : requestAnimationFrame(look));
-      requestAnimationFrame(look);
-    });
-    took.push(performance.now() - began);
-  }
-  return took;
-}"""
-
-
-def test_theory_and_surrogate_follow_a_slider(page, server):
-    opened(page, server[0])
-    page.evaluate("viscotack.auto = false")
-    took = []
-    fields = ("sphere-radius", "protocol-speed", "interface-work_of_adhesion", "material-tau0")
-    for field in (*fields, "interface-equilibrium_gap", "material-exponent"):
-        took += page.evaluate(DRAG, [field, 40])
-    ranked = sorted(took)
-    print(
-        f"slider to drawn answer: median {statistics.median(took):.0f} ms, 95th percentile "
-        f"{ranked[int(0.95 * len(ranked))]:.0f} ms, longest {ranked[-1]:.0f} ms of {len(took)}"
-    )
-    assert ranked[int(0.95 * len(ranked))] < 100
-
-
-def test_a_simulation_is_finished_within_a_second(page, server):
-    opened(page, server[0])
-    took = []
-    for i in range(15):
-        slide(page, "protocol-speed", 0.38 + 0.016 * i)
-        began = time.perf_counter()
-        at_rest(page)
-        took.append(time.perf_counter() - began)
-    print(f"slider at rest to finished simulation: median {statistics.median(took):.2f} s")
-    assert statistics.median(took) < 1.0

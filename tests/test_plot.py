@@ -1,16 +1,10 @@
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from picture_units import in_si
 from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
 from viscotack.pictures.plot import (
-    check_format,
     draw_force,
-    draw_overview,
     draw_radius,
     draw_rates,
     save_figure,
@@ -61,25 +55,6 @@ def test_a_problem_in_si_is_drawn_with_readable_units():
     assert mark(axes).get_ydata() == pytest.approx(-3.7248, rel=1e-4)
 
 
-def test_a_failed_run_is_drawn_without_a_pull_off():
-    (axes,) = draw_force(jkr_result(status="stopped because it had to")).axes
-    assert [line.get_label() for line in axes.lines if "pull" in line.get_label()] == []
-
-
-def test_the_overview_has_four_pictures():
-    result = jkr_detachment()
-    figure = draw_overview(result)
-    labels = [(axes.get_xlabel(), axes.get_ylabel()) for axes in figure.axes]
-    words = [tuple(label.split(" / ")[0] for label in pair) for pair in labels]
-    assert words == [
-        ("depth", "force"),
-        ("contact radius", "force"),
-        ("time", "contact radius"),
-        ("time", "crack speed"),
-    ]
-    assert figure.axes[3].get_yscale() == "log"
-
-
 @pytest.mark.parametrize("speeds", [[1e-9, 1e-7], [1e-6, 1e-3], [1e-6, 1.0], [4e-3, 5e-3]])
 def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
     forces = [5e-6, 2e-2]
@@ -105,55 +80,12 @@ def test_axes_of_a_regime_map_have_units_of_their_size():
     assert in_si(axes.yaxis, axes.get_ylim()) == pytest.approx([1e-3, 2e-1])
 
 
-def test_rates_are_drawn_in_millinewton_beside_the_elastic_value():
-    figure = draw_rates(
-        [1e-6, 1e-4], [5e-3, 20e-3], elastic_force=3.9e-3, title="lens", note="h0 = 1.55 µm"
-    )
-    (axes,) = figure.axes
-    np.testing.assert_allclose(curve(axes).get_xdata(), [1, 100])
-    np.testing.assert_allclose(curve(axes).get_ydata(), [5, 20])
-    assert curve(axes).get_markerfacecolor() == "none"
-    (elastic,) = [line for line in axes.lines if "elastic" in line.get_label()]
-    np.testing.assert_allclose(elastic.get_ydata(), 3.9)
-    assert elastic.get_label() == "elastic (slow limit): 3.9 mN"
-    assert axes.get_xscale() == "log"
-    assert axes.get_xlabel() == "retraction speed [µm/s]"
-    assert axes.get_ylabel() == "pull-off force [mN]"
-    assert axes.get_ylim()[0] == 0 and axes.get_ylim()[1] > 20
-    assert [text.get_text() for text in axes.texts] == ["h0 = 1.55 µm"]
-
-
 @pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
 def test_figures_are_written_in_every_format(ending, tmp_path):
     path = tmp_path / f"run.{ending}"
     save_figure(draw_force(jkr_result()), path)
     start = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[ending]
     assert path.read_bytes().startswith(start)
-
-
-def test_drawing_leaves_no_trace():
-    # In a fresh interpreter: here other tests may have left theirs. To read the backend would
-    # choose one, and so import pyplot.
-    code = (
-        "import sys, matplotlib, synthetic, viscotack.pictures.plot as p\n"
-        "state = lambda: {k: str(matplotlib.rcParams[k]) for k in keys}\n"
-        "keys = [k for k in matplotlib.rcParams if k != 'backend']\n"
-        "before = state()\n"
-        "p.draw_force(synthetic.jkr_result())\n"
-        "assert state() == before\n"
-        "assert 'matplotlib.pyplot' not in sys.modules\n"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parent)
-
-
-def test_an_unknown_format_is_refused_before_the_work():
-    check_format("figure.PNG")
-    with pytest.raises(
-        ValueError, match=r"cannot draw to 'figure.docx': the file name must end in one of"
-    ):
-        check_format("figure.docx")
-    with pytest.raises(ValueError, match="cannot draw to 'figure'"):
-        check_format("figure")
 
 
 def test_energy_picture_shows_where_the_work_went():
@@ -171,34 +103,3 @@ def test_energy_picture_shows_where_the_work_went():
     assert "retardation time" in right.get_xlabel()
     with pytest.raises(ValueError, match="contains no energies"):
         draw_energy(jkr_result())
-
-
-@pytest.fixture(scope="module")
-def taps():
-    """Return two cycles from apart to apart."""
-    from viscotack import Apart, Approach, AtDepth, Groups, Retract, StandardSolid, solve
-
-    solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    tap = (Approach(5.0, AtDepth(2.0)), Retract(5.0, AtDepth(-15.0)))
-    groups = Groups(tabor=1.0, material=solid, start=Apart(10.0), rate=None, moves=2 * tap)
-    return solve(groups, accuracy=2e-2, estimate_error=False)
-
-
-def test_energy_is_drawn_by_time_where_a_depth_is_passed_more_than_once(taps):
-    from viscotack import draw_energy
-
-    axes, _ = draw_energy(taps).axes
-    assert axes.get_xlabel() == "time / time unit"
-    assert not axes.xaxis_inverted()
-    for line in axes.lines:
-        np.testing.assert_array_equal(line.get_xdata(), taps.time)
-
-
-def test_every_cycle_has_its_pull_off_marked(taps):
-    from viscotack import cycles
-
-    (axes,) = draw_force(taps).axes
-    ends = cycles(taps)
-    np.testing.assert_array_equal(mark(axes).get_xdata(), [end.depth_at_pull_off for end in ends])
-    np.testing.assert_array_equal(mark(axes).get_ydata(), [-end.pull_off_force for end in ends])
-    assert mark(axes).get_label() == f"pull-offs, the last {ends[-1].pull_off_force:.4g}"

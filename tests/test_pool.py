@@ -1,13 +1,12 @@
 """Pools of worker processes: progress, cancellation, limits, crashes."""
 
-import select
 from contextlib import contextmanager
 from math import inf
 
 import pytest
 
 from processes import lives, until
-from viscotack.pool import Limits, NoWorker, Pool, Setup
+from viscotack.pool import Limits, Pool, Setup
 
 FREE = Limits()
 
@@ -93,29 +92,6 @@ def test_a_task_is_interrupted_at_its_time_limit_and_killed_after_the_grace(cloc
         until(lambda: pool.collect(0.0) or pool.room() == 1)
 
 
-def test_a_stopped_task_that_waits_in_c_is_killed_after_the_grace(clock, began):
-    with pool_of() as pool:
-        pool.hand(0, "pool_tasks:hang", str(began), Limits(grace=0.2))
-        until(began.exists)
-        pool.stop(0)
-        clock.now += 0.1
-        assert pool.collect(0.0) == []
-        clock.now += 0.2
-        assert outcome(pool).kind == "stopped"
-
-
-@pytest.mark.parametrize(
-    ("task", "asked", "words"),
-    [("nan", None, "not JSON compliant"), ("strange", None, "set"), ("huge", "x", "TypeError")],
-)
-def test_a_task_without_an_answer_says_why_and_its_process_is_kept(task, asked, words):
-    with pool_of() as pool:
-        before = pool.processes()
-        failed = done(pool, task, asked)
-        assert failed.kind == "failed" and words in failed.what
-        assert done(pool, "echo").kind == "answer" and pool.processes() == before
-
-
 def test_a_crash_costs_its_own_task_only_and_the_process_is_replaced(began):
     with pool_of(workers=2) as pool:
         first, second = pool.processes()
@@ -126,36 +102,3 @@ def test_a_crash_costs_its_own_task_only_and_the_process_is_replaced(began):
         assert pool.processes() == [second]
         until(lambda: pool.collect(0.0) or pool.room())
         assert len(pool.processes()) == 2 and first not in pool.processes()
-
-
-@pytest.mark.parametrize(
-    ("prepare", "words"),
-    [
-        ("refuse", "^this file is no noun$"),
-        ("fail", "^no worker can start: KeyError: 'a fault of the program'$"),
-    ],
-)
-def test_a_pool_whose_workers_cannot_prepare_says_why(prepare, words):
-    with pytest.raises(NoWorker, match=words), pool_of(prepare=prepare):
-        pass
-
-
-def test_processes_are_started_as_they_are_wanted():
-    pool = Pool(Setup("pool_tasks:prepare", None), 3)
-    try:
-        assert pool.room(0) == 0 and pool.processes() == [] and not pool.busy()
-        pool.room(2)
-        assert len(pool.processes()) == 2 and pool.busy()
-        pool.room(9)
-        assert len(pool.processes()) == pool.workers() == 3
-    finally:
-        pool.dismiss(at_once=True)
-    assert pool.processes() == []
-
-
-def test_a_loop_can_wait_for_a_pool():
-    with pool_of() as pool:
-        pool.hand(0, "pool_tasks:echo", 7, FREE)
-        assert select.select([pool], [], [], 60.0)[0] == [pool]
-        assert outcome(pool).what["asked"] == 7
-        assert select.select([pool], [], [], 0.0)[0] == [], "nothing is left to be read"

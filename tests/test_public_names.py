@@ -30,8 +30,3 @@ def test_simulating_needs_no_library_of_the_command_line():
 def test_every_public_name_exists(name):
     assert getattr(viscotack, name) is not None
     assert name in dir(viscotack)
-
-
-def test_an_unknown_name_is_an_attribute_error():
-    with pytest.raises(AttributeError, match="no attribute 'pull_of'"):
-        viscotack.pull_of  # noqa: B018

@@ -1,75 +1,17 @@
 """The release: current metadata, archives with the same bytes, a folder to install from."""
 
-import gzip
-import io
 import re
 import subprocess
 import sys
-import tarfile
 import venv
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
-from release.building import settled
-from release.metadata import CODEMETA, ROOT, codemeta, project, readme_for_index, recipe
-from viscotack import __version__
+from release.metadata import ROOT
 
 RUN = ["--tabor", "3.24", "--modulus-ratio", "0.1", "--exponent", "0.8", "--preload", "73"]
-
-
-def test_codemeta_is_that_of_the_project():
-    assert CODEMETA.read_text() == codemeta(), "run: python -m release --codemeta"
-
-
-def test_the_citation_has_version_licence_and_title_of_the_project():
-    entry = (ROOT / "CITATION.cff").read_text()
-    told = project()
-    assert f"\nversion: {__version__}\n" in entry and told["version"] == __version__
-    assert f"\nlicense: {told['license']}\n" in entry
-    assert f'\ntitle: "{told["name"]}: ' in entry
-    keywords = entry.partition("keywords:\n")[2].partition("references:")[0]
-    assert set(re.findall(r"- (.*)", keywords)) <= set(told["keywords"])
-
-
-def test_the_recipe_has_every_dependency_and_the_sdist():
-    text = recipe("viscotack-9.tar.gz", "ab12")
-    run = text.split("  run:\n")[1].split("tests:")[0]
-    names = re.findall(r"^    - ([\w-]+)", run, re.MULTILINE)
-    wanted = [re.split(r"[^\w-]", line)[0] for line in project()["dependencies"]]
-    assert [name.removesuffix("-base") for name in names] == ["python", *wanted]
-    assert "path: viscotack-9.tar.gz\n  sha256: ab12\n" in text
-
-
-def test_the_readme_of_an_index_has_no_link_into_the_checkout():
-    text = "![lens](docs/lens.png)\n\nSee [this](docs/start.md#one) and [that](http://x.org/y)."
-    assert readme_for_index(text) == "See this and [that](http://x.org/y)."
-    absolute = readme_for_index(text, "http://x.org/v1/")
-    assert "![lens](http://x.org/v1/docs/lens.png)" in absolute
-    assert "[this](http://x.org/v1/docs/start.md#one)" in absolute
-    assert not re.findall(r"\]\((?!http)", readme_for_index((ROOT / "README.md").read_text()))
-
-
-def packed(names, time):
-    """Make a tar archive of small files, as a build at some time does."""
-    content = io.BytesIO()
-    with tarfile.open(fileobj=content, mode="w:gz") as archive:
-        for name in names:
-            member = tarfile.TarInfo(name)
-            member.size, member.mtime, member.uname = len(name), time, f"user {time}"
-            archive.addfile(member, io.BytesIO(name.encode()))
-    return content.getvalue()
-
-
-def test_archives_have_the_same_bytes_whenever_they_are_built():
-    one, other = packed(["b", "a"], 1_600_000_000), packed(["a", "b"], 1_700_000_000.5)
-    assert gzip.decompress(one) != gzip.decompress(other)
-    assert settled(one, 1_500_000_000) == settled(other, 1_500_000_000)
-    with tarfile.open(fileobj=io.BytesIO(settled(one, 1_500_000_000))) as archive:
-        assert [m.name for m in archive] == ["a", "b"]
-        assert archive.extractfile("b").read() == b"b"
-        assert {(m.mtime, m.uname) for m in archive} == {(1_500_000_000, "")}
 
 
 @pytest.fixture(scope="session")

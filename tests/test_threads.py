@@ -3,15 +3,12 @@
 import os
 import subprocess
 import sys
-import warnings
 from concurrent.futures import ThreadPoolExecutor
-from threading import Barrier
 
 import pytest
 
 import viscotack as vt
 from viscotack.theory.crack.steady import SteadyCrack, cracks
-from viscotack.threads import caught_warnings
 
 SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=4.0, tau0=1.0, poisson_ratio=0.5)
 REST = vt.LennardJones(1.0, 1.0)
@@ -67,22 +64,6 @@ def test_a_steady_crack_does_not_depend_on_the_speeds_that_were_asked_before(alo
     assert [asked(law, speed) for speed in SPEEDS] == expected
 
 
-def test_threads_that_ask_for_the_same_new_cracks_get_the_answers_of_one(alone):
-    law, expected = alone
-    forget()
-    SteadyCrack(SOLID, law).amplification(1e-9)  # all threads have one list of cracks
-    start = Barrier(4)
-
-    def ask(speed):
-        start.wait(60)
-        return asked(law, speed)
-
-    order = [*SPEEDS, *SPEEDS]
-    with ThreadPoolExecutor(4) as threads:
-        found = list(threads.map(ask, order))
-    assert found == expected + expected
-
-
 def test_the_blas_limit_holds_until_the_last_thread_is_done():
     # in a fresh process, where BLAS has two threads
     done = subprocess.run(
@@ -112,22 +93,3 @@ def test_simulations_and_predictions_in_threads_are_those_of_one_thread():
     expected = [ask(case) for case in cases]
     with ThreadPoolExecutor(4) as threads:
         assert list(threads.map(ask, cases + cases)) == expected + expected
-
-
-def test_warnings_appear_again_after_two_threads_caught_them():
-    entered = Barrier(2)
-
-    def catch(first):
-        with caught_warnings("always") as caught:
-            if first:
-                entered.wait(60)  # the other one begins while this one catches
-            warnings.warn(f"of {first}", stacklevel=1)
-        return [str(each.message) for each in caught]
-
-    with pytest.warns(UserWarning, match="later"):
-        with ThreadPoolExecutor(2) as threads:
-            found = threads.submit(catch, True)
-            other = threads.submit(lambda: (entered.wait(60), catch(False))[1])
-            left = [found.result(), other.result()]
-        warnings.warn("later", stacklevel=1)
-    assert left == [["of True"], ["of False"]]

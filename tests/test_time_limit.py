@@ -1,8 +1,6 @@
 """How long a simulation may take."""
 
-import io
 import json
-import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -11,8 +9,7 @@ import pytest
 
 from command_line import exit_status
 from viscotack import clock
-from viscotack.bem import SimulationError, solver
-from viscotack.errors import InputError
+from viscotack.bem import SimulationError
 from viscotack.materials import StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
@@ -23,18 +20,6 @@ SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisso
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
 EXAMPLES = Path(__file__).parents[1] / "examples"
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
-
-
-def refused(capsys, *arguments):
-    assert exit_status([*WORDS, *arguments]) == 2
-    return capsys.readouterr().err
-
-
-class Terminal(io.StringIO):
-    """Standard error that somebody looks at."""
-
-    def isatty(self):
-        return True
 
 
 class Clock:
@@ -82,41 +67,6 @@ def test_a_run_that_meets_its_time_limit_stops_and_keeps_what_there_is(monkeypat
     assert len(failure.value.result.time) > 2
 
 
-def test_the_companion_is_within_the_limit_too(monkeypatch, hand):
-    whole = solve(SPHERE, until="pull-off", estimate_error=False)
-    run, made = solver._run, []
-
-    def late(*arguments, **more):
-        made.append(arguments)
-        if len(made) == 2:
-            hand.now += 2.5
-        return run(*arguments, **more)
-
-    monkeypatch.setattr(solver, "_run", late)
-    result = solve(SPHERE, until="pull-off", time_limit=2.0, throw=False)
-    assert result.outcome is Outcome.STOPPED
-    assert "limit of 2 s was met while the error was estimated; give" in result.status
-    assert result.error_estimate is None
-    assert result.force.tolist() == whole.force.tolist()
-
-
-def test_a_limit_that_is_not_met_changes_nothing():
-    assert solve(SPHERE, time_limit=600).status == solve(SPHERE).status
-
-
-def test_of_two_limits_the_one_that_ends_first_counts(monkeypatch, hand):
-    for outer, inner in ((1.0, 5.0), (5.0, 1.0), (1.0, None)):
-        with clock.limited(outer):
-            with clock.limited(inner):
-                hand.now += 0.9
-                clock.look()
-                hand.now += 0.2
-                with pytest.raises(clock.TimeUp, match="limit of 1 s"):
-                    clock.look()
-            assert (clock.met() is None) == (outer == 5.0)
-        assert clock.met() is None
-
-
 FILES = ["lens_1_um_s.csv", "lens_1000_um_s.csv"]
 LIMITED = {
     "predict": ["sphere", *"--tabor 3 --modulus-ratio 0.1 --preload 5 --rate 10".split()]
@@ -150,17 +100,6 @@ def test_every_command_that_simulates_ends_in_time(command, monkeypatch, tmp_pat
     assert status in (2, 4) and "time limit of 2 s was met" in said
 
 
-def test_no_time_for_the_start_is_refused_in_words():
-    with pytest.raises(InputError, match="limit of 1e-09 s was met before the relaxed start"):
-        solve(SPHERE, time_limit=1e-9)
-
-
-@pytest.mark.parametrize("limit", [0.0, -1.0, float("nan")])
-def test_an_impossible_time_limit_is_refused(limit):
-    with pytest.raises(InputError, match="time_limit must be (positive|finite)"):
-        solve(SPHERE, time_limit=limit)
-
-
 def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, hand, capsys, tmp_path):
     slow(monkeypatch, hand)
     saved = tmp_path / "part.npz"
@@ -172,15 +111,6 @@ def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, hand, 
     assert len(load(saved).time) > 2
 
 
-@pytest.mark.parametrize(
-    ("text", "said"), [("90", "'90' has no unit"), ("9 mm", "in s"), ("0 s", "must be positive")]
-)
-def test_a_time_limit_has_a_unit(text, said, capsys):
-    words = refused(capsys, "--rate", "10", "--time-limit", text)
-    assert words.startswith("viscotack: --time-limit") and said in words
-    assert 'for example "90 s"' in words or "must be positive" in words
-
-
 def test_progress_counts_time_depth_and_edge_and_ends_with_the_companion():
     seen = []
     moves = (Approach(10.0, AtDepth(5.0)), Dwell(10.0))
@@ -190,21 +120,3 @@ def test_progress_counts_time_depth_and_edge_and_ends_with_the_companion():
     assert sum(0.02 < share < 0.8 / 3 - 0.02 for share in seen) > 10
     assert sum(0.8 / 3 + 0.02 < share < 1.6 / 3 - 0.02 for share in seen) > 3
     assert sum(0.8 < share < 1 for share in seen) > 10
-
-
-def test_the_progress_line_forecasts_how_long_it_will_take(monkeypatch):
-    from viscotack.app.cli.reading import progress
-
-    screen = Terminal()
-    monkeypatch.setattr("sys.stderr", screen)
-    for name, value in {"TERM": "xterm", "COLUMNS": "120"}.items():
-        monkeypatch.setenv(name, value)
-    hand = Clock()
-    monkeypatch.setattr("rich.console.monotonic", hand)
-    with progress() as tell:
-        for share in (0.01, 0.02, 0.03, 0.04):
-            tell({"doing": "pulling", "share": share})
-            hand.now += 0.1
-    shown = re.sub(r"\x1b\[[^A-Za-z]*[A-Za-z]", "", screen.getvalue())
-    # a hundredth in a tenth of a second
-    assert "0:00:00 gone, about 0:00:10 to go" in shown

@@ -43,50 +43,17 @@ def bare(program, folder):
     )
 
 
-def test_a_file_system_without_locks_is_used_without_them(tmp_path):
-    program = """
-import os, viscotack.system as s
-def locking(*arguments):
-    raise OSError(22, "Invalid argument")
-s.msvcrt.locking = locking
-handle = s.open_itself(s.Path("lock"), os.O_CREAT)
-print(s.lock(handle))
-"""
-    told = bare(["-c", program], tmp_path)
-    assert told.stdout == "True\n", told.stderr
-
-
-@pytest.mark.parametrize("cases", [6, pytest.param(50, marks=pytest.mark.slow)])
-def test_a_campaign_runs_and_goes_on(cases, tmp_path):
-    (tmp_path / "plan.toml").write_text(PLAN.format(cases // 2), encoding="utf-8")
+@pytest.mark.slow
+def test_a_campaign_runs_and_goes_on(tmp_path):
+    (tmp_path / "plan.toml").write_text(PLAN.format(3), encoding="utf-8")
     command = ["-m", "viscotack", "campaign", "run", "plan.toml", "--out", "c", "--workers", "2"]
     told = bare(command, tmp_path)
     assert told.returncode == 0, told.stderr
     told = bare(["-m", "viscotack", "campaign", "status", "c", "--json"], tmp_path)
     assert told.returncode == 0, told.stderr
-    assert json.loads(told.stdout)["done"] == cases
+    assert json.loads(told.stdout)["done"] == 6
     told = bare(["-m", "viscotack", "campaign", "verify", "c"], tmp_path)
     assert told.returncode == 0, told.stderr
-
-
-def test_two_runs_do_not_share_a_folder(tmp_path):
-    program = """
-from pathlib import Path
-from viscotack.files.lock import FolderInUse, locked
-import subprocess, sys
-with locked(Path(".")) as hold:
-    hold.confirm()
-    if len(sys.argv) == 1:
-        again = [sys.executable, "second.py", "again"]
-        told = subprocess.run(again, capture_output=True, text=True)
-        print(told.stderr.strip().splitlines()[-1])
-with locked(Path(".")):
-    print("free again")
-"""
-    (tmp_path / "second.py").write_text(program, encoding="utf-8")
-    told = bare(["second.py"], tmp_path)
-    assert "FolderInUse" in told.stdout and "process" in told.stdout, told.stderr
-    assert told.stdout.endswith("free again\n")
 
 
 def test_tasks_report_and_are_interrupted(tmp_path):
