@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from front_ends import Http, Question, through_all
 from picture_units import in_si
 from viscotack import (
     AtForce,
@@ -71,17 +70,6 @@ def small(tmp_path, monkeypatch):
     return Path("small.toml")
 
 
-def test_a_file_states_pads_backing_pull_and_load(small):
-    found = read_array(small)
-    assert found.array.positions == ((0.0, 0.0), (4e-3, 0.0), (8e-3, 0.0))
-    assert found.array.heights == (0.0, -1e-6, 1e-6)
-    assert found.array.backing.stiffness == 2e3
-    assert found.array.backing.tilt == pytest.approx(np.radians(0.01))
-    assert (found.speed, found.preload) == (1e-5, 6e-3)
-    assert found.hold == Hold(3e-4, 0.0, 2.0)
-    assert found.scatter is None
-
-
 @pytest.mark.slow
 def test_the_gripper_finger_holds_its_load_in_nine_of_ten_draws():
     record = ask("array", file=str(EXAMPLES / "gripper_finger.toml")).record()
@@ -121,19 +109,6 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
         read_array(small)
 
 
-def test_all_front_ends_answer_alike(small):
-    client = Http()
-    try:
-        found = through_all(Question("array", {"file": "small.toml"}), client)
-    finally:
-        client.close()
-    record = found["Python"].record
-    assert record["count"] == 3
-    assert record["holds"] is True
-    for other in found.values():
-        assert other.record == record
-
-
 def test_the_command_writes_tables_and_a_picture(small):
     line = ["array", "small.toml", "--csv", "f.csv", "--pads", "p.csv", "--plot", "a.svg"]
     done = CliRunner().invoke(application(), line)
@@ -158,14 +133,6 @@ def test_a_pad_without_contact_is_drawn_and_counted(small):
     (line,) = (line for line in axes[0].lines if len(line.get_xdata()) > 2)
     assert in_si(axes[0].xaxis, line.get_xdata()) == pytest.approx(-answer.found.drive)
     assert in_si(axes[0].yaxis, line.get_ydata()) == pytest.approx(answer.found.force)
-
-
-def test_a_hold_time_states_what_is_left_of_the_preload(small):
-    small.write_text(SMALL.replace('preload = "6 mN"', 'preload = "6 mN"\nhold_time = "10 s"'))
-    answer = ask("array", file="small.toml")
-    # elastic pads keep it
-    assert answer.record()["preload_after_hold_N"] == 6e-3
-    assert "6 mN are left after 10 s" in answer.words()
 
 
 def test_payload_is_the_force_over_gravity_acceleration_and_safety(small):

@@ -1,6 +1,5 @@
 """Cautions on predictions: tests at one rate, frequencies that were not measured, fast edges."""
 
-import html
 import json
 import re
 from dataclasses import replace
@@ -10,7 +9,6 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.app.notebook import html_of_prediction
 from viscotack.forecast import cautions_on
 from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence, Passport
@@ -114,18 +112,6 @@ def test_every_command_has_the_cautions(tmp_path, capsys):
     groups = ["--material", "vhb-4910", "--tabor", 20, "--preload", 100, "--rate", 100]
     assert exit_status(["predict", "sphere", *map(str, groups)]) == 0
     assert "194 mHz" in capsys.readouterr().out
-
-
-def test_a_prediction_in_python_has_the_cautions():
-    problem, passport = lens(1e-3), measured(1e-6, 1e-5)
-    found = vt.predict(problem, passport=passport)
-    assert found.cautions == cautions_on(problem, passport=passport)
-    assert len(found.cautions) == 2
-    assert vt.prediction_summary(found)["cautions"] == list(found.cautions)
-    assert all(html.escape(words) in html_of_prediction(found) for words in found.cautions)
-    assert vt.predict(problem).cautions == cautions_on(problem)
-    wider = vt.predict(problem, passport=passport, shift_deviation=0.1)
-    assert wider.cautions == found.cautions
 
 
 def test_the_uncertainty_of_a_measured_material_is_not_in_the_interval(tmp_path):

@@ -2,9 +2,7 @@
 
 import ctypes
 import json
-import shutil
 import subprocess
-import sys
 import zipfile
 from dataclasses import replace
 from math import inf, isnan, nan
@@ -15,7 +13,6 @@ import pytest
 from typer.testing import CliRunner
 
 import viscotack as vt
-from front_ends import Http, Question, through_all
 from viscotack.app.cli import application
 from viscotack.bem.settings import Settings
 from viscotack.bem.stepwise import SteppedSimulation
@@ -128,26 +125,6 @@ def test_the_controller_lets_go_at_the_wanted_force_where_a_constant_drive_misse
     assert -found.drive_speed[:peak].min() > 5 * release.speed
 
 
-def moved(table, release, stiff, spring, depth):
-    """Return how far a linear contact at a depth moves in a tick, over what the speed makes."""
-    drive = depth + stiff * depth / spring
-    drive += release.drive_speed(drive, stiff * depth) * release.period
-    return (depth - drive / (1 + stiff / spring)) / (release.speed * release.period)
-
-
-@pytest.mark.parametrize("off, factor", [(0.0, 1.0), (0.02, 1.02), (5.0, 1.03), (-5.0, 0.97)])
-def test_a_contact_that_is_late_catches_up_a_little(table, off, factor):
-    """A slope s that is not F' changes the speed by (K + s)/(K + F')."""
-    stiff, spring = 400.0, 250.0
-    release = Release(table, 4e-3, spring, 1e-3)
-    depth = table.start_depth + off * release.speed * release.period
-    aim = depth - factor * release.speed * release.period
-    s = table.slope_at(min(aim, table.start_depth), release.speed)
-    s = s if aim <= table.start_depth else 0.0  # of what the table does not have
-    ours = moved(table, release, stiff, spring, depth)
-    assert ours == pytest.approx(factor * (spring + s) / (spring + stiff), rel=1e-6)
-
-
 def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
     release = Release(table, 4e-3, 100.0, 1e-3, fastest=1.0)
     release.drive_speed(0.0, -4e-3)
@@ -186,17 +163,6 @@ def test_a_punch_and_a_pull_from_its_largest_tension_are_refused():
     )
     with pytest.raises(InputError, match="mean stress"):
         force_table(punch, 1e-5, 1e-4)
-
-
-def test_every_door_answers_alike(tmp_path, monkeypatch):
-    shutil.copy(LENS, tmp_path)
-    monkeypatch.chdir(tmp_path)
-    http = Http()
-    found = through_all(Question("control", {"problem": "lens.toml", **SMALL}), http)
-    http.close()
-    first = found["Python"].record
-    assert first["release"] is None and len(first["speeds"]) >= 3
-    assert all(each.record == first for each in found.values())
 
 
 def test_the_command_writes_all_and_lets_go(tmp_path):
@@ -301,23 +267,3 @@ def test_an_fmu_answers_the_same_digits(table, tmp_path):
 def _written(folder, content):
     (folder / "contact.fmu").write_bytes(content)
     return folder / "contact.fmu"
-
-
-def test_the_fmu_states_its_units_and_holds_its_sources(table, tmp_path, monkeypatch):
-    built = {}
-
-    def compiled(sources, library, compiler):
-        built.update(sources)
-        return b"library"
-
-    monkeypatch.setattr("viscotack.control.writing._built", compiled)
-    if not sys.platform.startswith(("linux", "darwin", "win")):
-        pytest.skip("FMI has no name for this system")
-    with zipfile.ZipFile(_written(tmp_path, fmu(table, "grip"))) as archive:
-        names, description = archive.namelist(), archive.read("modelDescription.xml").decode()
-    assert {"sources/fmu.c", "sources/grip.h", "sources/buildDescription.xml"} < set(names)
-    assert sum(name.startswith("binaries/") for name in names) == 1
-    for text in ('fmiVersion="3.0"', 'name="force"', 'unit="N/m"', 'modelIdentifier="grip"'):
-        assert text in description
-    token = description.split('instantiationToken="')[1].split('"')[0]
-    assert token in built["fmu.c"] and "grip_force" in built["fmu.c"]

@@ -8,7 +8,6 @@ import pytest
 
 from viscotack import (
     Elastic,
-    InputError,
     LennardJones,
     PadArray,
     RetardationPowerLaw,
@@ -18,7 +17,6 @@ from viscotack import (
 from viscotack.design import Bounds, Choice, DesignSpace, Targets, find_design
 from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, FastTier, Force, Pad
-from viscotack.design.interpolating import interpolation
 from viscotack.design.limits import solid_limits
 from viscotack.design.margins import Judge
 from viscotack.pads import grid
@@ -148,13 +146,6 @@ def test_targets_out_of_reach_are_refused_with_the_bound(targets, target, cause,
     assert low < limit.reach < high
 
 
-def test_the_margins_of_a_simulation_are_those_of_its_forces(run):
-    assert run.meets is True
-    assert run.margins == pytest.approx(
-        {"hold": log(run.hold / 5e-3), "release": log(2.5e-3 / run.release)}
-    )
-
-
 def test_a_simulation_decides():
     space = replace(SPACE, radius=Bounds(2e-3), hold_speed=Bounds(1e-3), release_speed=None)
     answers = []
@@ -164,18 +155,6 @@ def test_a_simulation_decides():
         answers.append(find_design({"rubber": RUBBER}, LAW, space, targets, accuracy=0.01))
     assert [one.best.margin < 0 < one.best.best_margins["hold"] for one in answers] == [True, True]
     assert [one.meets for one in answers] == [True, False]
-
-
-def test_the_area_limits_radius_and_number():
-    space = replace(SPACE, pads=Bounds(1, 6), area=6 * (2e-3) ** 2, radius=Bounds(1e-3, 2e-3))
-    space = replace(space, hold_speed=Bounds(1e-3))
-    found = find_design({"rubber": RUBBER}, LAW, space, Targets(hold=1e-3), **HOW)
-    assert {x.choice.pads * (2 * x.choice.radius) ** 2 <= space.area for x in found.candidates} == {
-        True
-    }
-    assert "area at most" in found.binding
-    with pytest.raises(InputError, match="smaller than that of the least pads"):
-        replace(space, area=1e-6)
 
 
 def test_the_better_of_two_materials_is_chosen():
@@ -193,25 +172,6 @@ def test_theories_answer_where_surrogates_do_not():
     found = find_design({"rubber": elastic}, law, space, Targets(hold=1e-4), **HOW)
     assert found.tier == "theories"
     assert found.best.hold.value == pytest.approx(1.5 * pi * 3e-3 * 0.05, rel=0.01)
-
-
-def test_interpolation_is_exact_for_products_of_powers():
-    known, random = {}, np.random.default_rng(0)
-    for place in random.random((12, 2)):
-        radius, speed = (1e-3 * 5 ** place[0], 1e-6 * 100 ** place[1])
-        force = 0.2 * radius * speed**0.3
-        known[Pad("rubber", radius, 1e-3, speed)] = Force(force, 0.9 * force, 1.1 * force, "theory")
-    # a preload that does not vary, and a pad that no theory predicts
-    far = Pad("rubber", 1e-1, 1e-3, 1.0)
-    fast = FastTier({"rubber": RUBBER}, LAW, SURROGATES, {**known, far: "too fast"})
-    between = interpolation(fast, "rubber")
-    found = between.force(Pad("rubber", 2e-3, 1e-3, 1e-5))
-    force = 0.2 * 2e-3 * 1e-5**0.3
-    assert [found.value, found.low, found.high] == pytest.approx(
-        [force, 0.9 * force, 1.1 * force], rel=1e-9
-    )
-    assert between.force(Pad("rubber", 9e-2, 1e-3, 0.9)) == "too fast"
-    assert interpolation(FastTier({"rubber": RUBBER}, LAW, SURROGATES), "rubber") is None
 
 
 def test_a_solid_that_is_no_power_law_is_designed_with():

@@ -6,10 +6,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from front_ends import Http, Question, through_all
 from picture_units import in_si
 from viscotack.app.cli import application
-from viscotack.design import Bounds, Targets, read_design
+from viscotack.design import read_design
 from viscotack.errors import InputError
 from viscotack.operations import ask
 from viscotack.pictures.design import draw_design
@@ -48,17 +47,6 @@ def small(tmp_path, monkeypatch):
     return Path("small.toml")
 
 
-def test_a_file_states_targets_bounds_material_and_interface(small):
-    found = read_design(small)
-    assert found.targets == Targets(hold=5e-3, release=2.5e-3)
-    assert found.space.radius == Bounds(1e-3, 4e-3)
-    assert found.space.preload == Bounds(4e-3)
-    assert found.space.pads == Bounds(2)
-    assert found.space.free == ("radius",)
-    assert found.materials["power-law"].tau0 == 0.1
-    assert found.traction.equilibrium_gap == pytest.approx(1e-7)
-
-
 @pytest.mark.parametrize(
     "old, new, words",
     [
@@ -85,21 +73,6 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
     small.write_text(SMALL.replace(old, new))
     with pytest.raises(InputError, match=words):
         read_design(small)
-
-
-def test_all_front_ends_answer_alike(small):
-    client = Http()
-    try:
-        given = {"file": "small.toml", "confirm": 0}
-        found = through_all(Question("design", given), client)
-    finally:
-        client.close()
-    record = found["Python"].record
-    assert record["meets"] is None
-    assert record["designs"][0]["margin"] > 0
-    assert record["binding"][:2] == ["hold", "release"]
-    for other in found.values():
-        assert other.record == record
 
 
 def test_the_command_writes_a_table_and_a_picture(small):

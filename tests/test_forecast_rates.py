@@ -16,7 +16,6 @@ from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
 from viscotack.identify.covariances import covariance, log_forces
 from viscotack.identify.forward import Forward
-from viscotack.identify.study import Study, answer
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, write_passport
 from viscotack.materials.conversion import slowed
@@ -24,11 +23,7 @@ from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence
 from viscotack.materials.passport_uncertainty import allowed, shift_error
 from viscotack.materials.shift import WLF, TabulatedShift
-from viscotack.operations import operation
-from viscotack.operations.declare.study import read_study, study_text
-from viscotack.operations.identify import IdentifyRates
 from viscotack.operations.parts.records import forecast_rows
-from viscotack.operations.parts.rig import Rig
 
 SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
@@ -137,30 +132,6 @@ def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
             identify_rates(series, material=sure, radius=RADIUS, temperature_uncertainty=kelvin)
 
 
-def test_a_forecast_reuses_the_forces_of_the_identification(tmp_path, monkeypatch):
-    study = Study(
-        files=tuple(RIG / f"lens_{n}_um_s.csv" for n in (1, 30)),
-        material=published("pdms-10-1"),
-        radius=5.19e-3,
-        preload=1.5e-3,
-    )
-    kept, counted = tmp_path / "study.computed.npz", []
-    first = answer(study, kept)
-    pulled = Forward._all_pulled
-    monkeypatch.setattr(
-        Forward, "_all_pulled", lambda *given: counted.append(given) or pulled(*given)
-    )
-    second = answer(study, kept)
-    assert not counted
-    assert second.fit.forces == first.fit.forces and second.fit.words == first.fit.words
-    assert second.fit.intervals == first.fit.intervals
-    # another radius is another case, and a damaged file is computed anew
-    assert answer(replace(study, radius=6e-3), kept).fit.equilibrium_gap and counted
-    counted.clear()
-    kept.write_bytes(kept.read_bytes()[:-100])
-    assert answer(study, kept).fit.forces == first.fit.forces and counted
-
-
 def test_the_error_of_times_is_the_slope_of_the_shift():
     assert shift_error(RUBBER, 2.0) == pytest.approx(5 / 150 * 2 * np.log(10), rel=1e-3)
     # at the end of a table, from its other side
@@ -215,50 +186,6 @@ def test_what_cannot_be_forecast_is_refused(fit):
         passport = replace(RUBBER, shift=None)
         bare = replace(fit, uncertain=replace(fit.uncertain, passport=passport))
         forecast_rates(bare, [1e-4], temperature=310.0)
-
-
-def test_a_study_comes_back_from_its_file(tmp_path):
-    study = IdentifyRates(
-        files=(tmp_path / "a.csv", tmp_path / "b.csv"),
-        material="pdms-10-1",
-        radius=5.19e-3,
-        preload=1.5e-3,
-        temperature=298.15,
-        work_of_adhesion=(0.15, 0.01),
-        rig=Rig(force_unit="mN", nominal_speed=1e-6, compliance=2e-6, into=-1),
-        title='a "lens"',
-    )
-    path = tmp_path / "study.toml"
-    path.write_text(study_text(study, tmp_path))
-    assert read(path) == study
-    path.write_text('files = ["a.csv"]\nmaterial = "x"\nradius = "1 mm"\nspeeds = 3\n')
-    with pytest.raises(InputError, match=r"study.toml: identify rates has no option 'speeds'"):
-        read(path)
-    path.write_text('files = ["a.csv"]\nradius = "1 mm"\n')
-    with pytest.raises(InputError, match="material missing"):
-        read(path)
-
-
-def read(path):
-    return read_study(path, known=operation, usual="identify rates").operation
-
-
-def test_a_study_that_an_earlier_version_wrote_is_read(tmp_path):
-    path = tmp_path / "study.toml"
-    path.write_text(
-        'title = "lens"\nfiles = ["a.csv"]\nmaterial = "pdms-10-1"\nradius = "0.005 m"\n'
-        'work_of_adhesion = ["0.15 J/m^2", "0.01 J/m^2"]\ncurves = true\nlevel = 0.9\n\n'
-        '[read]\nforce_unit = "mN"\ncompliance = "2e-06 m/N"\ninto = -1\nretraction_only = true\n'
-    )
-    assert read(path) == IdentifyRates(
-        files=(tmp_path / "a.csv",),
-        material="pdms-10-1",
-        radius=5e-3,
-        work_of_adhesion=(0.15, 0.01),
-        curves=True,
-        title="lens",
-        rig=Rig(force_unit="mN", compliance=2e-6, into=-1, retraction_only=True),
-    )
 
 
 class _Seen(HTMLParser):

@@ -1,7 +1,6 @@
 """The interface from a rate series on a layer: truth found, validity stated, the rest refused."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -112,14 +111,6 @@ def test_the_interval_of_a_simulated_series_on_a_layer_holds_the_truth():
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.05)
 
 
-def test_a_similar_solid_on_a_layer_has_almost_its_own_forces():
-    solid, body = replace(RUBBER, glassy_modulus=1.1e7), layer(0.5)
-    near = Forward(RUBBER, RADIUS, body=body).beside(solid).pulled(WORK, GAP, SPEEDS, PRELOAD)
-    own = Forward(solid, RADIUS, body=body).pulled(WORK, GAP, SPEEDS, PRELOAD)
-    assert near.force == pytest.approx(own.force, rel=0.01)
-    assert near.through == pytest.approx(own.through, rel=0.03)
-
-
 def test_the_error_of_the_theory_grows_on_thin_layers():
     body, gap, speeds = layer(0.3), 2 * GAP, SPEEDS[:3]
     true = forces(body, gap, speeds)
@@ -178,9 +169,3 @@ def test_a_layer_goes_from_the_command_line_to_a_study_a_forecast_and_a_report(t
     assert told["work_of_adhesion_J_m2"] == found["work_of_adhesion_J_m2"]
     assert exit_status(["report", str(study), *speed, "-o", str(page)]) == 0
     assert "2 mm thick, bonded, Poisson ratio 0.49" in page.read_text()
-
-
-def test_a_bonded_sample_without_thickness_is_refused(tmp_path, capsys):
-    words = ["--material", "pdms-10-1", "--radius", "5.19 mm", "--bonded", "0.49"]
-    assert exit_status(["identify", "rates", str(RIG / "lens_1_um_s.csv"), *words]) == 2
-    assert "--bonded needs a layer" in capsys.readouterr().err

@@ -1,9 +1,7 @@
 """The interface from a slow test: true values found, models chosen, what is not told said."""
 
-import importlib.util
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +16,6 @@ from viscotack.operations.parts.records import slow_record
 from viscotack.theory import jkr, maugis
 
 LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}
-BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
 def of_jkr(seed, points=50, noise=0.02):
@@ -133,29 +130,6 @@ def test_a_range_that_the_data_determine_is_not_assumed():
     fit = identify_slow(test, models=["maugis"], material=passport_of("pdms-10-1").material)
     said = " ".join(fit.words)
     assert "times the slow force" in said and "assumed at" not in said
-
-
-def error_study():
-    path = BENCHMARKS / "slow_test_error.py"
-    spec = importlib.util.spec_from_file_location("slow_test_error", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.mark.slow
-def test_an_elastic_fit_of_a_viscoelastic_test_reads_the_tabor_number_wrong():
-    study = error_study()
-    tabor, slow = study.read_as_slow(1e-9, models=["jkr"])
-    assert tabor == pytest.approx(15.9, abs=0.2)
-    assert slow.best.work_of_adhesion == pytest.approx(study.WORK_OF_ADHESION, rel=0.01)
-    assert not any("If the test was not slow" in word for word in slow.words)
-    _, fast = study.read_as_slow(1e-5, models=["maugis"])
-    (maugis_fit,) = (one for one in fast.fits if one.model == "maugis")
-    # at 10 um/s: an eighth of the true number, and half as much work again
-    assert maugis_fit.tabor < 3
-    assert maugis_fit.work_of_adhesion > 1.3 * study.WORK_OF_ADHESION
-    assert any("If the test was not slow" in word for word in fast.words)
 
 
 SMALL = {"radius": 5e-3, "contact_modulus": 2e6, "work_of_adhesion": 60.3e-3}

@@ -1,8 +1,6 @@
 """Identification from rate series at several temperatures, each test at its own."""
 
 from dataclasses import replace
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,9 +10,7 @@ from picture_units import in_si
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates
 from viscotack.identify.forward import Forward
-from viscotack.identify.objective import Interval
 from viscotack.identify.pull_off import History
-from viscotack.identify.study import Study, answer
 from viscotack.identify.temperatures import shifted
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, StandardSolid
@@ -22,7 +18,6 @@ from viscotack.materials.shift import WLF, TabulatedShift
 from viscotack.operations.parts.records import rates_record
 from viscotack.pictures.identify import draw_rate_series
 
-RIG = Path(__file__).parents[1] / "examples" / "from_rig"
 RADIUS, WORK, PRELOAD = 5.19e-3, 0.1523, 1.5e-3
 RUBBER = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
 WARM = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
@@ -143,44 +138,3 @@ def test_the_record_has_true_and_shifted_speeds(fit):
     assert in_si(axes.xaxis, measured.get_xdata()) == pytest.approx([x.speed for x in fit.series])
     forces = [x.force.value for x in fit.series]
     assert in_si(axes.yaxis, measured.get_ydata()) == pytest.approx(forces)
-
-
-def test_a_forecast_at_one_speed_is_drawn_and_an_open_range_has_no_value(fit):
-    ends = [np.array([force]) for force in (2e-3, 1.8e-3, 2.4e-3)]
-    names = ("force", "low", "high")
-    one = SimpleNamespace(
-        **dict(zip(names, ends, strict=True)),
-        speed=np.array([3e-4]), preload=1.5e-3, temperature=293.15, dwell=None, level=0.9,
-    )  # fmt: skip
-    axes = draw_rate_series(fit, one).axes[0]
-    (bar,) = [drawn for drawn in axes.containers if "forecast" in drawn.get_label()]
-    load = bar.lines[0].get_ydata()[0]
-    low, high = bar.lines[2][0].get_segments()[0][:, 1]
-    assert (low / load, high / load) == pytest.approx((0.9, 1.2))
-    bound = Interval(1e-8, 5e-7, False, True)
-    open_range = replace(fit, intervals=fit.intervals | {"equilibrium_gap": bound})
-    legend = draw_rate_series(open_range).axes[0].get_legend()
-    assert any("range below 500 nm" in text.get_text() for text in legend.get_texts())
-
-
-def test_a_study_takes_temperatures_from_its_files_unless_one_is_given(tmp_path, monkeypatch):
-    class Asked(Exception):
-        pass
-
-    def asked(series, **_):
-        raise Asked([one.temperature for one in series])
-
-    monkeypatch.setattr("viscotack.identify.study.identify_rates", asked)
-    text = (RIG / "lens_30_um_s.csv").read_text()
-    files = tuple(tmp_path / f"lens_{kelvin}.csv" for kelvin in ("15C", "25C"))
-    for file in files:
-        file.write_text(text)
-    study = Study(
-        files=files, material=PASSPORT, radius=RADIUS, reading={"temperature_in_name": True}
-    )
-    with pytest.raises(Asked) as own:
-        answer(study)
-    assert own.value.args[0] == pytest.approx([288.15, 298.15])
-    with pytest.raises(Asked) as given:
-        answer(replace(study, temperature=303.15))
-    assert given.value.args[0] == [303.15, 303.15]

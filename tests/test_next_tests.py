@@ -1,15 +1,12 @@
 """The next test: what it leaves of the uncertainty, before and after it is made."""
 
 import json
-import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from front_ends import Http, Question, through_all
 from picture_units import in_si
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, Trial, forecast_rates, identify_rates, next_tests
@@ -33,7 +30,6 @@ RUBBER = Passport(
 RADIUS, PRELOAD, NOISE = 5e-3, 1e-3, 0.02
 SPEEDS, WANTED = np.geomspace(1e-6, 1e-4, 3), Trial(3e-2)
 FORWARD = Forward(SOLID, RADIUS)
-RIG = Path(__file__).parents[1] / "examples" / "from_rig"
 
 
 def measured(trial):
@@ -134,20 +130,3 @@ def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
     ):
         with pytest.raises(InputError, match=words):
             vt.ask("next-test", **asked, **more)
-
-
-@pytest.mark.slow
-def test_every_door_answers_alike(tmp_path, monkeypatch):
-    for name in ("lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"):
-        shutil.copy(RIG / name, tmp_path)
-    monkeypatch.chdir(tmp_path)
-    files = sorted(str(each.name) for each in tmp_path.glob("*.csv"))
-    given = {"files": files, "material": "pdms-10-1", "radius": "5.19 mm"}
-    vt.ask("identify rates", **given).files["output"]("study.toml")
-    asked = {"study": "study.toml", "speed": ["1 mm/s", "10 um/s"], "forecast_speed": ["10 mm/s"]}
-    http = Http()
-    found = through_all(Question("next-test", asked), http)
-    http.close()
-    first = found["Python"].record
-    assert len(first["tests"]) == 2
-    assert all(each.record == first for each in found.values())

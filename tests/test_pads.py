@@ -12,7 +12,6 @@ from viscotack import (
     AtForce,
     Backing,
     Elastic,
-    InputError,
     LennardJones,
     PadArray,
     Problem,
@@ -25,7 +24,7 @@ from viscotack import (
     solve,
 )
 from viscotack.pads import grid, preload_after
-from viscotack.pads.curve import Curve, side_by_side
+from viscotack.pads.curve import Curve
 
 RUBBER = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 ELASTIC = Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
@@ -152,13 +151,6 @@ def test_a_jump_behind_a_spring_loses_what_the_drive_put_in_and_the_pads_did_not
     assert (soft.largest_jump, rigid.largest_jump) == (12, 3)
 
 
-def test_a_stiffer_machine_separates_a_jump_of_many_pads_into_smaller_ones():
-    counts = [len(pulled(tilt=2e-4, stiffness=K).jumps) for K in (1e3, 3e4, 1e6)]
-    assert counts == sorted(counts)
-    assert counts[0] == 1
-    assert counts[-1] == 4
-
-
 def test_a_curve_behind_a_spring_jumps_where_the_force_falls_faster_than_the_spring():
     x = np.linspace(0.0, -2.0, 2001)
     bump = Curve(np.append(x, -2.0), np.append(-np.sin(np.pi * np.minimum(-x, 1.0)), 0.0))
@@ -171,45 +163,6 @@ def test_a_curve_behind_a_spring_jumps_where_the_force_falls_faster_than_the_spr
     assert -before == pytest.approx(np.sin(np.pi * at), rel=3e-4)
     assert behind.lost > 0
     assert bump.behind(10.0).lost == 0
-
-
-def test_forces_side_by_side_add_up_on_both_sides_of_a_jump():
-    one = Curve(np.array([1.0, 0.0, -1.0, -1.0]), np.array([1.0, 0.0, -1.0, 0.0]))
-    both = side_by_side([one, one.moved(0.0)])
-    assert both.pull_off_force == 2.0
-    assert both.force[-1] == 0.0
-    assert both.work == pytest.approx(2 * one.work)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("start", [6e-6, 11e-6])
-def test_curves_between_two_starts_are_those_of_that_start(start):
-    problem = pad(RUBBER, gap=6e-7)
-    posed = replace(problem, protocol=Retraction(AtDepth(start), SPEED))
-    direct = crack_contact(posed)
-    si = problem.scales()
-    others = [3e-6, 7e-6, 13e-6]
-    loads = sum(
-        float(crack_contact(replace(problem, protocol=Retraction(AtDepth(d), SPEED))).force[0])
-        for d in [start, *others]
-    )
-    mean = np.mean([start, *others])
-    found = pulled(
-        problem,
-        grid(1, 4, 5e-3),
-        mean_load=loads * si.force / 4,
-        heights=[d - mean for d in [start, *others]],
-    )
-    assert found.start_force[0] == pytest.approx(
-        float(direct.force[0]) * si.force, abs=0.005 * LOAD
-    )
-    depth = direct.depth[-1] * si.length
-    assert found.released[0] == pytest.approx(start - depth, rel=0.02)
-
-
-def test_a_viscoelastic_base_is_refused():
-    with pytest.raises(InputError, match="backing and base are elastic"):
-        Backing(base_modulus=RUBBER)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_preload_held_in_place_relaxes_to_the_contact_at_rest_there():

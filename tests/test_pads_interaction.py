@@ -16,8 +16,7 @@ from viscotack import (
     Sphere,
     pull_array,
 )
-from viscotack.pads.curve import Curve, side_by_side
-from viscotack.pads.interacting import coupled, interactions
+from viscotack.pads.interacting import interactions
 
 HEXAGON = [(0.0, 0.0), *((np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6))]
 PAIR = [(0.0, 0.0), (1.0, 0.0)]
@@ -106,32 +105,6 @@ def test_neighbours_carry_less_at_equal_depth_and_the_corners_most():
     force = pull_array(array, speed=1e-5, preload=9e-4).start_force.reshape(3, 3)
     assert force.sum() == pytest.approx(9e-4, rel=1e-6)
     assert force[0, 0] > force[0, 1] > force[1, 1]
-
-
-def rubber_band():
-    """A curve that softens, falls and ends."""
-    x = np.linspace(1.0, -1.5, 400)
-    return Curve(np.append(x, -1.5), np.append(np.sin(1.2 * x), 0.0))
-
-
-def test_pads_that_all_share_one_spring_are_pads_on_a_plate_behind_it():
-    heights = np.array([0.0, -0.3, 0.1, -0.1])
-    curves = [_from(rubber_band(), 0.8 + h) for h in heights]
-    soft = 0.25
-    found = coupled(curves, heights, np.full((4, 4), soft))
-    plate = side_by_side([each.moved(-h) for each, h in zip(curves, heights, strict=True)])
-    expected = plate.behind(1 / soft)
-    assert found.plate.pull_off_force == pytest.approx(expected.pull_off_force, rel=1e-4)
-    assert found.plate.end == pytest.approx(expected.end, abs=5e-3)
-    assert found.plate.lost == pytest.approx(expected.lost, rel=0.05)
-
-
-def _from(curve, start):
-    later = curve.position < start
-    return Curve(
-        np.append(start, curve.position[later]),
-        np.append(curve.at(np.array([start])), curve.force[later]),
-    )
 
 
 def test_pads_closer_than_four_radii_are_refused():

@@ -16,7 +16,6 @@ from viscotack import (
     Scatter,
     Sphere,
     array_yield,
-    pull_array,
 )
 from viscotack.pads import grid
 
@@ -66,12 +65,3 @@ def test_the_yield_of_one_pad_is_the_normal_distribution_of_its_work():
     expected = 0.5 * (1 + erf(0.5 / sqrt(2)))
     assert found.interval[0] < expected < found.interval[1]
     assert found.reached_by(0.5) == pytest.approx(UNIT, rel=0.01)
-
-
-def test_an_array_of_the_yield_is_that_of_a_pull():
-    scatter = Scatter(height=1e-6, work=0.1, seed=1)
-    one = array_yield(
-        array(stiffness=2e3), scatter, load=1e-3, speed=1e-5, preload=4 * LOAD, draws=1
-    )
-    pulled = pull_array(scatter.of(array(stiffness=2e3)), speed=1e-5, preload=4 * LOAD)
-    assert one.forces[0] == pytest.approx(pulled.pull_off_force, rel=1e-3)

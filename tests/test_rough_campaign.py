@@ -5,11 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from front_ends import Http, Question, through_all
 from test_rough_file import BUMPS, MAP, SMALL
-from viscotack.campaign import CaseSettings, Store, inputs_of, measure, read_plan, run
+from viscotack.campaign import CaseSettings, Store, measure, read_plan, run
 from viscotack.errors import InputError
-from viscotack.problem.record import from_dict, to_dict
 from viscotack.rough import pull, read_rough, read_rough_case
 
 PLAN = """
@@ -50,40 +48,12 @@ def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(folder):
     assert {"contact_share_at_pull_off", "pastewka_robbins", "steps", "versions"} <= same.keys()
 
 
-def test_a_case_is_restored_from_its_record_and_lists_its_own_numbers(folder):
-    for name in ("bumps.toml", "measured.toml"):
-        case = read_rough_case(name)
-        assert from_dict(to_dict(case)) == case
-        paths = {path for path in inputs_of(case) if path.startswith("surface.")}
-        own = "pixel height_unit" if case.surface.file else "pixels pixel radius seed spacing"
-        assert {f"surface.{word}" for word in own.split()} <= paths
-        assert "surface.hurst" not in paths
-
-
 def test_a_map_that_has_changed_since_is_refused(folder):
     case = read_rough_case("measured.toml")
     assert len(case.surface.sha256) == 64
     np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
     with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):
         measure(case, CaseSettings())
-
-
-@pytest.mark.slow
-def test_all_front_ends_sweep_a_rough_surface(folder):
-    rows = [{"surface.seed": 1.0}, {"surface.seed": 1.5}]
-    question = Question("sweep", {"problem": "bumps.toml", "cases": rows, "accuracy": 0.02})
-    client = Http()
-    try:
-        found = through_all(question, client)
-    finally:
-        client.close()
-    answers = [answer.record for answer in found.values()]
-    assert all(isinstance(record, dict) for record in answers)
-    first, *others = [record["rows"] for record in answers]  # type: ignore[index]
-    assert first[0]["outputs"]["pull_off_force_N"] > 0
-    assert "whole number" in first[1]["reason"]
-    for rows in others:
-        assert [row["outputs"] for row in rows] == [row["outputs"] for row in first]
 
 
 @pytest.mark.slow

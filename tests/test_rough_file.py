@@ -3,14 +3,12 @@
 import csv
 import json
 import runpy
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from front_ends import Http, Question, through_all
 from viscotack.app.cli import application
 from viscotack.errors import InputError
 from viscotack.operations import ask
@@ -72,24 +70,6 @@ def small(tmp_path, monkeypatch):
     return path
 
 
-def test_all_front_ends_answer_alike(small):
-    client = Http()
-    try:
-        unsent = through_all(Question("rough", {"file": "small.toml"}), client)
-        small.write_text(SMALL.replace(MAP, BUMPS))
-        found = through_all(Question("rough", {"file": "small.toml"}), client)
-    finally:
-        client.close()
-    # a file that a file names must be sent with it
-    assert unsent["Python"].record == unsent["command line"].record == unsent["study"].record
-    assert "no file 'map.csv' was sent" in unsent["HTTP"].refused
-    record = found["Python"].record
-    assert record["pull_off_force_N"] > 0
-    assert record["status"].startswith(("detached", "jumped"))
-    for other in found.values():
-        assert other.record == record
-
-
 def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
     line = ["rough", "small.toml", "--csv", "f.csv", "--maps", "m.npz", "--plot", "a.svg"]
     done = CliRunner().invoke(application(), [*line, "--film", "a.gif", "--moments", "6"])
@@ -113,42 +93,11 @@ open(sys.argv[-1], "w").write(str(len(sys.stdin.buffer.read())))
 """
 
 
-def test_a_film_for_ffmpeg_has_every_frame(small, monkeypatch):
-    line = ["rough", "small.toml", "--movie", "a.mp4", "--moments", "6"]
-    monkeypatch.setenv("PATH", "")
-    done = CliRunner().invoke(application(), line)
-    assert done.exit_code == 2 and "needs the program ffmpeg; install it" in done.output
-    program = Path("ffmpeg")
-    program.write_text(FFMPEG.format(python=sys.executable))
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(Path.cwd()))
-    done = CliRunner().invoke(application(), line)
-    assert done.exit_code == 0, done.output
-    whole, frame = int(Path("a.mp4").read_text()), 800 * 352 * 4
-    assert whole % frame == 0 and 3 <= whole // frame <= 6
-    program.write_text(f"#!{sys.executable}\nraise SystemExit(1)")
-    done = CliRunner().invoke(application(), [*line, "--force"])
-    assert done.exit_code == 2 and "ffmpeg did not write the film" in done.output
-
-
 def test_the_examples_are_read_and_bumps_pull_off():
     assert read_rough(EXAMPLES / "rough_rubber.toml").zone.pixels > 1.5
     record = ask("rough", file=str(EXAMPLES / "bumps.toml"), accuracy=0.01).record()
     assert record["status"].startswith("detached")
     assert record["patches_at_pull_off"] <= 9
-
-
-def test_wrong_nouns_are_refused_with_the_command_for_them(small):
-    for words in ("predict", "simulate case", "advise", "design", "array", "window"):
-        done = CliRunner().invoke(application(), [*words.split(), "small.toml"])
-        assert done.exit_code == 2
-        refused = " ".join(done.output.split())
-        assert "a map of heights, in a file of `viscotack rough`" in refused, refused
-    with pytest.raises(InputError, match=r"name a map of heights in it: .* file = .map.csv"):
-        ask("rough", file="map.csv")
-    small.write_text(SMALL.replace("[surface]", "[sphere]"))
-    with pytest.raises(InputError, match="one sphere, in a file of `viscotack simulate case`"):
-        ask("rough", file="small.toml")
 
 
 @pytest.mark.slow
@@ -221,31 +170,6 @@ def test_a_damaged_map_is_refused(tmp_path, name, content, words):
     path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(InputError, match=words):
-        read_map(path, pixel=1e-6)
-
-
-def test_a_format_of_an_instrument_names_the_package_that_reads_it(tmp_path, monkeypatch):
-    path = tmp_path / "scan.gwy"
-    with pytest.raises(FileNotFoundError):
-        read_map(path)
-    path.write_bytes(b"GWYP")
-    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
-    with pytest.raises(InputError, match=r"install it with: .*\[surfaces\]"):
-        read_map(path)
-
-
-def test_an_array_with_a_false_size_is_refused_before_it_takes_memory(tmp_path):
-    path = tmp_path / "a.npy"
-    np.save(path, np.zeros((16, 16)))
-    whole = path.read_bytes()
-    path.write_bytes(whole.replace(b"(16, 16)", b"(4000, 4)"))
-    with pytest.raises(InputError, match="cut off, or longer"):
-        read_map(path, pixel=1e-6)
-    path.write_bytes(whole[:-8])
-    with pytest.raises(InputError, match="cut off, or longer"):
-        read_map(path, pixel=1e-6)
-    np.save(path, np.array([[None] * 8] * 8), allow_pickle=True)
-    with pytest.raises(InputError, match="two dimensions"):
         read_map(path, pixel=1e-6)
 
 

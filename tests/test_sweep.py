@@ -8,9 +8,7 @@ import pytest
 from command_line import exit_status
 from stated import case_text
 from viscotack import AtDepth, Groups, InputError, PowerLawProfile, Problem, StandardSolid
-from viscotack.operations import ask, operation
-from viscotack.operations.declare.options import Here, take
-from viscotack.operations.declare.study import read_study, study_text
+from viscotack.operations import ask
 from viscotack.problem.case_file import read_case
 
 ROWS = [
@@ -75,14 +73,6 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
     words = str(asked).splitlines()
     assert f"pull-off force {forces[0] * 1e6:.5g} uN" in words[0] and "must be positive" in words[2]
     assert words[3] == "2 of 3 cases done, 1 failed"
-
-
-def test_a_case_that_failed_keeps_its_inputs_in_the_table(quick, tmp_path):
-    answer = ask("sweep", problem=REDUCED, cases=[{"rate": 1.0}, {"rate": -1.0}])
-    answer.files["csv"](tmp_path / "rows.csv")
-    with (tmp_path / "rows.csv").open(newline="") as stream:
-        assert [row["rate"] for row in csv.DictReader(stream)] == ["1.0", "-1.0"]
-    assert answer.status == 4
 
 
 @pytest.mark.parametrize(
@@ -168,16 +158,3 @@ def test_an_exponent_goes_with_what_its_coefficient_follows_from(case):
     )
     with pytest.raises(InputError, match="another shape with every exponent"):
         ask("sweep", problem=tip, cases=[{"geometry.exponent": 1.5}])
-
-
-@pytest.mark.parametrize("by_file", [True, False])
-def test_a_study_states_the_same_sweep(case, tmp_path, by_file):
-    cases = tmp_path / "cases.csv" if by_file else ROWS
-    problem = case if by_file else read_case(case)
-    asked = take(
-        operation("sweep"), {"problem": problem, "cases": cases, "until": "detached"}, Here()
-    )
-    (tmp_path / "study.toml").write_text(study_text(asked, tmp_path))
-    found = read_study(tmp_path / "study.toml", known=operation).operation
-    assert (found.problem.problem, found.cases) == (asked.problem.problem, asked.cases)
-    assert (found.until, found.accuracy) == ("detached", asked.accuracy)

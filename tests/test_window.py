@@ -177,14 +177,6 @@ def test_a_soft_machine_and_a_fast_pull_are_no_jump_at_the_start():
     assert result.tension == pytest.approx(which_opens(*pair).tension, rel=0.02)
 
 
-def test_the_order_of_the_contacts_does_not_matter():
-    donor, stamp = contact(ELASTIC, work=0.4, speed=1e-5), contact(speed=1e-5)
-    one, other = which_opens(donor, stamp), which_opens(stamp, donor)
-    assert one.opened == 1
-    assert other.opened == 0
-    assert one.tension == pytest.approx(other.tension, rel=1e-4)
-
-
 def test_a_contact_on_a_layer_is_undecided_without_a_simulation():
     layer = Layer(thickness=1e-3, base=Bonded(poisson_ratio=0.5))
     donor, stamp = contact(ELASTIC, work=0.1), replace(contact(), body=layer)
@@ -242,13 +234,6 @@ def test_critical_speeds_are_where_the_tension_is_the_pull_off_force_of_an_elast
         low, high = critical.interval
         assert low < critical.speed < high
         assert (critical.below, critical.above) == ("stamp", critical.base)
-
-
-def test_a_map_of_a_donor_alone_says_pick_or_neither():
-    donor = contact(ELASTIC, work=0.4)
-    for speed, word in ((1e-6, "neither"), (1e-3, "pick")):
-        found = window(contact(), donor=donor, speeds=[speed], preloads=[2e-3])
-        assert [cell.word for cell in found.cells] == [word]
 
 
 @pytest.mark.slow

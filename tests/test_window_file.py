@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from front_ends import Http, Question, through_all
 from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.errors import InputError
@@ -50,17 +49,6 @@ def small(tmp_path, monkeypatch):
     return Path("small.toml")
 
 
-def test_a_file_states_contacts_speeds_and_preloads(small):
-    found = read_window(small)
-    assert found.speeds == pytest.approx(
-        [1e-6, 2.154e-6, 4.642e-6, 1e-5, 2.154e-5, 4.642e-5, 1e-4], rel=1e-3
-    )
-    assert found.preloads == (1e-3, 1e-4)
-    assert found.stiffness == 1e3
-    assert found.stamp.traction.work_of_adhesion == 0.05
-    assert found.donor is not None and found.receiver is not None
-
-
 @pytest.mark.slow
 def test_the_example_picks_fast_and_prints_slowly():
     record = ask("window", file=str(EXAMPLE)).record()
@@ -90,19 +78,6 @@ def test_a_wrong_file_is_refused_with_the_place(small, old, new, words):
     small.write_text(SMALL.replace(old, new))
     with pytest.raises(InputError, match=words):
         read_window(small)
-
-
-def test_all_front_ends_answer_alike(small):
-    client = Http()
-    try:
-        found = through_all(Question("window", {"file": "small.toml"}), client)
-    finally:
-        client.close()
-    record = found["Python"].record
-    assert {cell["word"] for cell in record["cells"]} == {"pick and print"}
-    assert record["critical_speeds"] == []
-    for other in found.values():
-        assert other.record == record
 
 
 def test_the_command_writes_tables_and_a_picture(small):

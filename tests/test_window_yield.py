@@ -56,13 +56,6 @@ def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(
     assert off == pytest.approx([-0.01, 0.01], rel=0.03)
 
 
-def test_a_contact_far_from_the_edge_opens_always_or_never():
-    stamp = contact(ELASTIC, work=0.2)
-    scatter = ContactScatter(0.05, 0.05)
-    assert opening_chance(stamp, with_work(stamp, 0.8), scatter).first == 1
-    assert opening_chance(with_work(stamp, 0.8), stamp, scatter).first == 0
-
-
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs(seed):
     stamp = contact(ELASTIC, work=0.2)
