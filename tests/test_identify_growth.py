@@ -59,7 +59,6 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
         assert fit.intervals[name].low < value < fit.intervals[name].high
     assert fit.objective.best(truth).misfit < 1
     assert fit.growth.chance < 1e-3
-    assert "the interface grows with speed" in " ".join(fit.words)
     # the split is that of the crack itself
     slow, fast = fit.growth.shares[0], fit.growth.shares[-1]
     assert fast.bulk * fast.interface == pytest.approx(fast.energy) and fast.interface > 1.5
@@ -81,9 +80,7 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
 def test_a_series_without_growth_is_said_to_need_none(small):
     fit = identify_rates(series(forces(None)), theory=0.005, **CASE, **small)
     assert fit.growth.chance > 0.1
-    assert "growth is not needed" in " ".join(fit.words)
     assert not fit.intervals["exponent"].told
-    assert "exponent of growth: not identifiable" in " ".join(fit.words)
     assert fit.intervals["strengthening"].low == 1.0
 
 

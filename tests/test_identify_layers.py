@@ -111,17 +111,7 @@ def test_the_interval_of_a_simulated_series_on_a_layer_holds_the_truth():
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.05)
 
 
-def test_the_error_of_the_theory_grows_on_thin_layers():
-    body, gap, speeds = layer(0.3), 2 * GAP, SPEEDS[:3]
-    true = forces(body, gap, speeds)
-    fit = identify_rates(series(true, 0.01, speeds), body=body, **CASE)
-    error = np.sqrt(np.diag(fit.covariance) - 0.01**2)
-    pulled = Forward(RUBBER, RADIUS, body=body).pulled(WORK, gap, speeds, PRELOAD)
-    assert np.all(pulled.through > 0.07)
-    assert error == pytest.approx(0.03 + 0.07 * pulled.through, rel=0.05)
-    assert "the sample is a layer of" in " ".join(fit.words)
-
-
+@pytest.mark.slow
 def test_speeds_at_which_the_forces_reach_through_a_layer_are_left_out():
     gap, body, load = 2.3 * GAP, layer(0.3), 5 * PRELOAD
     pulled = Forward(RUBBER, RADIUS, body=body).pulled(WORK, gap, SPEEDS, load)
@@ -154,18 +144,15 @@ def test_what_is_not_known_on_a_layer_is_refused():
         forecast_rates(fit, [1e-5], dwell=1.0, approach_speed=1e-5)
 
 
-def test_a_layer_goes_from_the_command_line_to_a_study_a_forecast_and_a_report(tmp_path, capsys):
+@pytest.mark.slow
+def test_a_layer_goes_from_the_command_line_to_a_study_and_a_forecast(tmp_path, capsys):
     files = [str(RIG / f"lens_{name}_um_s.csv") for name in ("1", "30", "1000")]
-    study, page = tmp_path / "study.toml", tmp_path / "report.html"
+    study = tmp_path / "study.toml"
     layer_of = ["--thickness", "2 mm", "--bonded", "0.49"]
     words = ["--material", "pdms-10-1", "--radius", "5.19 mm", *layer_of, "-o", str(study)]
     assert exit_status(["identify", "rates", *files, *words, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["layer"] == {"thickness_m": 2e-3, "base": "bonded", "poisson_ratio": 0.49}
-    assert 'thickness = "0.002 m"' in study.read_text()
-    speed = ["--speed", "10 um/s"]
-    assert exit_status(["forecast", str(study), *speed, "--json"]) == 0
+    assert exit_status(["forecast", str(study), "--speed", "10 um/s", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["work_of_adhesion_J_m2"] == found["work_of_adhesion_J_m2"]
-    assert exit_status(["report", str(study), *speed, "-o", str(page)]) == 0
-    assert "2 mm thick, bonded, Poisson ratio 0.49" in page.read_text()

@@ -78,15 +78,6 @@ def test_equal_pads_on_a_rigid_backing_carry_as_many_times_one_pad(problem):
     assert found.largest_jump == 12
 
 
-@pytest.mark.parametrize("stiffness", [300.0, pytest.param(3e3, marks=pytest.mark.slow)])
-def test_equal_viscoelastic_pads_share_the_machine_in_equal_parts(stiffness):
-    problem = pad(RUBBER, gap=6e-7)
-    found = pulled(problem, stiffness=12 * stiffness)
-    own = pulled(problem, pad_stiffness=stiffness)
-    assert found.pull_off_force == pytest.approx(12 * alone(problem, stiffness), rel=1e-6)
-    assert own.pull_off_force == pytest.approx(found.pull_off_force, rel=1e-6)
-
-
 def test_on_a_soft_backing_the_weakest_pad_lets_go_first():
     works, heights = [1.1, 0.9, 1.0, 1.05], [0.0, 2e-6, -1e-6, 1e-6]
     places = grid(1, 4, 5e-3)

@@ -26,7 +26,6 @@ from viscotack import (
 from viscotack.app.cli import application
 from viscotack.materials.passport_file import read_passport
 from viscotack.operations import ask
-from viscotack.pictures.window import draw_window
 from viscotack.series import (
     ContactScatter,
     WindowScatter,
@@ -101,7 +100,6 @@ def test_a_file_with_scatter_has_columns_of_probabilities(folder):
     Path("small.toml").write_text(FEW + "\n[scatter]\ndonor = 0.2\nstamp = 0.2\n")
     done = CliRunner().invoke(application(), ["window", "small.toml", "--csv", "map.csv"])
     assert done.exit_code == 0, done.output
-    assert "best transfer" in done.output
     row = next(csv.DictReader(Path("map.csv").read_text().splitlines()))
     expected = NormalDist().cdf(log(50 / 20) / (0.2 * sqrt(2)))
     assert float(row["pick_probability"]) == pytest.approx(expected, abs=5e-3)
@@ -122,19 +120,6 @@ ELASTIC_STAMP = (
 )
 
 
-def test_temperatures_shift_the_times_of_a_passport(folder):
-    Path("warm.toml").write_text(
-        WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "pdms.toml"')
-    )
-    stated = read_window("warm.toml")
-    passport = read_passport(PASSPORT)
-    assert [temperature for temperature, _, _ in stated.variants] == pytest.approx([273.15, 288.15])
-    for temperature, _, each in stated.variants:
-        expected = passport.at_temperature(temperature)
-        assert each.stamp.material == expected
-        assert each.donor == stated.donor
-
-
 @pytest.mark.slow
 def test_a_critical_speed_moves_by_the_shift_factor(folder):
     text = WARM.replace(ELASTIC_STAMP, '[stamp.material]\npassport = "pdms.toml"')
@@ -148,10 +133,6 @@ def test_a_critical_speed_moves_by_the_shift_factor(folder):
     passport = read_passport(PASSPORT)
     ratio = passport.shift_factor(273.15) / passport.shift_factor(288.15)
     assert warm / cold == pytest.approx(ratio, rel=0.02)
-    assert "at 15 degC" in answer.words()
-    figure = draw_window(*answer.found, titles=["cold", "warm"])
-    titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert titles == ["cold", "warm"]
 
 
 def test_temperatures_without_a_shift_are_refused(folder):
