@@ -9,16 +9,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import viscotack as vt
 from picture_units import in_si
-from viscotack import (
-    AtForce,
-    Elastic,
-    LennardJones,
-    Problem,
-    Retraction,
-    Sphere,
-    StandardSolid,
-)
 from viscotack.app.cli import application
 from viscotack.design.holding import held_load
 from viscotack.errors import InputError
@@ -35,29 +27,23 @@ rows = 1
 columns = 3
 spacing = "4 mm"
 heights = ["0 um", "-1 um", "1 um"]
-
 [backing]
 stiffness = "2 kN/m"
 tilt = "0.01 degree"
-
 [pull]
 speed = "10 um/s"
 preload = "6 mN"
-
 [hold]
 mass = "0.3 g"
 safety_factor = 2
-
 [pad.material]
 model = "elastic"
 rubbery_modulus = "1.5 MPa"
 poisson_ratio = 0.5
-
 [pad.interface]
 law = "lennard-jones"
 work_of_adhesion = "150 mJ/m^2"
 equilibrium_gap = "10 nm"
-
 [pad.sphere]
 radius = "5 mm"
 """
@@ -137,9 +123,9 @@ def test_payload_is_the_force_over_gravity_acceleration_and_safety(small):
 
 def test_a_weight_above_the_pull_off_force_is_held_up_to_the_instantaneous_strength():
     E, R, w = 2e6 / 0.75, 3e-3, 0.1
-    solid = StandardSolid(rubbery_modulus=2e6, glassy_modulus=4e7, tau0=0.04, poisson_ratio=0.5)
-    rest = Retraction(AtForce(3e-3), 1e-6)
-    pad = Problem(solid, LennardJones(w, 1e-7), Sphere(R), rest)
+    solid = vt.StandardSolid(rubbery_modulus=2e6, glassy_modulus=4e7, tau0=0.04, poisson_ratio=0.5)
+    rest = vt.Retraction(vt.AtForce(3e-3), 1e-6)
+    pad = vt.Problem(solid, vt.LennardJones(w, 1e-7), vt.Sphere(R), rest)
     array, how = PadArray(pad, grid(1, 1, 0.02)), {"speed": 1e-6, "preload": 3e-3}
     pulled = pull_array(array, **how)
 
@@ -156,7 +142,7 @@ def test_a_weight_above_the_pull_off_force_is_held_up_to_the_instantaneous_stren
     assert held_load(pad, 1e-9) == pytest.approx(strength, rel=0.01)
     assert time(0.95 * strength) > 0 and time(1.1 * strength) == 0
     # elastic pads under a growing interface creep above their force at rest
-    elastic = Elastic(rubbery_modulus=2e6, poisson_ratio=0.5)
+    elastic = vt.Elastic(rubbery_modulus=2e6, poisson_ratio=0.5)
     growing = GentSchultz(w, 1e-7, reference_speed=1e-6, exponent=0.4)
     array = replace(array, pad=replace(pad, material=elastic, traction=growing))
     assert time(1e-3, array) == inf

@@ -5,7 +5,7 @@ import json
 import subprocess
 import zipfile
 from dataclasses import replace
-from math import inf, isnan, nan
+from math import isnan, nan
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +14,6 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.bem.settings import Settings
-from viscotack.bem.stepwise import SteppedSimulation
 from viscotack.control import (
     Release,
     c_header,
@@ -25,7 +23,6 @@ from viscotack.control import (
 )
 from viscotack.control.table import checked
 from viscotack.errors import InputError, OutOfRange
-from viscotack.series.simulated import part_of, posed_contact
 
 PAD = vt.Problem(
     material=vt.StandardSolid(
@@ -86,29 +83,6 @@ def test_the_speed_for_a_force_has_this_force(table):
         assert table.pull_off_force_at(table.speed_for(wanted)) == pytest.approx(wanted, rel=1e-9)
     with pytest.raises(OutOfRange):
         table.speed_for(2 * high)
-
-
-@pytest.mark.parametrize("stiffness", [300.0, inf])
-def test_a_contact_moved_in_pieces_is_the_one_of_a_history(stiffness):
-    groups, unit = PAD.groups(), PAD.scales()
-    spring = stiffness * unit.length / unit.force
-    whole = vt.solve(at(1e-4, stiffness=None if stiffness == inf else stiffness), accuracy=0.002)
-    rate = groups.rate
-    piece = 0.05 / rate
-    settings = Settings.for_accuracy(0.002)
-    posed = posed_contact(PAD, settings)
-    least = settings.first_travel * posed.contact.travel / rate
-    part = part_of(posed, settings, least * unit.time, 60 / rate * unit.time)
-    simulation = SteppedSimulation(part, spring, least_step=least, settings=settings)
-    seen = [simulation.now]
-    while not simulation.apart and len(seen) < 2000:
-        seen.append(simulation.move(-rate, piece))
-    assert simulation.apart
-    assert simulation.tension == pytest.approx(vt.pull_off_force(whole), rel=0.002)
-    before = whole.depth >= vt.pull_off(whole).depth
-    depth, force = np.array([(x.depth, x.force) for x in seen]).T
-    ours = np.interp(-whole.depth[before], -depth, force)
-    assert np.abs(ours - whole.force[before]).max() < 0.005 * vt.pull_off_force(whole)
 
 
 def test_the_controller_lets_go_at_the_wanted_force_where_a_constant_drive_misses(table):

@@ -17,14 +17,12 @@ SMALL = """
 [targets]
 hold = "5 mN"
 release = "2.5 mN"
-
 [bounds]
 radius = "1 mm..4 mm"
 preload = "4 mN"
 hold_speed = "1 mm/s"
 release_speed = "1 um/s"
 pads = 2
-
 [material]
 model = "power-law"
 rubbery_modulus = "1.5 MPa"
@@ -32,7 +30,6 @@ glassy_modulus = "15 MPa"
 exponent = 0.6
 tau0 = "0.1 s"
 poisson_ratio = 0.5
-
 [interface]
 law = "lennard-jones"
 work_of_adhesion = "50 mJ/m^2"

@@ -7,7 +7,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from viscotack import LennardJones, OutOfRange, RetardationPowerLaw, predict
+from viscotack import LennardJones, OutOfRange, RetardationPowerLaw
 from viscotack.design import (
     Bounds,
     Choice,
@@ -56,16 +56,6 @@ def test_the_worst_speed_and_temperature_count(fast):
     assert found.release.value == pytest.approx(2 * slow.value, rel=1e-12)
     alone = Judge(FORCES).judged(choice, fast)
     assert all(found.margins[name] < alone.margins[name] for name in found.margins)
-
-
-def test_the_work_is_that_of_the_prediction(fast):
-    found = Judge(Targets(work=1e-9)).judged(CHOICE, fast)
-    problem = fast.problem(Pad("rubber", 1e-3, 2e-3, 1e-3))
-    known, scale = predict(problem, budget=SURROGATES), problem.scales()
-    joule = scale.force * scale.length
-    assert found.forces["work"].value == pytest.approx(2 * known.work_to_pull_off * joule)
-    low = log(2 * known.work_interval[0] * joule / 1e-9)
-    assert found.margins == {"work": pytest.approx(low)}
 
 
 def test_held_loads_lie_between_the_elastic_and_the_instantaneous_force(short):

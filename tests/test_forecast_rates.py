@@ -136,14 +136,6 @@ def test_times_in_doubt_are_speeds_in_doubt(forward):
     assert np.sqrt(covariance(rows)[0, 0]) == pytest.approx(slope[0] * scatter, rel=0.1)
 
 
-@pytest.mark.slow
-def test_a_warmer_test_is_a_slower_one(fit):
-    warm = forecast_rates(fit, [1e-4], temperature=303.15, theory=0.0)
-    same = forecast_rates(fit, [1e-4 * RUBBER.shift_factor(303.15)], theory=0.0)
-    assert warm.force == pytest.approx(same.force, rel=0.02)
-    assert warm.temperature == 303.15
-
-
 def test_the_posterior_agrees_with_the_profile(fit):
     chain = posterior(fit.objective, fit.best)
     ends = np.quantile(np.log(chain.of("work_of_adhesion")), [0.05, 0.95])

@@ -12,7 +12,6 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import PullOff, forecast_rates, identify_rates
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured
-from viscotack.theory.crack.contact import SpheresOnLayers, profile_of, profile_on
 from viscotack.theory.crack.contact.films import MOST_ZONE
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
@@ -35,23 +34,6 @@ def forces(body, gap=GAP, speeds=SPEEDS):
 def series(values, relative, speeds=SPEEDS):
     pairs = zip(speeds, values, strict=True)
     return [PullOff(float(v), Measured(float(P), relative * float(P))) for v, P in pairs]
-
-
-@pytest.mark.parametrize("base", [GLUED, SLIDING], ids=["bonded", "sliding"])
-def test_one_table_serves_layers_of_all_thicknesses(base):
-    thickness, ball = np.array([0.2, 1.7, 30.0]), vt.Sphere(1.0)
-    layers, a = SpheresOnLayers(thickness, base), 1.3
-    alone = [profile_on(ball, vt.Layer(b, base)) for b in thickness]
-    for name in ("depth", "drawn", "relaxed_depth", "relaxed_force"):
-        found = getattr(layers, name)(np.full(3, a))
-        expected = [float(getattr(one, name)(a)) for one in alone]
-        assert found == pytest.approx(expected, rel=1e-5)
-    assert layers.elastic_radius == pytest.approx([one.elastic_radius for one in alone])
-    load = np.array([0.5, 20.0, 300.0])
-    assert layers.relaxed_force(layers.radius_at_force(load)) == pytest.approx(load, rel=1e-6)
-    # below the table's smallest radius
-    thick, whole = SpheresOnLayers(np.array([1e6]), base), profile_of(ball)
-    assert thick.relaxed_force(a) == pytest.approx(float(whole.relaxed_force(a)), rel=1e-3)
 
 
 def test_a_very_thick_layer_gives_the_half_space():

@@ -83,21 +83,6 @@ def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
         assert one.criterion > fit.best.criterion + 20 and one.intervals == {}
 
 
-@pytest.mark.slow
-def test_without_contact_radii_the_range_is_weakly_determined():
-    known = (LENS["contact_modulus"], 0.05 * LENS["contact_modulus"])
-    by_depth = identify_slow(
-        of_maugis(1.5, 3, against="depth"), models=["maugis"], contact_modulus=known
-    )
-    with pytest.raises(InputError, match="has no depth"):
-        identify_slow(of_maugis(1.5, 3, against="depth"), models=["carpick"])
-    assert by_depth.best.work_of_adhesion == pytest.approx(0.152, rel=0.05)
-    by_radius = identify_slow(of_maugis(1.5, 3), models=["maugis"], contact_modulus=known)
-    ends = next(x for x in by_depth.fits if x.model == "maugis").intervals["tabor"]
-    other = by_radius.best.intervals["tabor"]
-    assert ends.high / ends.low > 1.5 * other.high / other.low
-
-
 @pytest.mark.parametrize("modulus, contradicts", [(1.5e6, True), (1.95e6, False)])
 def test_a_modulus_that_the_test_contradicts_leaves_an_upper_bound(modulus, contradicts):
     fit = identify_slow(of_jkr(1), models=["jkr"], contact_modulus=(modulus, 0.03 * modulus))
@@ -148,21 +133,15 @@ def test_works_of_models_that_the_data_do_not_distinguish_are_all_given(noise, u
 
 def test_a_profile_of_a_parabola_is_its_width():
     data = np.array([1.0, 2.0, 4.0])
-    objective = Objective(
-        lambda values: (values["mean"] - data) / 0.5,
-        (Parameter("mean", -100.0, 100.0, 0.0, logarithmic=False),),
-    )
+    mean = Parameter("mean", -100.0, 100.0, 0.0, logarithmic=False)
+    objective = Objective(lambda values: (values["mean"] - data) / 0.5, (mean,))
     best = objective.best()
     assert best.values["mean"] == pytest.approx(data.mean(), rel=1e-6)
-    ends = objective.interval("mean", best, level=0.9)
-    half = 1.6449 * 0.5 / np.sqrt(3)
+    ends, half = objective.interval("mean", best, level=0.9), 1.6449 * 0.5 / np.sqrt(3)
     assert (ends.low, ends.high) == pytest.approx(
-        (data.mean() - half, data.mean() + half), rel=2e-2
+        (best.values["mean"] - half, best.values["mean"] + half), rel=2e-2
     )
-    assert ends.told
-    assert objective.log_density(np.array([200.0])) == -np.inf
-    prior = Parameter("mean", -100.0, 100.0, 0.0, logarithmic=False, prior=(0.0, 0.5))
-    pulled = Objective(objective.residuals, (prior,)).best()
+    pulled = Objective(objective.residuals, (replace(mean, prior=(0.0, 0.5)),)).best()
     assert pulled.values["mean"] == pytest.approx(data.sum() / 4, rel=1e-6)
 
 

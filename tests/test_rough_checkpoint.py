@@ -60,14 +60,10 @@ def assert_same(found, whole):
     assert found.summary == whole.summary
     assert found.error_estimate == whole.error_estimate
     assert found.events == whole.events
-    for one, other in zip(
-        (found.strongest, *found.maps), (whole.strongest, *whole.maps), strict=True
-    ):
+    maps = zip((found.strongest, *found.maps), (whole.strongest, *whole.maps), strict=True)
+    for one, other in maps:
         assert np.array_equal(one.gap, other.gap)
         assert np.array_equal(one.pressure, other.pressure)
-    assert len(found.maps) == len(whole.maps)
-    counts = ("steps", "newton_iterations", "rejected_steps", "modes")
-    assert [found.statistics[n] for n in counts] == [whole.statistics[n] for n in counts]
 
 
 @pytest.mark.parametrize("share", [0.3, pytest.param(0.8, marks=pytest.mark.slow)])

@@ -15,8 +15,6 @@ from viscotack.operations import ask
 from viscotack.rough import read_rough
 from viscotack.surfaces import (
     HeightMap,
-    bumps,
-    pillars,
     read_map,
     roughness,
     self_affine,
@@ -30,17 +28,14 @@ file = "map.csv"
 pixel = "10 um"
 height_unit = "1 um"
 level = true
-
 [material]
 model = "elastic"
 rubbery_modulus = "0.75 MPa"
 poisson_ratio = 0.5
-
 [interface]
 law = "lennard-jones"
 work_of_adhesion = "100 mJ/m^2"
 equilibrium_gap = "1.5 um"
-
 [protocol]
 preload_depth = "1 um"
 speed = "20 um/s"
@@ -168,13 +163,3 @@ def test_levelling_removes_tilt_and_curvature():
     flat = (cap + ramp).levelled(curvature=True)
     assert np.abs(flat.heights).max() < 1e-18
     assert roughness(cap).rms_curvature == pytest.approx(1e3, rel=1e-6)
-
-
-def test_bumps_and_pillars_repeat():
-    made = bumps(32, 1e-6, radius=2e-5, spacing=8e-6, height=1e-6)
-    assert made.heights[:8] == pytest.approx(made.heights[8:16], abs=1e-18)
-    assert made.heights == pytest.approx(made.heights.T, abs=1e-18)
-    tops = pillars(32, 1e-6, radius=2e-6, spacing=8e-6, height=1e-6)
-    assert np.unique(tops.heights).tolist() == [0.0, 1e-6]
-    with pytest.raises(InputError, match="multiple of the spacing"):
-        pillars(32, 1e-6, radius=2e-6, spacing=7e-6, height=1e-6)

@@ -116,18 +116,6 @@ def test_the_band_is_that_of_direct_predictions(lens):
     assert lens.interpolation_error < 1e-3
 
 
-def test_indices_are_shares_and_the_same_for_another_seed(lens):
-    other = vt.uncertainty(CASE, {RADIUS: 0.05, WORK: 0.1, SPEED: 0.3}, samples=64, seed=7)
-    for found in (lens, other):
-        assert list(found.first) == [RADIUS, WORK, SPEED, TIER]
-        assert sum(found.first.values()) == pytest.approx(1, abs=0.02)
-        assert all(found.total[x] > found.first[x] - 0.01 > -0.02 for x in found.first)
-        assert found.index_error < 0.02 and sum(found.methods.values()) == 64
-    for name in lens.first:
-        assert abs(lens.first[name] - other.first[name]) < 0.02
-        assert abs(lens.total[name] - other.total[name]) < 0.02
-
-
 @pytest.mark.parametrize(
     "deviations, more, words",
     [

@@ -9,31 +9,18 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import viscotack as vt
 from test_window import ELASTIC, contact, with_work
 from test_window_file import CONTACT, PULL, SMALL
-from viscotack import (
-    Apart,
-    Approach,
-    AtForce,
-    Dwell,
-    InputError,
-    Problem,
-    Retraction,
-    Sphere,
-    pull_off_force,
-    solve,
-)
 from viscotack.app.cli import application
 from viscotack.materials.passport_file import read_passport
 from viscotack.operations import ask
 from viscotack.series import (
     ContactScatter,
-    WindowScatter,
     aged,
     drawn_openings,
     opening_chance,
     read_window,
-    window_yield,
 )
 from viscotack.traction import SaturatingAgeing
 
@@ -62,28 +49,6 @@ def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs(seed):
     share = drawn_openings(*pair, scatter, draws=300, seed=seed)
     chance = opening_chance(*pair, scatter).first
     assert share == pytest.approx(chance, abs=3 * sqrt(chance * (1 - chance) / 300))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("speed", [1.4e-5, 1.8e-5, 2.3e-5])
-def test_the_chance_by_critical_works_is_the_share_of_drawn_viscoelastic_pairs(speed):
-    pair = contact(ELASTIC, work=0.4, speed=speed), contact(speed=speed)
-    scatter = ContactScatter(0.1, 0.1, 0.2)
-    share = drawn_openings(*pair, scatter, draws=200, seed=4)
-    chance = opening_chance(*pair, scatter).first
-    assert share == pytest.approx(chance, abs=3 * sqrt(0.25 / 200))
-
-
-def test_cells_that_steady_cracks_do_not_cover_have_the_reason_for_no_yield():
-    (cell,) = window_yield(
-        contact(gap=3e-5),
-        donor=contact(ELASTIC, work=0.4),
-        speeds=[1e-5],
-        preloads=[2e-3],
-        scatter=WindowScatter(stamp=0.05),
-    )
-    assert cell.pick is None
-    assert "simulate" in cell.why
 
 
 FEW = SMALL.replace('"1 um/s..100 um/s"', '"10 um/s"')
@@ -143,7 +108,7 @@ def test_temperatures_without_a_shift_are_refused(folder):
             'glassy_modulus = "20 MPa"\ntau0 = "1 s"\npoisson_ratio = 0.5',
         )
     )
-    with pytest.raises(InputError, match="need the shift of the times"):
+    with pytest.raises(vt.InputError, match="need the shift of the times"):
         read_window("warm.toml")
 
 
@@ -166,11 +131,11 @@ def test_a_stamp_that_ages_prints_after_a_short_dwell_and_holds_after_a_long_one
 @pytest.mark.slow
 def test_an_aged_contact_pulls_off_as_the_simulation_with_its_dwell():
     law = SaturatingAgeing(0.15, 2e-6, reference_time=10.0, largest_growth=1.0)
-    history = (Approach(1e-4, AtForce(2e-3)), Dwell(10.0))
-    test = Retraction(start=Apart(3e-5), speed=1e-4, moves=history)
-    problem = Problem(ELASTIC, law, Sphere(5e-3), test)
+    history = (vt.Approach(1e-4, vt.AtForce(2e-3)), vt.Dwell(10.0))
+    test = vt.Retraction(start=vt.Apart(3e-5), speed=1e-4, moves=history)
+    problem = vt.Problem(ELASTIC, law, vt.Sphere(5e-3), test)
     forces = [
-        pull_off_force(solve(each, accuracy=0.01, estimate_error=False)) * each.scales().force
+        vt.pull_off_force(vt.solve(each, accuracy=0.01, estimate_error=False)) * each.scales().force
         for each in (problem, aged(problem, 10.0))
     ]
     assert forces[0] == pytest.approx(forces[1], rel=0.05)
