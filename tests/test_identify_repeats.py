@@ -67,6 +67,7 @@ def test_a_test_far_from_its_repeats_counts_little_and_is_named():
     assert found[0].force.value == pytest.approx(size, rel=0.02)
 
 
+@pytest.mark.slow
 def test_scatter_from_speed_to_speed_widens_intervals_to_hold_the_truth():
     noise = np.array([1.09, 0.92, 1.08, 0.93, 1.08, 0.91])
     case = {"material": RUBBER, "radius": RADIUS, "theory": 0.005}

@@ -58,6 +58,7 @@ def test_intervals_cover_the_true_value_at_their_stated_probability():
     assert inside >= 30
 
 
+@pytest.mark.slow
 def test_of_a_short_range_the_data_tell_only_that_it_is_short():
     fit = identify_slow(of_jkr(1), models=["jkr", "maugis"])
     assert fit.best.model == "jkr"

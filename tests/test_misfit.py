@@ -56,7 +56,8 @@ def test_a_forecast_from_tests_that_no_linear_solid_explains_holds_them_and_says
         assert row["low_N"] < 1e-3 * force < row["high_N"] < 1.7 * row["low_N"]
 
 
-@pytest.mark.parametrize("misfit", [pytest.param(1.9, marks=pytest.mark.slow), 2.1])
+@pytest.mark.slow
+@pytest.mark.parametrize("misfit", [1.9, 2.1])
 def test_a_misfit_above_twice_the_uncertainty_is_said_first(misfit):
     forces = linear(SPEEDS) * ZIGZAG
     fit = found(forces, 0.01 * found(forces, 0.01).scatter / misfit)
