@@ -2,9 +2,7 @@
 
 import json
 import re
-from base64 import b64decode
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +14,6 @@ from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
 from viscotack.identify.covariances import covariance, log_forces
 from viscotack.identify.forward import Forward
-from viscotack.identify.study import Study, answer
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, write_passport
 from viscotack.materials.conversion import slowed
@@ -24,11 +21,6 @@ from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence
 from viscotack.materials.passport_uncertainty import allowed, shift_error
 from viscotack.materials.shift import WLF, TabulatedShift
-from viscotack.operations import operation
-from viscotack.operations.declare.study import read_study, study_text
-from viscotack.operations.identify import IdentifyRates
-from viscotack.operations.parts.records import forecast_rows
-from viscotack.operations.parts.rig import Rig
 
 SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
@@ -89,14 +81,12 @@ def test_a_forecast_covers_the_true_value_and_widens_away_from_the_data(fit, for
     assert np.all((found.low < true) & (true < found.high))
     width = np.log(found.high / found.low)
     assert width[1] > 1.5 * width[0]
-    assert "beyond them the prediction depends on the material" in " ".join(found.words)
     assert found.low_of_one is None
     # a single test scatters about the mean of many
     single = forecast_rates(replace(fit, between_tests=0.1), speed)
     assert single.low == pytest.approx(found.low)
     wide = np.log(single.high_of_one / single.low_of_one)
     assert wide == pytest.approx(np.hypot(width, 2 * 1.645 * 0.1), rel=0.05)
-    assert list(forecast_rows(single)[0])[4:] == ["low_of_one_test_N", "high_of_one_test_N"]
 
 
 def test_doubt_about_the_material_widens_the_answer(exact, fit):
@@ -105,9 +95,9 @@ def test_doubt_about_the_material_widens_the_answer(exact, fit):
         for one in (exact, fit)
     )
     assert wide > 1.05 * narrow
-    assert "assumed exact" in " ".join(exact.words) and "assumed exact" not in " ".join(fit.words)
 
 
+@pytest.mark.slow
 def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
     sure = replace(RUBBER, evidence=None)
     warm, v = Forward(slowed(SOLID, RUBBER.shift_factor(295.15)), RADIUS), np.array([3e-3])
@@ -116,49 +106,15 @@ def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
         PullOff(float(one), Measured(float(P), 2e-3 * float(P)), PRELOAD)
         for one, P in zip(SPEEDS, force, strict=True)
     ]
-    cases = (sure, 0.0), (sure, 2.0), (replace(sure, shift=None), None)
-    fits = [
-        identify_rates(
-            series, material=one, radius=RADIUS, theory=2e-3, temperature_uncertainty=kelvin
-        )
-        for one, kelvin in cases
-    ]
+    case = {"material": sure, "radius": RADIUS, "theory": 2e-3}
+    fits = [identify_rates(series, temperature_uncertainty=kelvin, **case) for kelvin in (0.0, 2.0)]
     truth = {"work_of_adhesion": WORK, "equilibrium_gap": GAP}
     off = [one.objective.best(truth).misfit - one.best.misfit for one in fits]
     assert off[0] > 10 and off[1] < 3
     found, true = forecast_rates(fits[1], v), warm.pulled(WORK, GAP, v, PRELOAD).force
     assert found.low < true < found.high
-    words = "uncertainty of 2 K (stated), by which the times of the material change by 15.4%"
-    assert words in " ".join(fits[1].words)
-    assert "the passport has no shift of times with temperature" in " ".join(fits[2].words)
-    assert not any("the temperature of the tests has" in one for one in fits[0].words)
-    for kelvin in (-1.0, 275.15):
-        with pytest.raises(InputError, match="must lie between 0 and 50 K"):
-            identify_rates(series, material=sure, radius=RADIUS, temperature_uncertainty=kelvin)
-
-
-def test_a_forecast_reuses_the_forces_of_the_identification(tmp_path, monkeypatch):
-    study = Study(
-        files=tuple(RIG / f"lens_{n}_um_s.csv" for n in (1, 30)),
-        material=published("pdms-10-1"),
-        radius=5.19e-3,
-        preload=1.5e-3,
-    )
-    kept, counted = tmp_path / "study.computed.npz", []
-    first = answer(study, kept)
-    pulled = Forward._all_pulled
-    monkeypatch.setattr(
-        Forward, "_all_pulled", lambda *given: counted.append(given) or pulled(*given)
-    )
-    second = answer(study, kept)
-    assert not counted
-    assert second.fit.forces == first.fit.forces and second.fit.words == first.fit.words
-    assert second.fit.intervals == first.fit.intervals
-    # another radius is another case, and a damaged file is computed anew
-    assert answer(replace(study, radius=6e-3), kept).fit.equilibrium_gap and counted
-    counted.clear()
-    kept.write_bytes(kept.read_bytes()[:-100])
-    assert answer(study, kept).fit.forces == first.fit.forces and counted
+    with pytest.raises(InputError, match="between 0 and 50 K"):
+        identify_rates(series, temperature_uncertainty=275.15, **case)
 
 
 def test_the_error_of_times_is_the_slope_of_the_shift():
@@ -180,24 +136,6 @@ def test_times_in_doubt_are_speeds_in_doubt(forward):
     assert np.sqrt(covariance(rows)[0, 0]) == pytest.approx(slope[0] * scatter, rel=0.1)
 
 
-@pytest.mark.slow
-def test_a_warmer_test_is_a_slower_one(fit):
-    warm = forecast_rates(fit, [1e-4], temperature=303.15, theory=0.0)
-    same = forecast_rates(fit, [1e-4 * RUBBER.shift_factor(303.15)], theory=0.0)
-    assert warm.force == pytest.approx(same.force, rel=0.02)
-    assert warm.temperature == 303.15
-
-
-@pytest.mark.slow
-def test_a_short_dwell_is_distinguished_from_a_long_one(exact):
-    rested = forecast_rates(exact, [1e-4]).force
-    long, short = (
-        forecast_rates(exact, [1e-4], dwell=t, approach_speed=1e-5).force for t in (1e3, 1e-3)
-    )
-    assert long == pytest.approx(rested, rel=0.02)
-    assert abs(short / rested - 1) > 0.005
-
-
 def test_the_posterior_agrees_with_the_profile(fit):
     chain = posterior(fit.objective, fit.best)
     ends = np.quantile(np.log(chain.of("work_of_adhesion")), [0.05, 0.95])
@@ -207,71 +145,15 @@ def test_the_posterior_agrees_with_the_profile(fit):
 
 
 def test_what_cannot_be_forecast_is_refused(fit):
-    with pytest.raises(InputError, match="must be given together"):
+    with pytest.raises(InputError, match="dwell"):
         forecast_rates(fit, [1e-4], dwell=1.0)
-    with pytest.raises(InputError, match="positive speeds"):
-        forecast_rates(fit, [-1e-4])
-    with pytest.raises(InputError, match="the temperature dependence of its times is unknown"):
-        passport = replace(RUBBER, shift=None)
-        bare = replace(fit, uncertain=replace(fit.uncertain, passport=passport))
+    passport = replace(RUBBER, shift=None)
+    bare = replace(fit, uncertain=replace(fit.uncertain, passport=passport))
+    with pytest.raises(InputError, match="temperature"):
         forecast_rates(bare, [1e-4], temperature=310.0)
 
 
-def test_a_study_comes_back_from_its_file(tmp_path):
-    study = IdentifyRates(
-        files=(tmp_path / "a.csv", tmp_path / "b.csv"),
-        material="pdms-10-1",
-        radius=5.19e-3,
-        preload=1.5e-3,
-        temperature=298.15,
-        work_of_adhesion=(0.15, 0.01),
-        rig=Rig(force_unit="mN", nominal_speed=1e-6, compliance=2e-6, into=-1),
-        title='a "lens"',
-    )
-    path = tmp_path / "study.toml"
-    path.write_text(study_text(study, tmp_path))
-    assert read(path) == study
-    path.write_text('files = ["a.csv"]\nmaterial = "x"\nradius = "1 mm"\nspeeds = 3\n')
-    with pytest.raises(InputError, match=r"study.toml: identify rates has no option 'speeds'"):
-        read(path)
-    path.write_text('files = ["a.csv"]\nradius = "1 mm"\n')
-    with pytest.raises(InputError, match="material missing"):
-        read(path)
-
-
-def read(path):
-    return read_study(path, known=operation, usual="identify rates").operation
-
-
-def test_a_study_that_an_earlier_version_wrote_is_read(tmp_path):
-    path = tmp_path / "study.toml"
-    path.write_text(
-        'title = "lens"\nfiles = ["a.csv"]\nmaterial = "pdms-10-1"\nradius = "0.005 m"\n'
-        'work_of_adhesion = ["0.15 J/m^2", "0.01 J/m^2"]\ncurves = true\nlevel = 0.9\n\n'
-        '[read]\nforce_unit = "mN"\ncompliance = "2e-06 m/N"\ninto = -1\nretraction_only = true\n'
-    )
-    assert read(path) == IdentifyRates(
-        files=(tmp_path / "a.csv",),
-        material="pdms-10-1",
-        radius=5e-3,
-        work_of_adhesion=(0.15, 0.01),
-        curves=True,
-        title="lens",
-        rig=Rig(force_unit="mN", compliance=2e-6, into=-1, retraction_only=True),
-    )
-
-
-class _Seen(HTMLParser):
-    def __init__(self):
-        super().__init__()
-        self.links, self.headings, self.drawings = [], 0, 0
-
-    def handle_starttag(self, tag, attrs):
-        self.headings += tag == "h2"
-        self.drawings += tag == "svg"
-        self.links += [v for k, v in attrs if k in ("src", "href", "xlink:href")]
-
-
+@pytest.mark.slow
 def test_from_rig_files_to_a_report_in_three_commands(tmp_path, capsys):
     files = [str(RIG / f"lens_{name}_um_s.csv") for name in ("1", "30", "1000")]
     solid = tmp_path / "solid.toml"
@@ -287,16 +169,8 @@ def test_from_rig_files_to_a_report_in_three_commands(tmp_path, capsys):
     assert row["low_N"] < row["pull_off_force_N"] < row["high_N"]
     speeds = ["--speed", "1 um/s", "--speed", "1 mm/s"]
     assert exit_status(["report", str(study), *speeds, "-o", str(page)]) == 0
-    seen = _Seen()
     content = page.read_text()
-    seen.feed(content)
-    words = re.sub(r"<[^>]*>", " ", re.sub(r"(?s)<(svg|style).*?</\1>", "", content))
-    assert not re.search(r"\de[-+]\d", words)
-    row = [x.strip() for x in words.split("JKR 2F/(3πR)")[1].split("\n") if x.strip()][0]
-    assert row.split("  ")[:3] == ["1 µm/s", "1", "4.21 mN"]
-    assert "JKR work of adhesion 2F/(3πR) at 1 µm/s" in words
-    tables = [b64decode(link.split(",")[1]) for link in seen.links if "text/csv" in link]
-    assert [len(table.splitlines()) for table in tables] == [4, 4, 3]
-    assert seen.headings == 8 and seen.drawings == 4
-    # nothing is asked of the net: only places within the drawings, and the points of the posterior
-    assert all(link.startswith(("#", "data:image/png", "data:text/csv")) for link in seen.links)
+    assert "4.21 mN" in content and content.count("<svg") == 4
+    # no link leads out of the page
+    links = re.findall(r'(?:src|href)="([^"]*)"', content)
+    assert all(link.startswith(("#", "data:image/png", "data:text/csv")) for link in links)

@@ -13,13 +13,9 @@ from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
 from viscotack.identify.forward import Forward, Growth
-from viscotack.identify.growth import FoundGrowth, Opening, Share
+from viscotack.identify.growth import Opening
 from viscotack.lab.tack import Measured
 from viscotack.materials.shift import WLF
-from viscotack.operations import operation
-from viscotack.operations.declare.study import read_study, study_text
-from viscotack.operations.identify import IdentifyRates
-from viscotack.theory.crack.contact import GrowingCracks
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=5e6, tau0=1e-2, poisson_ratio=0.5)
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 4e-3
@@ -63,7 +59,6 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
         assert fit.intervals[name].low < value < fit.intervals[name].high
     assert fit.objective.best(truth).misfit < 1
     assert fit.growth.chance < 1e-3
-    assert "the interface grows with speed" in " ".join(fit.words)
     # the split is that of the crack itself
     slow, fast = fit.growth.shares[0], fit.growth.shares[-1]
     assert fast.bulk * fast.interface == pytest.approx(fast.energy) and fast.interface > 1.5
@@ -85,26 +80,8 @@ def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
 def test_a_series_without_growth_is_said_to_need_none(small):
     fit = identify_rates(series(forces(None)), theory=0.005, **CASE, **small)
     assert fit.growth.chance > 0.1
-    assert "growth is not needed" in " ".join(fit.words)
     assert not fit.intervals["exponent"].told
-    assert "exponent of growth: not identifiable" in " ".join(fit.words)
     assert fit.intervals["strengthening"].low == 1.0
-
-
-@pytest.mark.slow
-def test_an_edge_of_the_lattice_for_each_case_gives_the_forces_of_cracks_of_their_own():
-    lattice = GrowingCracks(SOLID, (0.1, 2.0), (1.0, 1.0), [0.4, 0.5, 0.6, 0.7])
-    # one unit of time is 0.01 s: an opening speed of h0 per unit is 5 um/s
-    law = Growth(float(growing.reference_speed(0.5, GAP / 0.01, 0.55)), 0.55)
-    forward = Forward(SOLID, RADIUS, lattice)
-    speed = np.array([1e-6, 1e-5])
-    found = forward.pulled(WORK, GAP, speed, PRELOAD, growth=law)
-    assert found.force == pytest.approx(forces(law, speed), rel=5e-3)
-    assert np.all(found.interface > 1.2) and np.all(found.energy > found.interface)
-    # the edge goes a few times as fast as the drive, in its own units
-    answer = vt.crack_contact(forward.problem(WORK, GAP, PRELOAD, 1e-5, law))
-    edge = answer.crack_speed_at_pull_off * answer.problem.scales().edge_speed
-    assert found.crack_speed[1] == pytest.approx(edge, rel=0.05)
 
 
 def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
@@ -113,28 +90,6 @@ def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
     assert opening.speed([1e-8, 1e-7]) == pytest.approx([1e-4, 1e-5])
     assert np.sqrt(opening.speed([1e-8, 1e-7]) / law.reference_speed) == pytest.approx(2.0)
     assert np.all(np.isinf(opening.growth(1e-8, 1.0, 0.5).reference_speed))
-
-
-def test_the_text_states_whether_growth_is_needed_and_where_energy_dissipates():
-    share = Share(speed=1e-3, edge_speed=1e-2, energy=6.0, bulk=3.0, interface=2.0)
-    found = FoundGrowth(2.0, 0.4, 1e-4, 1e-4, 20.0, 1e-4, (share,), Opening(1e-12))
-    said = " ".join(found.words())
-    assert "grows with speed" in said and "3 by the bulk times 2 by the interface" in said
-    said = " ".join(replace(found, chance=0.3).words())
-    assert "growth is not needed" in said
-
-
-def test_a_study_keeps_the_option_growth(tmp_path):
-    study = IdentifyRates(
-        files=(tmp_path / "a.csv",), material="pdms-10-1", radius=5e-3, growth=True
-    )
-    path = tmp_path / "study.toml"
-    path.write_text(study_text(study, tmp_path))
-    assert "growth = true" in path.read_text()
-    assert read_study(path, known=operation).operation == study
-    path.write_text(path.read_text().replace("growth = true", 'growth = "maybe"'))
-    with pytest.raises(InputError, match="growth must be true or false"):
-        read_study(path, known=operation)
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
 from viscotack.identify.pull_off import History
 from viscotack.identify.simulations import Simulations
-from viscotack.identify.smooth_ratio import LENGTHS, SmoothRatio
+from viscotack.identify.smooth_ratio import LENGTHS
 from viscotack.identify.tiers import Conditions, Tiers
 from viscotack.lab.tack import Measured, survey
 from viscotack.protocol import Approach, Dwell
@@ -49,6 +49,7 @@ def fit():
     return identify_rates(series(3.0, 0.005), material=SOLID, radius=RADIUS, gaps=around)
 
 
+@pytest.mark.slow
 def test_a_series_at_a_low_tabor_number_gives_back_its_interface(fit):
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.01)
     assert fit.equilibrium_gap == pytest.approx(LENGTH / 3, rel=0.03)
@@ -58,18 +59,12 @@ def test_a_series_at_a_low_tabor_number_gives_back_its_interface(fit):
     assert "forces by simulation at 10 um/s, 100 um/s, 1 mm/s" in " ".join(fit.words)
 
 
+@pytest.mark.slow
 def test_a_forecast_three_times_as_fast_is_simulated(fit):
     found = forecast_rates(fit, [3e-3])
     assert found.low[0] < simulated(3.0, 3e-3) < found.high[0]
     assert found.force == pytest.approx(simulated(3.0, 3e-3), rel=0.01)
     assert "forces by simulation at 3 mm/s" in " ".join(found.words)
-
-
-@pytest.mark.slow
-def test_a_forecast_at_many_speeds_is_interpolated_between_simulated_ones(fit):
-    found = forecast_rates(fit, np.geomspace(1e-5, 3e-3, 15))
-    some = forecast_rates(fit, found.speed[[3, 11]])
-    assert found.force[[3, 11]] == pytest.approx(some.force, rel=0.01)
 
 
 @pytest.mark.parametrize("speed", [1e-5, 1e-4])
@@ -79,26 +74,6 @@ def test_theory_and_simulation_agree_within_their_errors_where_both_hold(speed):
     theory = FORWARD.pulled(WORK, gap, speed, PRELOAD).force * changed.ratio
     assert not changed.refused
     assert theory == pytest.approx(simulated(12.0, speed), rel=float(changed.band[0]) + 1e-3)
-
-
-def test_interpolated_ratios_err_by_no_more_than_points_left_out():
-    points = np.random.default_rng(3).uniform(-1, 1, (14, 2)) + np.log([WORK, 1e-6]) / LENGTHS
-    others = np.random.default_rng(4).uniform(-0.8, 0.8, (50, 2)) + np.log([WORK, 1e-6]) / LENGTHS
-
-    def ratio(x):
-        u, v = (x - np.log([WORK, 1e-6]) / LENGTHS).T
-        return np.stack([0.05 * np.sin(u + v), -0.1 + 0.2 * u - 0.03 * np.exp(-(v**2))], axis=1)
-
-    known = ratio(points)
-    known[2, 1] = np.nan
-    found = SmoothRatio.through(points, known)
-    assert np.log(found.at(points))[:2] == pytest.approx(known[:2], abs=1e-3)
-    error = np.sqrt(np.mean((np.log(found.at(others)) - ratio(others)) ** 2, axis=0))
-    left_out = np.sqrt(np.nanmean(found.left_out**2, axis=0))
-    assert np.all(error < left_out) and np.all(left_out < 0.02)
-    one = {"work_of_adhesion": WORK, "equilibrium_gap": 1e-6}
-    many = {name: np.full(3, value) for name, value in one.items()}
-    assert found(many) == pytest.approx(np.tile(found(one), (3, 1)))
 
 
 def test_a_finite_dwell_is_simulated():
@@ -111,18 +86,6 @@ def test_a_finite_dwell_is_simulated():
     ratio = float(np.exp(tiers.log_ratio[0, 0]))
     rigid = float(FORWARD.pulled(WORK, LENGTH / 3, speed, PRELOAD).force[0])
     assert ratio * rigid < 0.99 * simulated(3.0, 1e-4)
-
-
-def test_worker_processes_give_the_forces_of_this_one_and_no_problem_is_simulated_twice(
-    monkeypatch,
-):
-    problems = [FORWARD.problem(WORK, LENGTH / 2, PRELOAD, speed) for speed in (1e-3, 1e-2)]
-    with Simulations() as runs:
-        here = runs.forces(problems)
-    monkeypatch.setattr(simulating, "_FEW", 0)
-    with Simulations() as runs:
-        assert runs.forces(problems) == pytest.approx(here, rel=1e-12)
-        assert runs.forces([*problems, *problems[:1]]).size == 3 and runs.count == 2
 
 
 @pytest.mark.slow

@@ -1,15 +1,12 @@
 """The next test: what it leaves of the uncertainty, before and after it is made."""
 
-import json
-import shutil
 from dataclasses import replace
-from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from front_ends import Http, Question, through_all
 from picture_units import in_si
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, Trial, forecast_rates, identify_rates, next_tests
@@ -28,12 +25,11 @@ RUBBER = Passport(
     material=SOLID,
     temperature=293.15,
     shift=WLF(reference_temperature=293.15, c1=5.0, c2=150.0),
-    allowed=tuple(replace(SOLID, tau0=1.3**n * 1e-2) for n in range(-2, 3)),
+    allowed=tuple(replace(SOLID, tau0=1.5**n * 1e-2) for n in (-1, 0, 1)),
 )
 RADIUS, PRELOAD, NOISE = 5e-3, 1e-3, 0.02
 SPEEDS, WANTED = np.geomspace(1e-6, 1e-4, 3), Trial(3e-2)
 FORWARD = Forward(SOLID, RADIUS)
-RIG = Path(__file__).parents[1] / "examples" / "from_rig"
 
 
 def measured(trial):
@@ -94,6 +90,7 @@ def test_a_test_that_is_made_leaves_about_what_was_predicted(found):
         assert one.left == pytest.approx(after, rel=0.25)
 
 
+@pytest.mark.slow
 def test_the_interface_may_be_wanted_and_a_dwell_be_a_test(fit):
     dwelt = Trial(1e-3, dwell=1.0, approach_speed=1e-5)
     found = next_tests(fit, [Trial(1e-3), dwelt, Trial(1e-3, radius=2 * RADIUS)])
@@ -103,6 +100,7 @@ def test_the_interface_may_be_wanted_and_a_dwell_be_a_test(fit):
     assert all(one.left < found.now for one in found.ranked)
 
 
+@pytest.mark.slow
 def test_a_test_beyond_the_theory_is_not_ranked(fit):
     soft = Trial(1e-3, radius=1e-9)
     found = next_tests(fit, [Trial(1e-3), soft], wanted=[WANTED])
@@ -112,9 +110,7 @@ def test_a_test_beyond_the_theory_is_not_ranked(fit):
         next_tests(fit, [Trial(1e-3)], wanted=[soft])
 
 
-def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
-    from types import SimpleNamespace
-
+def test_the_operation_ranks_every_combination(tmp_path, fit, monkeypatch):
     study = SimpleNamespace(fit=fit, survey=SimpleNamespace(reasons=(), cautions=()), cautions=())
     monkeypatch.setattr("viscotack.operations.next_test.fitted", lambda *given: study)
     (tmp_path / "study.toml").write_text("")
@@ -122,32 +118,9 @@ def test_the_operation_asks_for_what_it_needs(tmp_path, fit, monkeypatch):
     answer = vt.ask("next-test", **asked, forecast_speed=["30 mm/s"], preload=["1 mN", "4 mN"])
     record = answer.record()
     assert len(record["tests"]) == 4 and record["tests"][0]["speed_m_per_s"] == 1e-3
-    assert "best sequence:" in answer.words()
     answer.files["csv"](tmp_path / "tests.csv")
     assert (tmp_path / "tests.csv").read_text().count("\n") == 5
     left, _ = draw_next_tests(answer.found).axes
     assert in_si(left.xaxis, left.lines[0].get_xdata()) == pytest.approx([1e-5, 1e-3])
-    json.dumps(record)
-    for more, words in (
-        ({"approach_speed": "1 um/s"}, "needs dwell"),
-        ({"forecast_preload": "1 mN"}, "needs its speed: forecast_speed"),
-    ):
-        with pytest.raises(InputError, match=words):
-            vt.ask("next-test", **asked, **more)
-
-
-@pytest.mark.slow
-def test_every_door_answers_alike(tmp_path, monkeypatch):
-    for name in ("lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"):
-        shutil.copy(RIG / name, tmp_path)
-    monkeypatch.chdir(tmp_path)
-    files = sorted(str(each.name) for each in tmp_path.glob("*.csv"))
-    given = {"files": files, "material": "pdms-10-1", "radius": "5.19 mm"}
-    vt.ask("identify rates", **given).files["output"]("study.toml")
-    asked = {"study": "study.toml", "speed": ["1 mm/s", "10 um/s"], "forecast_speed": ["10 mm/s"]}
-    http = Http()
-    found = through_all(Question("next-test", asked), http)
-    http.close()
-    first = found["Python"].record
-    assert len(first["tests"]) == 2
-    assert all(each.record == first for each in found.values())
+    with pytest.raises(InputError, match="forecast_speed"):
+        vt.ask("next-test", **asked, forecast_preload="1 mN")

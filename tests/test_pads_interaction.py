@@ -4,20 +4,8 @@ import numpy as np
 import pytest
 import scipy
 
-from viscotack import (
-    AtForce,
-    Backing,
-    Elastic,
-    InputError,
-    LennardJones,
-    PadArray,
-    Problem,
-    Retraction,
-    Sphere,
-    pull_array,
-)
-from viscotack.pads.curve import Curve, side_by_side
-from viscotack.pads.interacting import coupled, interactions
+import viscotack as vt
+from viscotack.pads.interacting import interactions
 
 HEXAGON = [(0.0, 0.0), *((np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6))]
 PAIR = [(0.0, 0.0), (1.0, 0.0)]
@@ -69,20 +57,20 @@ def jkr(radius):
 
 
 def pads(places, modulus=E / 4):
-    problem = Problem(
-        material=Elastic(rubbery_modulus=0.75 * E, poisson_ratio=0.5),
-        traction=LennardJones(WORK, 1e-9),
-        geometry=Sphere(R),
-        protocol=Retraction(AtForce(1e-4), 1e-5),
+    problem = vt.Problem(
+        material=vt.Elastic(rubbery_modulus=0.75 * E, poisson_ratio=0.5),
+        traction=vt.LennardJones(WORK, 1e-9),
+        geometry=vt.Sphere(R),
+        protocol=vt.Retraction(vt.AtForce(1e-4), 1e-5),
     )
-    return PadArray(problem, places, backing=Backing(base_modulus=modulus))
+    return vt.PadArray(problem, places, backing=vt.Backing(base_modulus=modulus))
 
 
 @pytest.mark.parametrize("places", [PAIR, HEXAGON], ids=["2", "7"])
 def test_interacting_pads_pull_off_as_the_solved_equations_say(places):
     places = 0.6e-3 * np.array(places)
     array = pads([tuple(p) for p in places])
-    found = pull_array(array, speed=1e-5, preload=1e-4 * len(places))
+    found = vt.pull_array(array, speed=1e-5, preload=1e-4 * len(places))
     c = interactions(places, E / 4, radius=0.0)
     # by symmetry the middle pad and the six around it have two radii
     n = min(len(places) - 1, 6)
@@ -101,39 +89,6 @@ def test_interacting_pads_pull_off_as_the_solved_equations_say(places):
     assert found.pull_off_force == pytest.approx(-least, rel=1e-3)
 
 
-def test_neighbours_carry_less_at_equal_depth_and_the_corners_most():
-    array = pads([(i * 0.6e-3, j * 0.6e-3) for i in range(3) for j in range(3)])
-    force = pull_array(array, speed=1e-5, preload=9e-4).start_force.reshape(3, 3)
-    assert force.sum() == pytest.approx(9e-4, rel=1e-6)
-    assert force[0, 0] > force[0, 1] > force[1, 1]
-
-
-def rubber_band():
-    """A curve that softens, falls and ends."""
-    x = np.linspace(1.0, -1.5, 400)
-    return Curve(np.append(x, -1.5), np.append(np.sin(1.2 * x), 0.0))
-
-
-def test_pads_that_all_share_one_spring_are_pads_on_a_plate_behind_it():
-    heights = np.array([0.0, -0.3, 0.1, -0.1])
-    curves = [_from(rubber_band(), 0.8 + h) for h in heights]
-    soft = 0.25
-    found = coupled(curves, heights, np.full((4, 4), soft))
-    plate = side_by_side([each.moved(-h) for each, h in zip(curves, heights, strict=True)])
-    expected = plate.behind(1 / soft)
-    assert found.plate.pull_off_force == pytest.approx(expected.pull_off_force, rel=1e-4)
-    assert found.plate.end == pytest.approx(expected.end, abs=5e-3)
-    assert found.plate.lost == pytest.approx(expected.lost, rel=0.05)
-
-
-def _from(curve, start):
-    later = curve.position < start
-    return Curve(
-        np.append(start, curve.position[later]),
-        np.append(curve.at(np.array([start])), curve.force[later]),
-    )
-
-
 def test_pads_closer_than_four_radii_are_refused():
-    with pytest.raises(InputError, match="stand too close"):
-        pull_array(pads([(0.0, 0.0), (2e-4, 0.0)]), speed=1e-5, preload=2e-4)
+    with pytest.raises(vt.InputError, match="stand too close"):
+        vt.pull_array(pads([(0.0, 0.0), (2e-4, 0.0)]), speed=1e-5, preload=2e-4)

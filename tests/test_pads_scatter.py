@@ -5,33 +5,21 @@ from math import erf, sqrt
 import numpy as np
 import pytest
 
-from viscotack import (
-    AtForce,
-    Backing,
-    Elastic,
-    LennardJones,
-    PadArray,
-    Problem,
-    Retraction,
-    Scatter,
-    Sphere,
-    array_yield,
-    pull_array,
-)
+import viscotack as vt
 from viscotack.pads import grid
 
 E, R, WORK, LOAD = 2e6, 5e-3, 0.15, 2e-3
-PAD = Problem(
-    material=Elastic(rubbery_modulus=0.75 * E, poisson_ratio=0.5),
-    traction=LennardJones(WORK, 1e-9),
-    geometry=Sphere(R),
-    protocol=Retraction(AtForce(LOAD), 1e-5),
+PAD = vt.Problem(
+    material=vt.Elastic(rubbery_modulus=0.75 * E, poisson_ratio=0.5),
+    traction=vt.LennardJones(WORK, 1e-9),
+    geometry=vt.Sphere(R),
+    protocol=vt.Retraction(vt.AtForce(LOAD), 1e-5),
 )
 UNIT = 1.5 * np.pi * R * WORK
 
 
 def array(rows=2, columns=2, **backing):
-    return PadArray(PAD, grid(rows, columns, 5e-3), backing=Backing(**backing))
+    return vt.PadArray(PAD, grid(rows, columns, 5e-3), backing=vt.Backing(**backing))
 
 
 def direct_pull_off(heights, works):
@@ -50,8 +38,8 @@ def direct_pull_off(heights, works):
 
 
 def test_the_yield_is_the_count_of_arrays_that_are_pulled_directly():
-    scatter, load = Scatter(height=2e-6, work=0.1, seed=3), 3.9 * UNIT
-    found = array_yield(array(), scatter, load=load, speed=1e-5, preload=4 * LOAD, draws=60)
+    scatter, load = vt.Scatter(height=2e-6, work=0.1, seed=3), 3.9 * UNIT
+    found = vt.array_yield(array(), scatter, load=load, speed=1e-5, preload=4 * LOAD, draws=60)
     direct = np.array([direct_pull_off(*scatter.drawn(4, i)) for i in range(60)])
     assert found.forces == pytest.approx(np.sort(direct), rel=2e-3)
     near = np.abs(direct / load - 1) < 2e-3
@@ -61,17 +49,10 @@ def test_the_yield_is_the_count_of_arrays_that_are_pulled_directly():
 
 
 def test_the_yield_of_one_pad_is_the_normal_distribution_of_its_work():
-    scatter = Scatter(work=0.1, seed=5)
-    found = array_yield(array(1, 1), scatter, load=0.95 * UNIT, speed=1e-5, preload=LOAD, draws=400)
+    scatter = vt.Scatter(work=0.1, seed=5)
+    found = vt.array_yield(
+        array(1, 1), scatter, load=0.95 * UNIT, speed=1e-5, preload=LOAD, draws=400
+    )
     expected = 0.5 * (1 + erf(0.5 / sqrt(2)))
     assert found.interval[0] < expected < found.interval[1]
     assert found.reached_by(0.5) == pytest.approx(UNIT, rel=0.01)
-
-
-def test_an_array_of_the_yield_is_that_of_a_pull():
-    scatter = Scatter(height=1e-6, work=0.1, seed=1)
-    one = array_yield(
-        array(stiffness=2e3), scatter, load=1e-3, speed=1e-5, preload=4 * LOAD, draws=1
-    )
-    pulled = pull_array(scatter.of(array(stiffness=2e3)), speed=1e-5, preload=4 * LOAD)
-    assert one.forces[0] == pytest.approx(pulled.pull_off_force, rel=1e-3)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from test_rough_file import BUMPS, MAP, SMALL
-from viscotack.campaign import Store, measure, read_plan, run
+from viscotack.campaign import CaseSettings, Store, measure, read_plan, run
+from viscotack.errors import InputError
 from viscotack.rough import pull, read_rough, read_rough_case
 
 PLAN = """
@@ -45,6 +46,14 @@ def test_a_plan_sets_numbers_of_the_surface_and_of_the_test(folder):
     assert same["work_of_separation_J"] == found.work_of_separation
     assert same["hysteresis_J"] == found.hysteresis and same["status"] == found.status
     assert {"contact_share_at_pull_off", "pastewka_robbins", "steps", "versions"} <= same.keys()
+
+
+def test_a_map_that_has_changed_since_is_refused(folder):
+    case = read_rough_case("measured.toml")
+    assert len(case.surface.sha256) == 64
+    np.savetxt("map.csv", np.zeros((16, 16)), delimiter=",")
+    with pytest.raises(InputError, match=r"map\.csv has changed since it was planned"):
+        measure(case, CaseSettings())
 
 
 @pytest.mark.slow
