@@ -52,15 +52,6 @@ def test_the_thickness_of_a_half_space_is_that_at_which_the_force_differs_by_the
         film.half_space_thickness(shape=BALL, base=SQUEEZED, tolerance=0.0, **UNITS)
 
 
-def test_the_thickness_of_a_half_space_has_the_units_of_length():
-    length = relaxed.adhesion_length(BALL, **UNITS)
-    lens = dict(contact_modulus=2e6, work_of_adhesion=0.05)
-    unit = relaxed.adhesion_length(Sphere(5e-3), **lens)
-    reduced = film.half_space_thickness(shape=BALL, base=SQUEEZED, **UNITS) / length
-    found = film.half_space_thickness(shape=Sphere(5e-3), base=SQUEEZED, **lens)
-    assert found == pytest.approx(reduced * unit, rel=1e-4)
-
-
 @pytest.mark.parametrize("base", BASES, ids=repr)
 def test_a_disc_releases_the_energy_of_its_compliance(base):
     a, layer = np.array([0.05, 0.3, 2.0]), Layer(0.2, base)

@@ -58,13 +58,6 @@ def test_creep_and_relaxation_of_springpots_convolve_to_time(kind, orders):
         assert 0.05 * np.sum(integrand) == pytest.approx(1, rel=1e-6)
 
 
-@pytest.mark.parametrize("kind", [FractionalMaxwell, FractionalKelvinVoigt])
-def test_springpots_compliance_is_the_reciprocal_of_the_modulus(kind):
-    law = kind(order=0.8, lower_order=0.3, **POTS)
-    omega = 10.0 ** np.arange(-9, 9) / TAU
-    assert_allclose(law.complex_modulus(omega) * law.complex_compliance(omega), 1, rtol=1e-14)
-
-
 # ---- rung 2: limits ----------------------------------------------------------------------------
 
 

@@ -235,16 +235,6 @@ def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
     assert 0.15 < off < stated(found, "force") < 1.2 * off
 
 
-def test_maps_are_of_the_instants_that_they_name():
-    found = pull(rough(), estimate_error=False, maps=12)
-    assert 6 <= len(found.maps) <= 12
-    for each in (*found.maps, found.strongest):
-        total = float(each.pressure.sum()) * found.pixel**2
-        assert total == pytest.approx(each.force, abs=1e-3 * found.pull_off_force)
-    assert found.strongest.force == pytest.approx(-found.pull_off_force)
-    assert np.all(np.diff([each.time for each in found.maps]) > 0)
-
-
 def test_a_time_limit_returns_what_was_found(monkeypatch):
     # on a clock that goes on by a hundredth of a second whenever somebody looks at it
     monkeypatch.setattr("viscotack.clock.perf_counter", count(100.0, 0.01).__next__)

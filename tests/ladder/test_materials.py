@@ -13,14 +13,13 @@ from reference_data import VALUES
 from viscotack.materials import (
     Elastic,
     FractionalZener,
-    Modes,
     Prony,
     RelaxationPowerLaw,
     RetardationPowerLaw,
     StandardSolid,
 )
 from viscotack.materials.interconversion import reciprocal
-from viscotack.materials.modes import FINEST, compressed
+from viscotack.materials.modes import FINEST
 from viscotack.materials.spectrum import nodes
 
 # Ordinary numbers: 1 MPa rubber, 1 ms, k from 1e-1 to 1e-6, exponents with both integers.
@@ -114,20 +113,6 @@ def test_power_laws_have_the_verified_values(equation, kind, quantity):
         assert quantity(solid, x) == pytest.approx(value["value"], rel=1e-13, abs=0), x
 
 
-def test_silicone_has_the_verified_moduli():
-    pdms = RetardationPowerLaw(
-        rubbery_modulus=1.458e6,
-        glassy_modulus=3.089e9,
-        exponent=0.2207,
-        tau0=0.01876,
-        poisson_ratio=0.5,
-    )
-    for value in reference("4.27 with 4.7"):
-        modulus = pdms.complex_modulus(2 * np.pi * value["inputs"]["f_Hz"]) / 1e6
-        part = modulus.real if value["note"].startswith("PDMS E' ") else modulus.imag
-        assert part == pytest.approx(value["value"], rel=1e-13, abs=0), value["inputs"]
-
-
 def log_integral(function, *, first, last, step=0.08):
     """Return the integral of a function that falls off at both ends of ln x."""
     x = np.exp(np.arange(np.log(first), np.log(last), step))
@@ -160,22 +145,6 @@ def test_complex_modulus_is_the_transform_of_the_relaxation(solid):
         assert_allclose(
             a**3 * np.sqrt(2 / np.pi) * storage, odd, rtol=1e-12, atol=1e-12 * E0 * a**2
         )
-
-
-@every_solid
-def test_complex_compliance_is_the_transform_of_the_creep(solid):
-    for a in TAU * np.array([1e-5, 1e-2, 0.3]):
-        even = log_integral(
-            lambda t, a=a: (1 / E0 - solid.creep(t)) * np.exp(-((t / a) ** 2) / 2),
-            first=a * 1e-22,
-            last=a * 12,
-        )
-        loss = log_integral(
-            lambda w, a=a: -solid.complex_compliance(w).imag / w * np.exp(-((a * w) ** 2) / 2),
-            first=1e-80 / a,
-            last=12 / a,
-        )
-        assert_allclose(a * np.sqrt(2 / np.pi) * loss, even, rtol=1e-12, atol=1e-12 * a / E0)
 
 
 @every_solid
@@ -225,34 +194,6 @@ def test_reduced_twin_has_the_same_functions_in_its_own_units(solid):
     assert_allclose(twin.creep(t) / E0, solid.creep(t * unit), rtol=1e-13)
     assert_allclose(twin.complex_modulus(t) * E0, solid.complex_modulus(t / unit), rtol=1e-13)
     assert_allclose(twin.complex_compliance(t) / E0, solid.complex_compliance(t / unit), rtol=1e-13)
-
-
-def test_contact_modulus_is_that_of_plane_strain():
-    for solid in SOLIDS.values():
-        assert solid.contact_modulus == pytest.approx(E0 / (1 - 0.48**2), rel=1e-15)
-
-
-def test_standard_solid_creeps_two_thirds_in_its_retardation_time():
-    # k = 0.1: 1 - 0.9/e, and the relaxation is ten times faster
-    solid = standard_solid()
-    assert E0 * solid.creep(TAU) == pytest.approx(1 - 0.9 / np.e, rel=1e-15)
-    assert solid.relaxation_time == pytest.approx(0.1 * TAU, rel=1e-15)
-    assert solid.relaxation(solid.relaxation_time) == pytest.approx(E0 * (1 + 9 / np.e), rel=1e-14)
-
-
-def test_modes_creep_as_the_prony_series_they_were_taken_from():
-    # two branches by hand: E0 C(t) = 0.1 + 0.4 (1 - e^{-t/1 ms}) + 0.5 (1 - e^{-t/2 s})
-    modes = Modes(instantaneous=0.1, weights=(0.4, 0.5), times=(1e-3, 2.0), error=0.0)
-    by_hand = 1 - 0.4 * np.exp(-1.0) - 0.5 * np.exp(-1e-3 / 2)
-    assert modes.creep(1e-3) == pytest.approx(by_hand, rel=1e-15)
-    # and back: the same moduli from the relaxation of the same solid
-    moduli, times = reciprocal(0.1, np.array([0.4, 0.5]), np.array([1e-3, 2.0]))
-    prony = Prony(
-        rubbery_modulus=E0, branches=zip(E0 * moduli, times, strict=True), poisson_ratio=NU
-    )
-    t = 10.0 ** np.arange(-8, 3)
-    assert_allclose(E0 * prony.creep(t), modes.creep(t), rtol=1e-13)
-    assert prony.modulus_ratio == pytest.approx(0.1, rel=1e-13)
 
 
 def pole(branch):
@@ -458,63 +399,6 @@ def test_modes_keep_the_stated_error_over_their_window(kind, n, k):
             )
 
 
-@pytest.mark.parametrize(
-    ("n", "window", "at_most"),
-    [
-        # non-negative least squares, the best there is, needs 24, 27 and 14 for these 12 decades
-        (0.2, (1e-9, 1e3), 28),
-        (0.6, (1e-9, 1e3), 28),
-        (1.6, (1e-9, 1e3), 16),
-        (0.2, (1e-12, 1e-6), 15),
-        (0.6, (1e-12, 1e-6), 5),
-    ],
-)
-def test_modes_are_few_and_their_stated_error_is_near_the_true_one(n, window, at_most):
-    solid = power_law(RetardationPowerLaw, exponent=n, k=1e-3)
-    t = TAU * np.geomspace(*window, 3000)
-    modes = solid.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-4)
-    assert len(modes.times) <= at_most
-    assert np.max(np.abs(modes.creep(t) - E0 * solid.creep(t))) > modes.error / 4
-
-
-@pytest.mark.parametrize("name", ["standard", "prony"])
-def test_modes_of_branches_are_exact_inside_the_window_and_pruned_outside(name):
-    solid = SOLIDS[name]
-    t = 10.0 ** np.arange(-13, 6, 0.01)
-    modes = solid.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-9)
-    assert len(modes.times) == len(getattr(solid, "branches", [1]))
-    assert np.max(np.abs(modes.creep(t) - E0 * solid.creep(t))) <= modes.error < 1e-12
-    for shortest, longest in [(1e-4, 1e6), (1e-10, 1e-7), (1e-4, 1e-2), (10.0, 1e3)]:
-        inside = t[(t >= shortest) & (t <= longest)]
-        for tolerance in (1e-2, 1e-5):
-            few = solid.retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
-            missed = np.max(np.abs(few.creep(inside) - E0 * solid.creep(inside)))
-            assert missed <= few.error <= tolerance
-            assert few.instantaneous + sum(few.weights) == pytest.approx(1, abs=1e-13)
-    assert solid.retardation_modes(shortest=10.0, longest=1e3, tolerance=1e-5).weights == ()
-    early = solid.retardation_modes(shortest=1e-12, longest=1e-9, tolerance=1e-3)
-    assert len(early.times) == 1
-
-
-def test_error_of_merged_slow_modes_is_second_order_in_the_window():
-    # same weight and same first rate of creep: what is lost is of the order (longest/time)^2
-    longest = 0.02 * 0.5 ** np.arange(5)
-    modes = [
-        compressed(
-            0.1,
-            np.array([0.4, 0.5]),
-            np.array([1.0, 3.0]),
-            shortest=1e-4,
-            longest=x,
-            tolerance=1e-3,
-            error=0.0,
-        )
-        for x in longest
-    ]
-    assert {len(m.times) for m in modes} == {1}
-    assert slope(longest, [m.error for m in modes]) == pytest.approx(2, abs=0.1)
-
-
 # ---- rung 4: peers -----------------------------------------------------------------------------
 
 
@@ -545,29 +429,3 @@ def test_complex_functions_agree_with_an_exponential_integral_of_many_digits(n):
             assert C.imag == pytest.approx(-float(phi.imag) / 2, rel=1e-13, abs=0)
             assert E.real == pytest.approx(1 + float(phi.real), rel=1e-14)
             assert C.real == pytest.approx(0.5 + float(phi.real) / 2, rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("n", "k", "t"),
-    [
-        (0.2, 1e-6, 1e-20),
-        (0.5, 1e-6, 1e-20),
-        (0.2, 1e-6, 1e-8),
-        (0.2, 1e-6, 1e20),
-        (1.0, 0.1, 1.0),
-        (3.0, 1e-4, 1e-3),
-    ],
-)
-def test_interconversion_agrees_with_an_inverse_laplace_transform_of_many_digits(n, k, t):
-    creeping = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
-    relaxing = power_law(RelaxationPowerLaw, exponent=n, k=k, tau0=1.0)
-    with mpmath.workdps(30):
-        ratio = mpmath.mpf(creeping.rubbery_modulus) / mpmath.mpf(creeping.glassy_modulus)
-
-        def phi(s):
-            return s * mpmath.exp(s) * mpmath.expint(n, s)
-
-        R = mpmath.invertlaplace(lambda s: 1 / s / (ratio + (1 - ratio) * phi(1 / s)), t)
-        C = mpmath.invertlaplace(lambda s: 1 / s / (1 + (1 / ratio - 1) * phi(s)), t)
-    assert creeping.relaxation(t) / E0 == pytest.approx(float(R), rel=1e-12)
-    assert relaxing.creep(t) * E0 == pytest.approx(float(C), rel=1e-12)

@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from reference_data import reference
-from viscotack.errors import InputError
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, punch
 from viscotack.theory.crack.law import THEORIES
@@ -116,15 +115,6 @@ def test_crack_speed_is_the_inverse_of_the_amplification(theory, material):
             rate.crack_speed(1.5, impossible, largest=limit)
 
 
-def test_what_size_allows_brings_the_envelope_to_the_strength():
-    b = np.geomspace(1e-5, 1e-1, 25)
-    for base in (FREE, Bonded(poisson_ratio=0.4)):
-        pad = replace(PAD, base=base)
-        largest = rate.largest_amplification(b, pad)
-        elastic = punch.pull_off_stress(b, replace(pad, strength=1e12))
-        np.testing.assert_allclose(elastic * np.sqrt(largest), 9e4, rtol=1e-14)
-
-
 # What a curve says ----------------------------------------------------------------------------
 
 
@@ -153,22 +143,6 @@ def test_thin_layer_surface_energy_is_printed_and_exceeds_by_a_third_of_the_thic
     excess = thin / exact - 1
     assert slope(b, excess) == pytest.approx(1, abs=2e-3)
     assert excess[-1] == pytest.approx(2 * 0.177131575829e-3 / 0.8, rel=1e-3, abs=0)
-
-
-def test_thin_layer_surface_energy_refuses_a_layer_that_cannot_stretch():
-    case = dict(half_width=5e-3, ligament=4e-3, contact_modulus=4e6 / 3, thickness=1e-4)
-    with pytest.raises(InputError, match="does not apply to a bonded layer"):
-        curve.thin_layer_surface_energy(3e4, **case, base=Bonded(poisson_ratio=0.5))
-
-
-def test_thin_layer_surface_energy_warns_of_a_thick_layer():
-    case = dict(half_width=5e-3, ligament=4e-3, contact_modulus=4e6 / 3, base=FREE)
-    b1 = 4 / np.pi * 5e-3
-    assert curve.thin_layer_surface_energy(3e4, thickness=0.999 * b1, **case) > 0
-    with pytest.warns(UserWarning, match="thicker than b1"):
-        curve.thin_layer_surface_energy(3e4, thickness=1.001 * b1, **case)
-    with pytest.raises(ValueError, match="must not exceed the half width of the punch"):
-        curve.surface_energy(3e4, thickness=1e-3, **case | dict(ligament=6e-3))
 
 
 def test_work_of_separation_of_a_rigid_punch_is_the_work_of_adhesion():
@@ -341,14 +315,6 @@ def test_thickness_is_the_inverse_of_the_stress_at_a_crack_speed(theory):
     assert np.all(stress < 9e4)
     found = design.thickness_at_crack_speed(stress, PAD, law, crack_speed=1e-3)
     np.testing.assert_allclose(found, b, rtol=1e-9)
-
-
-def test_thickness_is_the_inverse_of_the_stress_at_a_retraction_speed():
-    b = np.array([1e-4, 3e-4, 5e-3])
-    stress = unloading.pull_off(1e-5, PAD, LAW, thickness=b).stress
-    found = design.thickness_at_speed(stress, PAD, LAW, speed=1e-5)
-    # the grid of states moves with the thickness
-    np.testing.assert_allclose(found, b, rtol=1e-6)
 
 
 def test_impossible_wishes_are_refused():

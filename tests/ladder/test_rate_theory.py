@@ -114,13 +114,6 @@ def test_a_table_of_the_power_law_tends_to_the_power_law_at_second_order(theory)
     assert np.log2(error[1] / error[2]) == pytest.approx(2, abs=0.1)
 
 
-def test_the_weights_of_an_uneven_table_are_the_area_under_its_straight_pieces():
-    t, L = np.array([1e-3, 2e-3, 1e-2, 5e-2]), np.array([1e-7, 2e-7, 1e-7, 5e-8])
-    table = TabulatedSpectrum(rubbery_modulus=1e6, times=tuple(t), densities=tuple(L))
-    area = np.sum((L[1:] + L[:-1]) / 2 * np.diff(np.log(t)))
-    assert 1 - table.modulus_ratio == pytest.approx(1e6 * area, rel=1e-12, abs=0)
-
-
 def test_a_table_creeps_from_its_glassy_to_its_rubbery_compliance():
     table = table_of(rubber(1.6, 0.1), 10)
     creep = table.creep(np.array([0.0, 1e9]))
@@ -167,33 +160,6 @@ def test_the_fit_is_a_power_law_and_warns_away_from_its_tabor_number():
         rate.crack_speed(r, tabor=3.0)
     with pytest.raises(ValueError, match="not negative"):
         rate.crack_speed(-1.0, tabor=3.24)
-
-
-def test_the_readings_of_the_rate_agree_where_they_should():
-    mu = 3.24
-    # h0 for this Tabor number
-    h0 = lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / mu
-    published = rate.rate_as_published(1e-4 * 0.02 / h0)
-    own = rate.rate_in_contact_heights(1e-4, time_unit=0.02, **LENS)
-    assert own == pytest.approx(published, rel=1e-12, abs=0)
-    height = (np.pi**2 * 0.15**2 * 5e-3 / 2e6**2) ** (1 / 3)
-    printed = rate.rate_in_tip_lengths(1e-4, time_unit=0.02, tip_length=height)
-    assert printed == pytest.approx(own, rel=1e-12, abs=0)
-
-
-@given(power, power, power)
-def test_the_rate_does_not_depend_on_the_units(length, load, time):
-    L, M, T = 10**length, 10**load, 10**time
-    old = dict(radius=2.0, contact_modulus=3.0, work_of_adhesion=5.0)
-    new = dict(radius=2 * L, contact_modulus=3 * M / L**2, work_of_adhesion=5 * M / L)
-    assert rate.rate_in_contact_heights(0.3 * L / T, time_unit=7 * T, **new) == pytest.approx(
-        rate.rate_in_contact_heights(0.3, time_unit=7.0, **old), rel=1e-9, abs=0
-    )
-    assert rate.rate_in_tip_lengths(
-        0.3 * L / T, time_unit=7 * T, tip_length=2 * L
-    ) == pytest.approx(
-        rate.rate_in_tip_lengths(0.3, time_unit=7.0, tip_length=2.0), rel=1e-9, abs=0
-    )
 
 
 # Unloading ------------------------------------------------------------------------------------
@@ -408,11 +374,6 @@ def test_the_bounds_do_not_depend_on_the_units(length, load):
     )
 
 
-def test_bounds_refuse_an_exchanged_modulus_ratio():
-    with pytest.raises(ValueError, match=r"in \(0, 1\]"):
-        bounds.glassy_force(**CASE, modulus_ratio=10.0)
-
-
 # Empirical ------------------------------------------------------------------------------------
 
 
@@ -425,27 +386,11 @@ def test_gent_schultz_doubles_at_its_reference_speed_and_is_inverted():
     assert empirical.gent_schultz_speed(gamma, **law) == pytest.approx(v, rel=1e-9, abs=0)
 
 
-def test_gent_schultz_constants_give_the_same_law():
-    c, a, n, v = 30.0, 1e-3, 0.6, 2e-5
-    v0 = empirical.gent_schultz_reference_speed(coefficient=c, shift=a, exponent=n)
-    found = empirical.gent_schultz(v, reference_speed=v0, exponent=n)
-    assert found == pytest.approx(1 + c * (a * v) ** n, rel=1e-13, abs=0)
-
-
 def test_the_process_zone_takes_as_much_as_the_bulk_at_its_speed():
     assert empirical.process_zone_correction(1e-2) == pytest.approx(2, rel=1e-14, abs=0)
     v = np.array([1e-6, 1e-5])
     rest = empirical.process_zone_correction(v) - 1
     assert slope(v, rest) == pytest.approx(0.5, rel=1e-9, abs=0)
-
-
-@given(power, power)
-def test_the_empirical_laws_do_not_depend_on_the_units(length, time):
-    u = 10 ** (length - time)
-    law = dict(reference_speed=3.0, exponent=0.4)
-    scaled = law | dict(reference_speed=3.0 * u)
-    for function in (empirical.gent_schultz, empirical.process_zone_correction):
-        assert function(2 * u, **scaled) == pytest.approx(function(2.0, **law), rel=1e-9, abs=0)
 
 
 def test_wlf_is_one_at_the_glass_transition_and_ends_at_its_constant():

@@ -10,7 +10,6 @@ from viscotack import (
     AtRadius,
     Bonded,
     Cone,
-    Disc,
     Groups,
     Layer,
     MeasuredProfile,
@@ -18,13 +17,11 @@ from viscotack import (
     Sphere,
     WavySphere,
 )
-from viscotack.errors import InputError
 from viscotack.forecast.closed_forms import closed_forms
 from viscotack.materials import StandardSolid
 from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (
-    adhesion_length,
     contact,
     contact_in_groups,
     curve,
@@ -125,14 +122,6 @@ def test_closed_forms_have_no_start_of_a_radius_that_nothing_holds():
         assert held or not unloading.applies
 
 
-def test_a_tabor_number_of_0_is_refused():
-    for function in (contact_in_groups, radius_without_adhesion):
-        with pytest.raises(InputError, match="tabor must be positive"):
-            function(AtDepth(1.0), tabor=0.0)
-    with pytest.raises(InputError, match="exponent must be positive"):
-        radius_without_adhesion(AtDepth(1.0), tabor=1.0, exponent=0.0)
-
-
 WORN = MeasuredProfile(((0.0, 0.0), (1e-4, 0.0), (2e-4, 1e-6), (3e-4, 3e-6)))
 
 
@@ -162,11 +151,3 @@ def test_the_strongest_contact_is_the_pull_off_or_the_start_itself():
     small = 0.5 * end.contact_radius
     found = strongest(Sphere(5e-3), largest=small, **LENS)
     assert found == pytest.approx((small, jkr.depth(small, **SPHERE), jkr.force(small, **SPHERE)))
-
-
-@pytest.mark.parametrize("wrong", [{"contact_modulus": 0.0}, {"work_of_adhesion": -1.0}])
-def test_a_solid_without_stiffness_or_adhesion_is_refused(wrong):
-    with pytest.raises(InputError, match=f"{next(iter(wrong))} must be positive"):
-        adhesion_length(Sphere(5e-3), **(LENS | wrong))
-    with pytest.raises(InputError, match=f"{next(iter(wrong))} must be positive"):
-        strongest(Disc(1e-3), largest=1e-3, **(LENS | wrong))

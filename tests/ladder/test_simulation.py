@@ -400,13 +400,6 @@ def test_mean_compliance_of_a_standard_solid_is_its_integral():
     assert found == pytest.approx(np.diff(integral) / 0.3, rel=1e-12, abs=0)
 
 
-def test_hats_linear_in_area_and_triangles_bend_hertz_alike():
-    r = np.linspace(0, 1, 101)
-    pressure, exact = np.sqrt(1 - r * r), np.pi / 4 * (2 - r * r)
-    assert np.max(np.abs(influence(r) @ pressure - exact)) < 2e-3
-    assert np.max(np.abs(hat_matrix(101, 0.01) @ pressure - exact)) < 2e-3
-
-
 @pytest.mark.parametrize(
     ("tabor", "modulus_ratio", "exponent", "depth", "rate", "last"),
     [(0.3, 0.1, 0.6, 10.0, 1e4, 6.5), (1.0, 0.01, 0.4, 20.0, 1e3, 15.0)],
@@ -501,11 +494,3 @@ def test_mended_lines_meet_a_smooth_pressure_at_third_order():
     assert slope(sizes, mended) == pytest.approx(-2.9, abs=0.1), mended
     assert slope(sizes, plain) == pytest.approx(-2.0, abs=0.1), plain
     assert mended[-1] < plain[-1] / 200
-
-
-@pytest.mark.slow
-def test_elastic_pull_off_at_a_large_tabor_number_is_that_of_jkr():
-    # 1 + 0.036 %: what is left of the range of the forces
-    groups = Groups(tabor=100.0, material=ELASTIC, start=AtDepth(-70.0), rate=1.0)
-    result = solve(groups, until="pull-off", estimate_error=False)
-    assert pull_off_force(result) == pytest.approx(1.0, rel=2e-3)
