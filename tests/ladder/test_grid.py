@@ -1,7 +1,6 @@
 """The grid beside contacts of revolution, limits and symmetries that need no reference."""
 
 from dataclasses import replace
-from itertools import count
 
 import numpy as np
 import pytest
@@ -143,14 +142,6 @@ def test_a_flat_map_on_a_layer_jumps_off_at_the_strength():
     assert -at == pytest.approx(drawn + SOFT.edge_gap - GAP, rel=5e-3)
 
 
-def test_a_flat_map_starts_where_no_traction_acts():
-    # at depth 0 all tractions are zero, and so is what unbalanced ones are compared with
-    plane = HeightMap(np.zeros((16, 16)), 5e-6)
-    found = pull(replace(flat(), surface=plane), estimate_error=False)
-    assert found.force[0] == pytest.approx(0, abs=1e-9 * found.pull_off_force)
-    assert 0.6 * SOFT.strength < found.pull_off_stress < SOFT.strength
-
-
 @pytest.mark.parametrize(
     "body", [HalfSpace(), Layer(thickness=40e-6, base=Bonded(poisson_ratio=0.5))]
 )
@@ -233,16 +224,6 @@ def test_four_bumps_of_four_pixels_at_the_sides_have_the_error_of_one():
     assert (found.patches[at], found.area[at]) == (4, pytest.approx(16 * pixel**2))
     off = abs(found.pull_off_force / fine.pull_off_force - 1)
     assert 0.15 < off < stated(found, "force") < 1.2 * off
-
-
-def test_a_time_limit_returns_what_was_found(monkeypatch):
-    # on a clock that goes on by a hundredth of a second whenever somebody looks at it
-    monkeypatch.setattr("viscotack.clock.perf_counter", count(100.0, 0.01).__next__)
-    found = pull(rough(), time_limit=2.0)
-    assert found.status.startswith("stopped because the time limit")
-    assert len(found.force) > 1
-    with pytest.raises(InputError, match="have not separated"):
-        found.work_of_separation  # noqa: B018
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Dugdale, Eyring, GentSchultz, LennardJones
+from viscotack.traction import Eyring, GentSchultz, LennardJones
 from viscotack.traction.resting import reduced
 
 REST = LennardJones(0.1523, 200e-9)
@@ -101,17 +101,6 @@ def test_a_reduced_law_counts_speeds_in_gaps_per_unit_of_time(law):
     assert small.reduced() == small
     back = small.scaled(0.1523, 200e-9, 0.02)
     assert back.reference_speed == pytest.approx(law.reference_speed, rel=1e-15, abs=0)
-
-
-def test_what_is_no_growing_law_is_refused():
-    with pytest.raises(ValueError, match=r"exponent must lie in \(0, 1\], got 1.2"):
-        GentSchultz(1, 1, 1, 1.2)
-    with pytest.raises(ValueError, match="base must be a reduced law"):
-        GentSchultz(1, 1, 1, 0.5, base=REST)
-    with pytest.raises(ValueError, match="a law of the gap alone"):
-        GentSchultz(1, 1, 1, 0.5, base=GentSchultz(1, 1, 1, 0.5))
-    with pytest.raises(ValueError, match="must be smooth enough for nodes.*wider fall"):
-        unloaded(GentSchultz.of(Dugdale(1, 1), reference_speed=1, exponent=0.5))
 
 
 # --- in words, files, records

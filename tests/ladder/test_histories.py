@@ -238,15 +238,6 @@ def test_a_dead_load_has_a_time_and_no_pull_off_force():
     assert abs(held / exact - 1) < answer["error_estimate"]["time"] < 2e-2
 
 
-def test_a_load_that_grows_until_the_contact_lets_go_is_a_pull_off():
-    answer = summary(run(sphere(AtForce(1.0), LoadTo(-9.0, 10.0))))
-    ramp = run(sphere(AtForce(1.0), LoadTo(-9.0, 10.0), Dwell(1.0, hold="force")))
-    assert answer["time_to_detachment"] is None
-    assert answer["pull_off_force"] == pytest.approx(-ramp.force.min(), rel=1e-3, abs=0)
-    with pytest.raises(ValueError, match="detached before the hold"):
-        time_to_detachment(ramp)
-
-
 @pytest.mark.parametrize(
     "moves",
     [

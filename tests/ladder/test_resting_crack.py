@@ -10,19 +10,16 @@ from viscotack import (
     AtForce,
     Dwell,
     Groups,
-    LennardJones,
     LoadTo,
     MoveTo,
     OutOfRange,
     Retract,
-    Sphere,
     StandardSolid,
     crack_contact,
     pull_off_force,
     solve,
 )
-from viscotack.theory import SteadyCrack
-from viscotack.theory.crack.contact import Contact, Drive, history, profile_of, radius_at_force
+from viscotack.theory.crack.contact import history
 
 
 def standard(k=0.1):
@@ -82,17 +79,6 @@ def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
         waited = sum(move.duration for move in moves)
         assert found.time_at_pull_off - waited == pytest.approx(told.time_at_pull_off, rel=1e-6)
         assert np.all(np.diff(found.time) >= 0) and found.move[-1] == len(moves)
-
-
-def test_the_annuli_themselves_rest():
-    crack, profile = SteadyCrack(standard(), LennardJones(1.0, 1.0)), profile_of(Sphere(1.0))
-    radius = radius_at_force(profile, 10.0)
-    contact = Contact(crack, profile, tabor=20.0, largest=1.1 * radius)
-    pull = Drive("drive", -30.0, np.inf)
-    at_once = contact.run(contact.relaxed(radius), (pull,)).force.min()
-    for hold in ("drive", "force"):
-        waited = contact.run(contact.relaxed(radius), (Drive(hold, 0.0, 4.0), pull))
-        assert waited.force.min() == pytest.approx(at_once, rel=1e-8)
 
 
 def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():

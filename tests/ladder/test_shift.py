@@ -57,13 +57,6 @@ def test_a_law_seen_from_elsewhere_differs_by_its_value_there(law, temperature, 
     )
 
 
-def test_the_pole_and_the_product_of_the_constants_belong_to_no_reference():
-    here = WLF.from_glass_transition(GLASS)
-    there = here.at_reference(ROOM)
-    assert there.pole == pytest.approx(here.pole, rel=1e-14, abs=0)
-    assert there.c1 * there.c2 == pytest.approx(here.c1 * here.c2, rel=1e-14, abs=0)
-
-
 def test_arrhenius_is_the_boltzmann_factor():
     law = Arrhenius(ROOM, 90e3)
     factor = np.exp(90e3 / gas_constant / 260.0) / np.exp(90e3 / gas_constant / ROOM)
