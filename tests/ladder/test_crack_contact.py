@@ -42,7 +42,6 @@ from viscotack.theory.crack.contact import (
     radius_at_force,
     recede,
 )
-from viscotack.traction import Tabulated
 
 REDUCED = LennardJones(1.0, 1.0)
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
@@ -311,16 +310,3 @@ def test_a_stop_on_the_way_out_is_no_pull_off_and_ends_no_work():
     pulled = (found.move > 0) & (found.depth > found.depth_at_pull_off)
     alone = np.trapezoid(-found.force[pulled], -found.depth[pulled])
     assert found.work_to_pull_off > 1.2 * alone
-
-
-def test_an_edge_that_moves_at_once_is_refused_in_words_where_the_zone_is_large():
-    # steps so long that the extrapolated time is negative: it ended in an IndexError
-    law = Tabulated.of_points(
-        np.array([1.2, 1.5, 1.8, 2.1, 3.0, 4.5, 8.0]) * 1e-6,
-        [-300e3, -10e3, 60e3, 75e3, 30e3, 4e3, 0.0],
-    )
-    solid = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    start = AtDepth(0.6546616974638197)
-    groups = Groups(0.5165909518906818, solid, start, 6.546616974638198, law.reduced())
-    with pytest.raises(OutOfRange, match="cohesive zone is too large"):
-        crack_contact(replace(groups, geometry=Cone(1.0)))

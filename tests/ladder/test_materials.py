@@ -24,7 +24,6 @@ from viscotack.materials.spectrum import nodes
 # Ordinary numbers: 1 MPa rubber, 1 ms, k from 1e-1 to 1e-6, exponents with both integers.
 E0, TAU, NU = 1.2e6, 2e-3, 0.48
 POWER_LAWS = [RetardationPowerLaw, RelaxationPowerLaw]
-EXPONENTS = [0.2, 0.7, 1.0, 1.6, 2.0, 3.0]
 
 
 def power_law(kind, *, exponent, k, tau0=TAU):
@@ -284,7 +283,7 @@ def test_late_relaxation_falls_with_the_exponent(n):
     assert slope(t, solid.relaxation(t) - E0) == pytest.approx(-n, abs=1e-3)
 
 
-@pytest.mark.parametrize("n", EXPONENTS)
+@pytest.mark.parametrize("n", [0.2, 1.0, 3.0])
 def test_slow_losses_of_the_retardation_form_are_those_of_a_dashpot(n):
     # C'' -> (C0 - Cinf) n omega tau0: the mean retardation time is n tau0
     solid = power_law(RetardationPowerLaw, exponent=n, k=0.1)
@@ -380,12 +379,12 @@ def test_modes_keep_the_stated_error_over_their_window(kind, n, k):
 # ---- rung 4: peers -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("n", [*EXPONENTS, 0.01, 1 + 1e-6])
+@pytest.mark.parametrize("n", [0.01, 0.7, 1.0, 1 + 1e-6, 3.0])
 def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
     k = 1e-6
     solid = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
     with mpmath.workdps(120):
-        for t in 10.0 ** np.arange(-25, 4, 3):
+        for t in 10.0 ** np.arange(-25, 4, 7):
             order, x = mpmath.mpf(n), mpmath.mpf(t)
             bessel = x ** (order / 2) * mpmath.besselk(order, 2 * mpmath.sqrt(x))
             k_exact = mpmath.mpf(solid.rubbery_modulus) / mpmath.mpf(solid.glassy_modulus)
@@ -393,7 +392,7 @@ def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
             assert E0 * solid.creep(t) == pytest.approx(float(exact), rel=1e-13)
 
 
-@pytest.mark.parametrize("n", [*EXPONENTS, 0.01, 1 + 1e-6])
+@pytest.mark.parametrize("n", [0.01, 0.7, 1.0, 1 + 1e-6, 3.0])
 def test_complex_functions_agree_with_an_exponential_integral_of_many_digits(n):
     relaxing = power_law(RelaxationPowerLaw, exponent=n, k=0.5, tau0=1.0)
     creeping = power_law(RetardationPowerLaw, exponent=n, k=0.5, tau0=1.0)

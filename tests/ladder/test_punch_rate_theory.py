@@ -134,17 +134,6 @@ def test_surface_energy_is_the_inverse_of_the_pull_off_stress():
         np.testing.assert_allclose(found, 0.08, rtol=1e-12)
 
 
-def test_thin_layer_surface_energy_is_printed_and_exceeds_by_a_third_of_the_thickness():
-    b = 5e-3 * np.array([1e-1, 1e-2, 1e-3])
-    case = dict(half_width=5e-3, ligament=4e-3, contact_modulus=4e6 / 3, base=FREE)
-    thin = curve.thin_layer_surface_energy(3e4, thickness=b, **case)
-    np.testing.assert_allclose(thin, 3e4**2 * b / (2 * 4e6 / 3) * 1.25**2, rtol=1e-14)
-    exact = curve.surface_energy(3e4, thickness=b, **case)
-    excess = thin / exact - 1
-    assert slope(b, excess) == pytest.approx(1, abs=2e-3)
-    assert excess[-1] == pytest.approx(2 * 0.177131575829e-3 / 0.8, rel=1e-3, abs=0)
-
-
 def test_work_of_separation_of_a_rigid_punch_is_the_work_of_adhesion():
     # the rigid limit of Eq. 3.36, second order in the step; the misprint would give 0.974
     law = LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
@@ -232,28 +221,6 @@ def test_fast_retraction_tends_to_the_strength_or_to_the_glassy_layer(theory):
     assert np.all(found.stress <= 9e4)
     assert found.amplification[0] == pytest.approx((9e4 / elastic[0]) ** 2, rel=1e-12, abs=0)
     np.testing.assert_allclose(found.ligament, 5e-3, rtol=1e-3)
-
-
-def test_pull_off_state_hangs_together():
-    speed = np.geomspace(1e-7, 1e-1, 13)
-    found = unloading.pull_off(speed, PAD, LAW, thickness=8e-4)
-    S = crossover.stiffness(8e-4, half_width=found.ligament, contact_modulus=4e6 / 3, base=FREE)
-    np.testing.assert_allclose(found.stress, -S * found.depth / 1e-2, rtol=1e-12)
-    elastic = crossover.pull_off_stress(8e-4, half_width=5e-3, **LAYER, base=FREE)
-    gamma = rate.amplification(found.crack_speed, LAW, largest=(9e4 / elastic) ** 2)
-    # interpolated between the states of a grid
-    np.testing.assert_allclose(found.amplification, gamma, rtol=1e-6)
-    # the measured energy is the one the crack took
-    energy = curve.surface_energy(
-        found.stress,
-        thickness=8e-4,
-        half_width=5e-3,
-        ligament=found.ligament,
-        contact_modulus=4e6 / 3,
-        base=FREE,
-    )
-    np.testing.assert_allclose(energy, 0.08 * found.amplification, rtol=1e-11)
-    assert np.all(np.diff(found.stress) > 0)
 
 
 @theories

@@ -156,12 +156,7 @@ def test_a_very_thin_layer_comes_off_at_the_strength():
     assert crack_speed_at_pull_off(result) == 0  # all at once: no crack has moved
 
 
-def test_the_speed_of_an_edge_that_runs_out_converges():
-    speeds = [crack_speed_at_pull_off(run(rate=1e4, accuracy=x)) for x in (1e-4, 3e-5)]
-    assert speeds[0] == pytest.approx(speeds[1], rel=0.01, abs=0)
-
-
-@pytest.mark.parametrize("thickness", [3.24, 32.42, pytest.param(324.2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("thickness", [3.24, 32.42])
 def test_a_viscoelastic_punch_lies_between_the_two_elastic_ones(thickness):
     slow = pull_off_stress(run(material=ELASTIC, thickness=thickness))
     glassy = dict(size=6.485, thickness=thickness / 10, cohesion=0.005, material=ELASTIC)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from noise import noise
-from viscotack.bem import jumps
 from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
@@ -126,14 +125,3 @@ def compare(case, seeds, accuracy):
 @pytest.mark.parametrize("name", CASES)
 def test_noise_changes_neither_outcome_nor_events_nor_force(name):
     compare(CASES[name], [0], accuracy=5e-3)
-
-
-def test_a_way_down_that_takes_too_long_is_looked_for_later(monkeypatch):
-    # just past the end of its branch this one takes more than 30 iterations, hundreds if need be
-    case = behind_spring(1e-3, material=ELASTIC)
-    patient = solve(case, accuracy=5e-3, estimate_error=False)
-    monkeypatch.setattr(jumps, "_PATIENCE", 30)
-    hasty = solve(case, accuracy=5e-3, estimate_error=False)
-    assert hasty.statistics["newton_iterations"] > patient.statistics["newton_iterations"]
-    assert [e.kind for e in hasty.events] == ["jump out of contact"]
-    assert pull_off_force(hasty) == pytest.approx(pull_off_force(patient), rel=1e-6, abs=0)

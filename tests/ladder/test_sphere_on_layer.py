@@ -112,11 +112,7 @@ def test_a_simulation_on_a_thick_layer_is_that_on_a_half_space(solid):
 
 
 CASES = [
-    (BASES[0], 0.1, 5e-3),
     (BASES[2], 1.0, 5e-3),
-    (BASES[3], 0.1, 5e-3),
-    (BASES[4], 0.1, 1e-2),
-    (SQUEEZED, 0.1, 1e-2),
     (SQUEEZED, 0.5, 1e-2),
 ]
 

@@ -74,15 +74,6 @@ def test_the_heat_is_what_the_modes_dissipate_one_by_one():
     assert heat == pytest.approx(crack.at(speed).heat, rel=1e-4)
 
 
-def test_trial_values_of_a_standard_solid():
-    # values of an independent trial; its closing crack at 10 was 0.333, and is 0.3354 by both
-    # formulations here, the other one below
-    crack = SteadyCrack(standard(0.1), REDUCED)
-    found = crack.amplification([0.1, 1, 10, -0.1, -1])
-    assert found == pytest.approx([1.129, 1.852, 3.959, 0.894, 0.612], rel=5e-3)
-    assert crack.amplification(-10) == pytest.approx(0.333, rel=8e-3)
-
-
 def test_a_crack_that_closes_is_the_same_with_the_memory_of_the_openings():
     # the modes of the openings and not of the tractions, the way round that is less stable
     k, mesh, law = 0.1, _mesh.mesh(1.0, 3e5, refined=0.6), _start.pinned(REDUCED)
@@ -198,7 +189,6 @@ def test_a_power_law_is_found_at_all_speeds_with_a_stated_error():
     ("ratio", "order"),
     [
         (1e-3, 0.6),
-        pytest.param(1e-6, 0.3, marks=pytest.mark.slow),
         pytest.param(1e-6, 0.9, marks=pytest.mark.slow),
     ],
 )

@@ -110,13 +110,9 @@ def test_a_speed_whose_cut_off_leaves_the_table_is_refused():
     ("change", "message"),
     [
         (dict(frequencies=(100.0, 10.0, 1.0, 0.1)), "must ascend"),
-        (dict(frequencies=(0.1, 1.0, 1.0, 10.0)), "must ascend"),
         (dict(frequencies=(0.1, 1.0, 100.0, 1000.0)), "gap of 2 decades"),
         (dict(loss=(3e4, 0.0, 9e5, 3e6)), "loss must be positive"),
-        (dict(storage=(1.01e6, float("nan"), 2e6, 4e6)), "storage must be positive"),
-        (dict(loss=(3e4, 2e5, 9e5)), "4 or more rows"),
         (dict(rubbery_modulus=2e6), "must not exceed the first storage modulus"),
-        (dict(rubbery_modulus=-1.0), "rubbery_modulus must be positive"),
         (dict(storage=(1.01e6,) * 4, loss=(9e5,) * 4), "impossible for a linear solid"),
     ],
 )
@@ -221,21 +217,10 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_the_columns(tmp_path)
     ("old", "new", "message"),
     [
         ("_Hz", "", "first row must name frequency, storage and loss with their units"),
-        ("loss_kPa", "phase_rad", "first row must name"),
         ("loss_kPa", "loss_kg", "column loss_kg: .* a quantity in Pa"),
-        ("_Hz", "_m", "column frequency_m: .* a quantity in 1/s"),
         ("1,1.1,200", "1,1.1", "line 5: a row must be 3 numbers .* got '1,1.1'; remove rows"),
-        ("1,1.1,200", "1,,200", "line 5: a row must be 3 numbers"),
-        ("1,1.1,200", "1,nan,200", "line 5: a row must be 3 numbers"),
         ("1,1.1,200", "0.01,1.1,200", "line 5: the frequency 0.01 comes after 0.1; sort the table"),
         ("1,1.1,200\n", "", "line 5: a gap of 2 decades between the frequencies 0.1 and 10"),
-        ("100,4,3000\n", "", "4 or more rows"),
-        (
-            "1.01,30",
-            "0.9,30",
-            "dma.csv: rubbery_modulus 1e.06 Pa must not exceed the first storage",
-        ),
-        (TEXT, "", "first row must name"),
     ],
 )
 def test_a_wrong_file_is_refused_with_its_line(old, new, message, tmp_path):

@@ -17,7 +17,6 @@ from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off
-from viscotack.traction import Dugdale
 
 MODES = Modes(instantaneous=0.1, weights=(0.3, 0.6), times=(0.05, 2.0), error=0.0)
 NODES = np.concatenate([np.linspace(0.0, 0.8, 40)[:-1], np.linspace(0.8, 1.2, 401), [1.5, 2.5]])
@@ -127,7 +126,6 @@ def test_the_error_of_long_steps_falls_at_second_order():
 CONTACTS = {
     "rigid machine": contact(),
     "soft spring": contact(tabor=15.0, stiffness=0.2),
-    "with a step in the law": contact(tabor=15.0, traction=Dugdale(1.0, 1.0, fall=0.5)),
     "approach": contact(
         tabor=15.0, rate=10.0, start=Apart(40.0), moves=(Approach(speed=10.0, to=AtDepth(30.0)),)
     ),
@@ -137,10 +135,7 @@ CONTACTS = {
 @pytest.mark.march
 @pytest.mark.parametrize(
     "name",
-    [
-        pytest.param(name, marks=[pytest.mark.slow] * (name not in ("rigid machine", "approach")))
-        for name in CONTACTS
-    ],
+    [pytest.param(name, marks=[pytest.mark.slow] * (name == "soft spring")) for name in CONTACTS],
 )
 def test_both_marches_find_the_same_forces_and_work(name, monkeypatch):
     followed, placed = marched(CONTACTS[name]), at_places(monkeypatch, CONTACTS[name])
