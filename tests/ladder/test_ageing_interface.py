@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.materials import Elastic, StandardSolid
+from dimensionless import ELASTIC, SOLID
+from viscotack.materials import StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell, Retract
 from viscotack.result.observables import pull_off_force
@@ -16,8 +17,6 @@ LOG = vt.LogarithmicAgeing.of(REST, reference_time=2.0, sensitivity=0.1)
 ENDS = vt.SaturatingAgeing.of(REST, reference_time=2.0, largest_growth=0.5)
 laws = pytest.mark.parametrize("law", [LOG, ENDS], ids=["logarithmic", "saturating"])
 GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 20e-9
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
 def run(law, *, moves=(), start=None, material=ELASTIC, tabor=3.0, rate=3.0, **given):

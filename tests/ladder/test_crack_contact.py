@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, standard
 from viscotack import (
     Apart,
     Approach,
@@ -13,7 +14,6 @@ from viscotack import (
     AtRadius,
     Cone,
     Dwell,
-    Elastic,
     FlatPunch,
     Groups,
     Layer,
@@ -44,11 +44,6 @@ from viscotack.theory.crack.contact import (
 )
 
 REDUCED = LennardJones(1.0, 1.0)
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-
-
-def standard(k=0.1):
-    return StandardSolid(rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0)
 
 
 class Blunt:

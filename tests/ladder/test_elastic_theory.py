@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.special import ellipe
 
+from dimensionless import last_slope
 from viscotack.theory import bradley, dmt, hertz, jkr, maugis
 
 # A glass bead of 1 mm on soft rubber; a 1 um tip on a stiffer one, in the middle of Maugis' range.
@@ -35,11 +36,6 @@ def disc_displacement(pressure, edge, position, contact_modulus):
         return np.array([inner(point) for point in x]) / np.sqrt(position**2 - x**2)
 
     return 4 / (np.pi * contact_modulus) * integral(outer, 0, min(position, edge))
-
-
-def slope(x, y):
-    """The exponent with which y follows x, on the last two levels."""
-    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
 
 
 def uniform_displacement(r, c, strength, contact_modulus):
@@ -114,7 +110,7 @@ def test_jkr_gap_opens_as_a_crack():
     # Irwin: one face moves by (4 K / E*) sqrt(x / 2 pi), K = sqrt(2 E* w); the other is rigid
     step = np.array([1e-8, 1e-10, 1e-12])
     gap = jkr.gap(1e-4 * (1 + step), contact_radius=1e-4, **BEAD)
-    assert slope(step, gap) == pytest.approx(0.5, abs=1e-4)
+    assert last_slope(step, gap) == pytest.approx(0.5, abs=1e-4)
     irwin = 4 / 1.3e6 * np.sqrt(2 * 1.3e6 * 0.05) * np.sqrt(1e-4 * step / (2 * np.pi))
     np.testing.assert_allclose(gap[-1], irwin[-1], rtol=1e-4)
 
@@ -172,9 +168,9 @@ def test_jkr_tends_to_hertz_as_the_square_root_of_adhesion():
     w = np.array([1e-6, 1e-8, 1e-10])
     case = dict(radius=1e-3, contact_modulus=1.3e6)
     missing = hertz.force(1e-4, **case) - jkr.force(1e-4, work_of_adhesion=w, **case)
-    assert slope(w, missing) == pytest.approx(0.5, abs=1e-6)
+    assert last_slope(w, missing) == pytest.approx(0.5, abs=1e-6)
     higher = hertz.depth(1e-4, radius=1e-3) - jkr.depth(1e-4, work_of_adhesion=w, **case)
-    assert slope(w, higher) == pytest.approx(0.5, abs=1e-6)
+    assert last_slope(w, higher) == pytest.approx(0.5, abs=1e-6)
 
 
 # DMT and Bradley ------------------------------------------------------------------------------
@@ -302,10 +298,10 @@ def test_maugis_curves_join_where_the_contact_is_a_point():
     joint = maugis.curve_without_contact(maugis.touching_radius(**TIP), **TIP)
     ratio = np.array([1e3, 1e4, 1e5])
     state = maugis.curve(ratio, **TIP)
-    assert slope(ratio, state.cohesive_radius - joint.cohesive_radius) == pytest.approx(
+    assert last_slope(ratio, state.cohesive_radius - joint.cohesive_radius) == pytest.approx(
         -2, abs=0.01
     )
-    assert slope(ratio, state.force - joint.force) == pytest.approx(-2, abs=0.01)
+    assert last_slope(ratio, state.force - joint.force) == pytest.approx(-2, abs=0.01)
     np.testing.assert_allclose(state.depth[-1], joint.depth, rtol=1e-4)
     np.testing.assert_allclose(state.force[-1], joint.force, rtol=1e-8)
 
@@ -331,16 +327,16 @@ def test_maugis_tends_to_jkr_with_the_square_of_its_parameter():
     goal = jkr.pull_off(**case)
     for name in ("contact_radius", "depth", "force"):
         rest = getattr(end, name) - getattr(goal, name)
-        assert slope(strength, rest) == pytest.approx(-2, abs=1e-3), name
+        assert last_slope(strength, rest) == pytest.approx(-2, abs=1e-3), name
     work = maugis.work_to_pull_off(**TIP | dict(strength=strength)) - jkr.work_to_pull_off(**case)
-    assert slope(strength, work) == pytest.approx(-2, abs=2e-3)
+    assert last_slope(strength, work) == pytest.approx(-2, abs=2e-3)
 
 
 def test_maugis_tends_to_dmt_with_the_power_three_halves_of_its_parameter():
     strength = np.array([1e4, 1e3, 1e2])
     force = maugis.pull_off_force(**TIP | dict(strength=strength))
     rest = dmt.pull_off_force(radius=1e-6, work_of_adhesion=0.05) - force
-    assert slope(strength, rest) == pytest.approx(1.5, abs=1e-4)
+    assert last_slope(strength, rest) == pytest.approx(1.5, abs=1e-4)
 
 
 # Units ----------------------------------------------------------------------------------------

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID, power_law
 from energy_books import compared
 from viscotack.geometry import Cone, FlatPunch, Layer
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
@@ -15,8 +15,6 @@ from viscotack.traction import Exponential
 
 pytestmark = pytest.mark.march
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LOOP = (Approach(1.0, AtForce(4.0)), Retract(1.0, AtForce(2.0)))
 
 
@@ -93,9 +91,6 @@ def test_a_soft_spring_does_not_hide_missing_energy():
     assert result.energy_residual > 0.1 * np.max(np.abs(missing)) / largest
 
 
-POWER_LAW = RetardationPowerLaw(
-    rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
-)
 HISTORIES = {
     "apart, held, pulled off": sphere(
         Approach(5.0, AtDepth(3.0)),
@@ -111,7 +106,7 @@ HISTORIES = {
         Dwell(0.5),
         start=AtForce(1.0),
         tabor=1.0,
-        material=POWER_LAW,
+        material=power_law(),
         stiffness=2.0,
         rate=5.0,
     ),
@@ -139,7 +134,7 @@ DEEPER = sphere(
     Approach(3.0, AtForce(5.0)),
     start=AtForce(1.0),
     tabor=5.0,
-    material=replace(POWER_LAW, glassy_modulus=80.0),
+    material=replace(power_law(), glassy_modulus=80.0),
     traction=Exponential(1.0, 1.0, decay=0.157),
 )
 
@@ -155,7 +150,7 @@ def test_a_step_that_would_create_energy_is_cut():
         LoadTo(-824.3, 3.864e-3),
         start=AtForce(0.0),
         tabor=1.378,
-        material=replace(POWER_LAW, glassy_modulus=798.8, exponent=1.489),
+        material=replace(power_law(), glassy_modulus=798.8, exponent=1.489),
     )
     energy = solve(loaded, estimate_error=False).energy
     assert np.min(np.diff(energy.jumps)) > -1e-3 * abs(energy.interface[0])

@@ -6,6 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.special import erfcx, rgamma
 
+from dimensionless import slope
 from viscotack.materials import (
     FractionalKelvinVoigt,
     FractionalMaxwell,
@@ -49,10 +50,6 @@ def test_creep_and_relaxation_of_springpots_convolve_to_time(kind, orders):
 
 
 # ---- rung 2: limits ----------------------------------------------------------------------------
-
-
-def slope(x, y):
-    return np.polyfit(np.log(x), np.log(y), 1)[0]
 
 
 @pytest.mark.parametrize("order", [0.2, 0.5, 0.9])

@@ -7,8 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.errors import OutOfRange
-from viscotack.materials import Elastic, StandardSolid
+from viscotack.materials import StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
 from viscotack.result.edge_energy import edge_energy
@@ -23,8 +24,6 @@ from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
 from viscotack.traction import Eyring, GentSchultz, LennardJones
 from viscotack.traction.growing import reference_speed
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 REST = LennardJones(1.0, 1.0)
 POWER = GentSchultz(1, 1, 1.0, 0.5)
 solids = pytest.mark.parametrize("solid", [ELASTIC, SOLID], ids=["elastic", "solid"])

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.bem import Settings
-from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell
 from viscotack.result.observables import pull_off_force
@@ -21,8 +21,6 @@ POWER = GentSchultz.of(REST, reference_speed=1e-3, exponent=0.4)
 BONDS = Eyring.of(REST, reference_speed=1e-6, sensitivity=0.2)
 laws = pytest.mark.parametrize("law", [POWER, BONDS], ids=["power", "bonds"])
 GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 200e-9
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
 def unloaded(law, tabor=1.0, depth=2.0, material=ELASTIC, rate=1.0, **given):

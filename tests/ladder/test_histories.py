@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID, power_law
 from viscotack.bem import Settings
 from viscotack.bem.solver import contact_of
 from viscotack.geometry import FlatPunch, Layer
-from viscotack.materials import Elastic, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
+from viscotack.materials import RelaxationPowerLaw
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import (
@@ -33,12 +34,6 @@ from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale, Exponential
 
 pytestmark = pytest.mark.march
-
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-POWER_LAW = RetardationPowerLaw(
-    rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
-)
 
 
 def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, stiffness=None):
@@ -158,7 +153,7 @@ def elastic_pull_off(tabor):
     )
 
 
-@pytest.mark.parametrize("material", [SOLID, POWER_LAW], ids=["solid", "power-law"])
+@pytest.mark.parametrize("material", [SOLID, power_law()], ids=["solid", "power-law"])
 def test_a_load_below_the_elastic_pull_off_is_borne_and_one_above_it_is_not(material):
     most = elastic_pull_off(2.0)
     ends = {}
@@ -196,8 +191,8 @@ def crack_time(load, tabor, material):
         (SOLID, 3.24, 1.3),
         (SOLID, 3.24, 2.0),
         (SOLID, 8.0, 3.0),
-        (POWER_LAW, 3.24, 1.3),
-        (POWER_LAW, 3.24, 2.0),
+        (power_law(), 3.24, 1.3),
+        (power_law(), 3.24, 2.0),
     ],
 )
 def test_a_dead_load_lets_go_after_the_time_of_persson_and_brener(material, tabor, load):
@@ -390,7 +385,7 @@ def random_test(seed):
         start = Apart(20.0)
         moves.insert(0, Approach(10.0, AtDepth(span)))
     rate = float(10 ** random.uniform(-1, 2)) if random.random() < 0.7 else None
-    material = [ELASTIC, SOLID, POWER_LAW][random.integers(3)]
+    material = [ELASTIC, SOLID, power_law()][random.integers(3)]
     options = dict(rate=rate, material=material, stiffness=stiffness)
     if is_sphere:
         return sphere(start, *moves, tabor=tabor, **options)

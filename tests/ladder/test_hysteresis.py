@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID
 from viscotack.geometry import FlatPunch, Layer
-from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import crack_contact, solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
@@ -13,9 +13,6 @@ from viscotack.result.cycles import cycle_rows, cycles
 from viscotack.result.loops import Loop
 
 pytestmark = pytest.mark.march
-
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
 def sphere(start, *moves, rate=None, tabor=0.5, material=ELASTIC, stiffness=None):

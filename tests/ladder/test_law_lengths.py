@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID
 from viscotack.bem.interface import AtNodes, OnPanels
-from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
@@ -12,8 +12,6 @@ from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.theory import maugis
 from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 # strong and short, with a corner in its stiffness where it ends
 TABLE = Tabulated.of_points(
     [0.95, 0.98, 1.0, 1.05, 1.1, 1.2], [-20.0, -8.0, 0.0, 10.0, 6.0, 0.0]

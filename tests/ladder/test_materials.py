@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from dimensionless import slope
 from reference_data import VALUES
 from viscotack.materials import (
     Elastic,
@@ -218,10 +219,6 @@ def test_interconversion_is_exact_for_any_branches(branches):
 
 
 # ---- rung 2: limits ----------------------------------------------------------------------------
-
-
-def slope(x, y):
-    return np.polyfit(np.log(x), np.log(y), 1)[0]
 
 
 def test_prony_of_one_branch_is_the_standard_solid():

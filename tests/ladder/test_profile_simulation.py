@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from dimensionless import ELASTIC, SOLID
 from viscotack.bem import Settings
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.geometry import PowerLawProfile
-from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
@@ -21,8 +21,6 @@ from viscotack.traction import LennardJones
 
 pytestmark = pytest.mark.march
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LAW = LennardJones(1.0, 1.0)
 # what the default setting promises of the pull-off force
 DEFAULT = 2e-3

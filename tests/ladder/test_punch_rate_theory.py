@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from dimensionless import last_slope, standard
 from reference_data import reference
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, punch
@@ -40,11 +41,6 @@ RUBBER = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
 FREE = Frictionless()
 PAD = Pad(**INTERFACE, half_width=5e-3, base=FREE)
 LAW = PAD.crack_law("greenwood", material=SLS)
-
-
-def slope(x, y):
-    """The exponent with which y follows x, on the last two levels."""
-    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
 
 
 # Amplification, limited by size ---------------------------------------------------------------
@@ -144,7 +140,7 @@ def test_work_of_separation_of_a_rigid_punch_is_the_work_of_adhesion():
         work = curve.work_of_separation(1e-6 - gap, law.traction(gap))
         # the tail of the traction beyond the last point
         errors.append(work + 4 / 3 * 0.05 * (1e-6 / gap[-1]) ** 2 - 0.05)
-    assert slope([200, 400, 800], errors) == pytest.approx(-2, abs=0.1)
+    assert last_slope([200, 400, 800], errors) == pytest.approx(-2, abs=0.1)
     assert abs(errors[-1]) < 2e-4 * 0.05
 
 
@@ -206,7 +202,7 @@ def test_slow_retraction_tends_to_the_elastic_pull_off(theory, material):
     assert np.all(excess > 0) and np.all(np.diff(excess) < 0) and excess[-1] < 1e-4
     # a loss in proportion to the speed of the crack; in Greenwood's theory with a logarithm
     if theory == "persson-brener" and material is SLS:
-        assert slope(speeds, excess) == pytest.approx(1, abs=0.02)
+        assert last_slope(speeds, excess) == pytest.approx(1, abs=0.02)
     assert found.ligament[-1] == pytest.approx(5e-3, rel=1e-4, abs=0)
 
 
@@ -343,10 +339,6 @@ def unit(strength):
         work_of_adhesion=9 * np.sqrt(3) / 16 * strength,
         strength=strength,
     )
-
-
-def standard(k):
-    return StandardSolid(rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0)
 
 
 @pytest.mark.parametrize("row", reference("3.32+3.34", "3.35", "App II (4)"))

@@ -7,13 +7,14 @@ import pytest
 from scipy.optimize import brentq
 from threadpoolctl import threadpool_limits
 
+from dimensionless import ELASTIC, SOLID, slope
 from punches import resized
 from reference_data import VALUES
 from viscotack.bem import Settings
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.twins.plain_punch import plain_solve, triangle_matrix
 from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
-from viscotack.materials import Elastic, StandardSolid
+from viscotack.materials import StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
@@ -33,8 +34,6 @@ from viscotack.traction import LennardJones
 
 pytestmark = pytest.mark.march
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LAW = LennardJones(1.0, 1.0)
 THESIS = Groups(
     tabor=None,
@@ -55,10 +54,6 @@ def run(groups=THESIS, *, settings=None, accuracy=2e-3, until="pull-off", **chan
         until=until,
         estimate_error=False,
     )
-
-
-def slope(sizes, errors):
-    return np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0]
 
 
 # --- identities -----------------------------------------------------------------------------

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.special import jv
 
+from dimensionless import last_slope
 from reference_data import reference
 from viscotack.theory import greenwood, punch
 from viscotack.theory.punch import Bonded, Frictionless, Pad, crossover
@@ -23,11 +24,6 @@ bases = pytest.mark.parametrize("base", BASES, ids=["free", "nu=0", "nu=0.3", "n
 
 def without_energy(case):
     return {name: value for name, value in case.items() if name != "work_of_adhesion"}
-
-
-def slope(x, y):
-    """The exponent with which y follows x, on the last two levels."""
-    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
 
 
 # Closed forms ---------------------------------------------------------------------------------
@@ -180,7 +176,7 @@ def test_thin_layer_tends_to_its_closed_form_in_proportion_to_its_thickness():
     b = 1e-3 * np.array([0.1, 1e-2, 1e-3])
     exact = crossover.pull_off_stress(b, **PAD, base=FREE)
     excess = exact / punch.thin_layer_pull_off_stress(b, **LAYER, base=FREE) - 1
-    assert slope(b, excess) == pytest.approx(1, abs=1e-3)
+    assert last_slope(b, excess) == pytest.approx(1, abs=1e-3)
     np.testing.assert_allclose(excess / (b / 1e-3), 0.177131575829, rtol=1e-8)
     depth = crossover.depth_at_pull_off(b, **PAD, base=FREE)
     np.testing.assert_allclose(
@@ -193,7 +189,7 @@ def test_thick_layer_tends_to_the_half_plane_with_the_square_of_its_thickness(ba
     b = 1e-3 * np.array([1e2, 1e3, 1e4])
     exact = crossover.pull_off_stress(b, **PAD, base=base)
     excess = exact / punch.half_plane_pull_off_stress(1e-3, **LAYER) - 1
-    assert slope(b, excess) == pytest.approx(-2, abs=2e-3)
+    assert last_slope(b, excess) == pytest.approx(-2, abs=2e-3)
     # 1/S grows with (2/pi) ln(b/a)
     case = without_energy(PAD) | dict(contact_modulus=1.0)
     compliance = 1 / crossover.stiffness(b, **case, base=base)

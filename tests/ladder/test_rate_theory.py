@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from dimensionless import last_slope
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.theory import (
     CrackLaw,
@@ -39,11 +40,6 @@ def rubber(exponent, modulus_ratio):
     )
 
 
-def slope(x, y):
-    """The exponent with which y follows x, on the last two levels."""
-    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
-
-
 # Regimes of the crack -------------------------------------------------------------------------
 
 
@@ -53,7 +49,7 @@ def test_slow_cracks_dissipate_in_proportion_to_their_speed(exponent):
     exact = persson_brener.amplification(v, material=rubber(exponent, 0.1))
     slow = crack_regimes.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
     assert slow == pytest.approx(exact, rel=1e-5, abs=0)
-    assert slope(v, exact - slow) == pytest.approx(3, abs=0.02)
+    assert last_slope(v, exact - slow) == pytest.approx(3, abs=0.02)
 
 
 @pytest.mark.parametrize("exponent", [0.3, 0.6, 1.7])
@@ -147,7 +143,7 @@ def test_the_fit_is_a_power_law_and_warns_away_from_its_tabor_number():
     r = np.array([1e-2, 1.0, 1e6])
     speed = rate.crack_speed(r, tabor=3.24)
     assert speed[1] == pytest.approx(2.887, rel=1e-15, abs=0)
-    assert slope(r, speed) == pytest.approx(1.171, rel=1e-12, abs=0)
+    assert last_slope(r, speed) == pytest.approx(1.171, rel=1e-12, abs=0)
     with pytest.warns(UserWarning, match="this one is 0.8"):
         rate.crack_speed(r, tabor=0.8)
     with warnings.catch_warnings():
@@ -207,7 +203,7 @@ def test_unloading_leaves_jkr_in_proportion_to_the_rate():
     r = np.array([3e-9, 1e-9])
     rest = [pulled(x).pull_off_force / force - 1 for x in r]
     # the crack's own law is linear there; the next order is some per cent of it
-    assert slope(r, rest) == pytest.approx(1, abs=0.05)
+    assert last_slope(r, rest) == pytest.approx(1, abs=0.05)
 
 
 def test_fast_unloading_of_a_large_contact_takes_the_glassy_energy():
@@ -377,7 +373,7 @@ def test_gent_schultz_doubles_at_its_reference_speed_and_is_inverted():
     assert empirical.gent_schultz(213.5e-6, **law) == pytest.approx(2, rel=1e-14, abs=0)
     v = np.geomspace(1e-7, 1e-1, 9)
     gamma = empirical.gent_schultz(v, **law)
-    assert slope(v, gamma - 1) == pytest.approx(0.4154, rel=1e-9, abs=0)
+    assert last_slope(v, gamma - 1) == pytest.approx(0.4154, rel=1e-9, abs=0)
     assert empirical.gent_schultz_speed(gamma, **law) == pytest.approx(v, rel=1e-9, abs=0)
 
 
@@ -385,13 +381,13 @@ def test_the_process_zone_takes_as_much_as_the_bulk_at_its_speed():
     assert empirical.process_zone_correction(1e-2) == pytest.approx(2, rel=1e-14, abs=0)
     v = np.array([1e-6, 1e-5])
     rest = empirical.process_zone_correction(v) - 1
-    assert slope(v, rest) == pytest.approx(0.5, rel=1e-9, abs=0)
+    assert last_slope(v, rest) == pytest.approx(0.5, rel=1e-9, abs=0)
 
 
 def test_wlf_is_one_at_the_glass_transition_and_ends_at_its_constant():
     assert empirical.wlf_shift(200.0, glass_transition=200.0) == 1
     far = np.log10(empirical.wlf_shift(np.array([1e6, 1e7]), glass_transition=200.0))
-    assert slope([1e6, 1e7], far + 17.44) == pytest.approx(-1, abs=1e-3)
+    assert last_slope([1e6, 1e7], far + 17.44) == pytest.approx(-1, abs=1e-3)
     # 15 K above, by hand: -17.44*15/66.6
     assert np.log10(empirical.wlf_shift(215.0, glass_transition=200.0)) == pytest.approx(
         -3.927927927927928, rel=1e-12, abs=0

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from dimensionless import standard
 from viscotack import (
     Apart,
     Approach,
@@ -14,16 +15,11 @@ from viscotack import (
     MoveTo,
     OutOfRange,
     Retract,
-    StandardSolid,
     crack_contact,
     pull_off_force,
     solve,
 )
 from viscotack.theory.crack.contact import history
-
-
-def standard(k=0.1):
-    return StandardSolid(rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0)
 
 
 def pressed(*moves, rate=20.0, tabor=10.0, k=0.1, speed=20.0, **more):

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID, power_law
 from noise import noise
 from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
@@ -14,19 +14,6 @@ from viscotack.result.observables import pull_off_force
 from viscotack.traction import Dugdale
 
 pytestmark = pytest.mark.march
-
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-
-
-def power_law(modulus_ratio, exponent=0.6):
-    return RetardationPowerLaw(
-        rubbery_modulus=1.0,
-        glassy_modulus=1 / modulus_ratio,
-        exponent=exponent,
-        tau0=1.0,
-        poisson_ratio=0.0,
-    )
 
 
 def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, **options):

@@ -10,9 +10,9 @@ from scipy.integrate import quad
 from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
+from dimensionless import ELASTIC
 from viscotack.bem import Settings
 from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.materials import Elastic
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
@@ -27,7 +27,6 @@ from viscotack.traction import (
 )
 
 WORK, RANGE = 0.1523, 1.55e-6
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 DUGDALE = Dugdale(WORK, RANGE, rise=0.05, fall=0.3)
 EXPONENTIAL = Exponential(WORK, RANGE, decay=0.3)
 TABLE = Tabulated.of_points(

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from dimensionless import standard
 from viscotack.bem import Settings, march
 from viscotack.bem.frame import Passage, Way
 from viscotack.bem.memory import Memory, step
-from viscotack.materials import Elastic, Modes, StandardSolid
+from viscotack.materials import Elastic, Modes
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth
@@ -25,14 +26,8 @@ SPACING = 0.001
 ACCURACY, STEPS = 2e-3, 1e-3
 
 
-def solid(modulus_ratio=0.1):
-    return StandardSolid(
-        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
-    )
-
-
 def contact(tabor=10.0, rate=3.0, **changes):
-    pulled = Groups(tabor=tabor, material=solid(), start=AtDepth(5 * tabor), rate=rate)
+    pulled = Groups(tabor=tabor, material=standard(), start=AtDepth(5 * tabor), rate=rate)
     return dataclasses.replace(pulled, **changes)
 
 
