@@ -4,20 +4,19 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.materials import Elastic, StandardSolid
+from dimensionless import ELASTIC, SOLID
+from viscotack.materials import StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell, Retract
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Dugdale, LennardJones
-from viscotack.traction.resting import OverRest, reduced
+from viscotack.traction import LennardJones
+from viscotack.traction.resting import reduced
 
 REST = LennardJones(0.05, 20e-9)
 LOG = vt.LogarithmicAgeing.of(REST, reference_time=2.0, sensitivity=0.1)
 ENDS = vt.SaturatingAgeing.of(REST, reference_time=2.0, largest_growth=0.5)
 laws = pytest.mark.parametrize("law", [LOG, ENDS], ids=["logarithmic", "saturating"])
 GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 20e-9
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
 def run(law, *, moves=(), start=None, material=ELASTIC, tabor=3.0, rate=3.0, **given):
@@ -73,30 +72,6 @@ def test_a_reduced_law_counts_times_in_the_unit_of_time(law):
 
 
 @laws
-def test_a_law_beyond_one_at_rest_stores_the_energy_of_that_at_rest(law):
-    assert isinstance(law, OverRest)
-    np.testing.assert_array_equal(law.energy(GAPS), REST.energy(GAPS))
-    np.testing.assert_array_equal(law.energy_beyond(GAPS), REST.energy_beyond(GAPS))
-    assert type(law).of(REST, **law_constants(law)) == law
-    assert law.reduced(1.0).scaled(0.05, 20e-9, 1.0) == law
-
-
-def law_constants(law):
-    return {name: v for name, v in vars(law).items() if name not in vars(REST) and name != "base"}
-
-
-def test_what_is_no_ageing_law_is_refused():
-    with pytest.raises(ValueError, match="reference_time must be positive"):
-        vt.LogarithmicAgeing(1, 1, 0.0, 0.1)
-    with pytest.raises(ValueError, match="a law of the gap alone"):
-        vt.SaturatingAgeing(1, 1, 1.0, 0.5, base=vt.GentSchultz(1, 1, 1, 0.5))
-    with pytest.raises(ValueError, match="must be smooth enough for nodes.*wider fall"):
-        run(vt.SaturatingAgeing.of(Dugdale(1, 1), reference_time=1, largest_growth=0.5))
-    with pytest.raises(ValueError, match="closed for ever, and logarithmic-ageing has no end"):
-        run(vt.LogarithmicAgeing(1, 1, 1.0, 0.1))
-
-
-@laws
 def test_tiers_that_do_not_know_ages_refuse_them(law):
     problem = vt.Problem(
         StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5),
@@ -138,14 +113,6 @@ def test_the_force_follows_the_dwell():
         strong = pull_off_force(run(LennardJones(1, 1), tabor=3.0 * grown ** (2 / 3)))
         found = pull_off_force(pressed(law, dwell, speed=1e5))
         assert found == pytest.approx(grown * strong, rel=6e-3)
-
-
-def test_a_contact_made_anew_ages_from_the_beginning():
-    law = vt.SaturatingAgeing(1, 1, 1.0, 1.0)
-    first = pull_off_force(pressed(law, 0.3))
-    again = pull_off_force(pressed(law, 20.0, 0.3))
-    assert again == pytest.approx(first, rel=2e-3)
-    assert pull_off_force(pressed(law, 20.0)) > 1.4 * first
 
 
 def test_an_approach_is_that_of_the_law_at_rest():

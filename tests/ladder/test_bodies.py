@@ -35,13 +35,6 @@ def test_the_matrix_of_the_half_space_gives_its_closed_forms(shape):
     assert on_body.drawn(RADII, shape, HalfSpace(), 1.0) == pytest.approx(drawn, rel=1e-5)
 
 
-def test_waves_are_not_interpolated_on_a_body():
-    waves, a = vt.WavySphere(1.0, 0.002, 0.2), np.array([0.05, 0.1, 0.23, 0.5])
-    theory = {"shape": waves, "contact_modulus": 1.0, "work_of_adhesion": 1e-3}
-    jkr = np.asarray(indenter.depth(a, **theory))
-    assert on_body.depth(a, waves, HalfSpace(), 1e-3) == pytest.approx(jkr, rel=1e-3)
-
-
 def test_a_flat_tip_sinks_into_a_body_without_rising():
     # a table that begins with a flat: M is zero there, and has no logarithm
     worn = vt.MeasuredProfile(((0.0, 0.0), (0.5, 0.0), (1.0, 0.2), (2.0, 1.0)))

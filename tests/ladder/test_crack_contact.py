@@ -1,11 +1,11 @@
 """Contacts whose edge is a steady crack: limits, twins, published physics, simulation."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, standard
 from viscotack import (
     Apart,
     Approach,
@@ -14,7 +14,6 @@ from viscotack import (
     AtRadius,
     Cone,
     Dwell,
-    Elastic,
     FlatPunch,
     Groups,
     Layer,
@@ -38,21 +37,13 @@ from viscotack.theory import SteadyCrack, profiles
 from viscotack.theory.crack.contact import (
     Contact,
     Drive,
-    history,
     profile_of,
     radius_at_depth,
     radius_at_force,
     recede,
-    series,
 )
-from viscotack.traction import Tabulated
 
 REDUCED = LennardJones(1.0, 1.0)
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-
-
-def standard(k=0.1):
-    return StandardSolid(rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0)
 
 
 class Blunt:
@@ -291,14 +282,6 @@ def test_what_the_theory_cannot_answer_is_refused_with_the_reason():
         crack_contact(pad)
 
 
-def test_a_history_that_takes_too_many_steps_is_out_of_range(monkeypatch):
-    monkeypatch.setattr("viscotack.theory.crack.contact.history._MOST_STEPS", 5)
-    press = Approach(100.0, AtDepth(200.0))
-    long = Groups(tabor=100, material=ELASTIC, start=AtDepth(100), rate=100, moves=(press,))
-    with pytest.raises(OutOfRange, match="more than 5 steps"):
-        crack_contact(long)
-
-
 @pytest.mark.parametrize("speed", [3.0, 1.0])
 def test_a_retraction_in_two_moves_takes_the_work_of_one(speed):
     """Of an elastic solid, whatever the speed of the first; the last one begins in tension."""
@@ -322,222 +305,3 @@ def test_a_stop_on_the_way_out_is_no_pull_off_and_ends_no_work():
     pulled = (found.move > 0) & (found.depth > found.depth_at_pull_off)
     alone = np.trapezoid(-found.force[pulled], -found.depth[pulled])
     assert found.work_to_pull_off > 1.2 * alone
-
-
-def test_an_edge_that_moves_at_once_is_refused_in_words_where_the_zone_is_large():
-    # steps so long that the extrapolated time is negative: it ended in an IndexError
-    law = Tabulated.of_points(
-        np.array([1.2, 1.5, 1.8, 2.1, 3.0, 4.5, 8.0]) * 1e-6,
-        [-300e3, -10e3, 60e3, 75e3, 30e3, 4e3, 0.0],
-    )
-    solid = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    start = AtDepth(0.6546616974638197)
-    groups = Groups(0.5165909518906818, solid, start, 6.546616974638198, law.reduced())
-    with pytest.raises(OutOfRange, match="cohesive zone is too large"):
-        crack_contact(replace(groups, geometry=Cone(1.0)))
-
-
-@pytest.mark.parametrize(("travel", "rate"), [(-1.0, 0.2), (0.0, 0.2), (0.1, 0.25), (5.0, 0.0)])
-def test_the_rate_of_an_edge_is_of_second_order_unless_it_turns(travel, rate):
-    # mean rate 0.2 in this step, `travel` in the one before: 0.1 to 0.2 in mean goes on to 0.25,
-    # and an edge that slows down does not turn within a step
-    step = object.__new__(history._Step)
-    step._dt, step._before = 0.1, SimpleNamespace(radius=1.0, travel=travel, step=0.1)
-    assert step.rate(1.02) == pytest.approx(rate, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("depth", "ahead", "jump"),
-    [
-        # the shape lies at 1 - 4 = -3 and the surface ahead of the edge at the radius there
-        (1.0, 0.5, -5.5),
-        (1.0, 5.0, -6.0),
-        # no opening to close
-        (9.0, 0.5, 0.0),
-    ],
-)
-def test_an_edge_closes_over_the_jump_from_the_surface_one_zone_ahead(depth, ahead, jump):
-    step = object.__new__(history._Step)
-    profile = SimpleNamespace(depth=lambda a: a**2)
-    step._of = SimpleNamespace(_profile=profile, _ahead=ahead, _s=np.array([0.0, 1.0, 3.0]))
-    step._outside = lambda a: (a, np.nan)
-    assert step._jump(2.0, depth) == pytest.approx(jump**2 / (4 * np.pi), rel=1e-14)
-
-
-def bare(kind, **parts):
-    """Make a contact or a step of one that has only these parts."""
-    made = object.__new__(kind)
-    for name, part in parts.items():
-        setattr(made, f"_{name}", part)
-    return made
-
-
-@pytest.mark.parametrize("value", [-0.9, -0.1, 0.3, 5.0])
-@pytest.mark.parametrize("a", [0.9, 1.3])
-@pytest.mark.parametrize("control", ["force", "depth", "drive"])
-def test_a_step_gives_depth_and_force_that_belong_to_each_other(value, a, control):
-    step = bare(
-        history._Step,
-        of=SimpleNamespace(_profile=SimpleNamespace(total=lambda a: a**3 / 3), _stiffness=0.7),
-        before=SimpleNamespace(radius=1.0, left=0.8), c=0.25, value=value, control=control,
-        inside=lambda a: (0.1, 0.1 * a), outside=lambda a: (0.5, 0.5 * a), until=0.5,
-    )  # fmt: skip
-    depth, force, lag = step.at(a)
-    # inner memory up to the edge before, and outer memory beyond it
-    creep = 0.1 * min(a, 1.0) + 0.5 * max(a - 1.0, 0.0)
-    assert lag == (0.5 if a > 1.0 else 0.1)
-    whole = force / 0.8 if force < 0 else force
-    assert whole == pytest.approx(2 / 0.25 * (depth * a - a**3 / 3 - creep), rel=1e-12)
-    given = {"force": force, "depth": depth, "drive": depth + force / 0.7}[control]
-    assert given == pytest.approx(value, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("lift", "jump", "drive", "way", "goes_on", "edge"),
-    [
-        # only one of the energies lets it move
-        (1.1, 1.1, -1, 0, None, 0.5),
-        (0.9, 0.9, 1, 0, None, 2.0),
-        (0.9, 1.1, -1, 0, None, 1.0),
-        # equal energies move nothing
-        (1.0, 1.0, -1, 0, None, 1.0),
-        # both
-        (1.1, 0.9, -1, 0, True, 0.5),
-        (1.1, 0.9, 1, 0, False, 2.0),
-        # it turns with the drive only
-        (1.1, 1.1, 1, 1, None, 1.0),
-        (1.1, 1.1, -1, -1, None, 0.5),
-        (0.9, 0.9, -1, -1, None, 1.0),
-        (0.9, 0.9, 1, 1, None, 2.0),
-        (1.1, 1.1, -1, 1, None, 0.5),
-        (0.9, 0.9, 1, -1, None, 2.0),
-    ],
-)
-def test_an_edge_moves_where_its_energies_and_the_drive_let_it(
-    lift, jump, drive, way, goes_on, edge
-):
-    step = bare(
-        history._Step,
-        before=SimpleNamespace(radius=1.0, depth=0.0, way=way), dt=0.1,
-        at=None, lift=lambda a, depth, lag: lift, jump=lambda a, depth: jump,
-        goes_on_opening=lambda rate: goes_on,
-        closed=lambda a: 2.0 * a, opened=lambda a: 0.5 * a,
-    )  # fmt: skip
-    step.at = lambda a: (0.1 * drive, 0.0, 0.0)
-    assert step.edge() == edge
-
-
-@pytest.mark.parametrize(("touches", "edge"), [(True, 7.0), (False, 0.0)])
-def test_surfaces_apart_close_from_nothing_where_they_touch(touches, edge):
-    step = bare(
-        history._Step,
-        before=SimpleNamespace(radius=0.0),
-        touches=lambda: touches,
-        closed=lambda a: 7.0 + a,
-    )
-    assert step.edge() == edge
-
-
-def test_an_edge_opens_with_the_lift_over_the_instantaneous_compliance():
-    of = SimpleNamespace(_profile=SimpleNamespace(depth=lambda a: a**2))
-    step = bare(history._Step, of=of, c=0.5)
-    # 1 - 4 - 0.5 = -3.5
-    assert step._lift(2.0, 1.0, 0.5) == pytest.approx(7.0**2 / (4 * np.pi), rel=1e-14)
-    assert step._lift(2.0, 5.0, 0.5) == 0.0
-
-
-@pytest.mark.parametrize(
-    ("travel", "drive", "opens"),
-    [
-        (0.0, -1.0, True),
-        (0.0, 1.0, False),
-        # with the drive
-        (-1.0, -9.0, True),
-        (1.0, 9.0, False),
-        # the flank rises by 4 at a radius of 2: it follows the drive below 3/4 of its rate
-        (-0.74, 1.0, False),
-        (-0.76, 1.0, True),
-        (0.74, -1.0, True),
-        (0.76, -1.0, False),
-    ],
-)
-def test_an_edge_that_could_open_and_close_keeps_its_way_unless_it_is_slow(travel, drive, opens):
-    of = SimpleNamespace(_profile=SimpleNamespace(depth=lambda a: a**2))
-    step = bare(history._Step, of=of, before=SimpleNamespace(travel=travel, radius=2.0))
-    assert step._goes_on_opening(drive) is opens
-
-
-def test_the_tension_left_is_that_of_the_opening_speed_of_the_edge():
-    table = SimpleNamespace(one=lambda log_speed: np.exp(-log_speed))
-    contact = bare(Contact, at_rest=0.9, tension=table, mu2=4.0)
-    assert contact._left(0.0) == contact._left(1.0) == 0.9
-    assert contact._left(-0.5) == pytest.approx(0.5, rel=1e-14)
-    contact._tension = None
-    assert contact._left(-0.5) == 0.9
-
-
-@pytest.mark.parametrize(("forces", "opened"), [((2.0, 3.0), 0), ((3.0, 2.0), 1), ((2.0, 2.0), -1)])
-def test_of_two_elastic_contacts_the_weaker_opens(forces, opened):
-    found = series._both_elastic(*(SimpleNamespace(pull_off_force=P) for P in forces))
-    assert (found.opened, found.tension, found.energy) == (opened, 2.0, (1.0, 1.0))
-
-
-@pytest.mark.parametrize(
-    ("gone", "last", "opened", "held"),
-    [
-        # which is gone, else which has receded further
-        ([True, False], (0.9, 0.1), 0, 0.1),
-        ([False, True], (0.1, 0.9), 1, 0.1),
-        ([False, False], (0.5, 0.8), 0, 0.8),
-        ([True, True], (0.8, 0.5), 1, 0.8),
-        ([False, False], (0.5, 0.5001), -1, np.nan),
-        # a thousandth of the larger recession apart, and more of the smaller one
-        ([False, False], (np.exp(-0.5), np.exp(-0.50050025)), -1, np.nan),
-        # the force alone moves an elastic contact
-        ([False, False], (np.nan, 0.5), 1, np.nan),
-        ([False, False], (0.5, np.nan), 0, np.nan),
-    ],
-)
-def test_of_two_contacts_the_one_opens_that_recedes_further(gone, last, opened, held):
-    def contact(known):
-        return SimpleNamespace(
-            start=lambda: 4.0 if known else np.nan,
-            radius=lambda state: state,
-            energy=lambda force, state: -force * state,
-        )
-
-    contacts = tuple(contact(a == a) for a in last)
-    states = [4.0 * a for a in last]
-    found = series._pulled(contacts, gone, (7.0, 9.0), [3.0, 2.0], (-1.0, states))
-    assert (found.opened, found.tension, found.time) == (opened, 7.0, 9.0)
-    assert found.energy == (21.0, 14.0)
-    radii = tuple(a / 4.0 if b == b else np.nan for a, b in zip((3.0, 2.0), last, strict=True))
-    assert found.radius == pytest.approx(radii, nan_ok=True)
-    assert found.held == pytest.approx(held, nan_ok=True)
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "last", "detached"),
-    [
-        (0.5, 0.0, True, True),
-        (0.5, 0.4, True, False),
-        (0.0, 0.0, True, True),
-        (0.0, 0.0, False, False),
-        (0.5, 0.4, False, False),
-        (0.0, 0.4, True, False),
-    ],
-)
-def test_surfaces_are_detached_that_are_apart_at_the_end_of_the_last_drive(
-    before, after, last, detached
-):
-    empty = np.zeros(1)
-    start = history._State(0.0, 0.0, 0.0, 0.0, before, empty, empty, empty, empty, 1.0)
-    contact = bare(
-        Contact,
-        tried=lambda *_: (start._replace(time=2.0, radius=after), False),
-        longest=lambda drive: 2.0,
-        slowest=lambda drive: 1e9,
-        note=lambda *_: None,
-    )
-    end, found = contact._through(start, Drive("drive", 1.0, 2.0), 0, [], last)
-    assert (end.time, end.radius, found) == (2.0, after, detached)

@@ -60,12 +60,6 @@ def test_force_and_edge_speed_rise_with_the_rate():
     assert np.all(np.diff(state.time) < 0)
 
 
-def test_one_speed_is_a_number_and_the_same_as_among_many():
-    many, one = at([1e-5, 1e-3]), at(1e-3)
-    assert isinstance(one.force, float)
-    assert [x[1] for x in many] == pytest.approx(list(one), rel=1e-12, abs=0)
-
-
 @pytest.mark.parametrize("material", SOLIDS, ids=["standard", "broad", "weak", "prony"])
 def test_the_slowest_is_jkr_and_the_fastest_the_glassy_superposition(material):
     force = jkr.pull_off_force(radius=LENS["radius"], work_of_adhesion=LENS["work_of_adhesion"])
@@ -130,7 +124,7 @@ def test_what_the_theory_does_not_hold_is_refused():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rate", [0.3, 30.0, 3e3, 1e6])
+@pytest.mark.parametrize("rate", [30.0, 1e6])
 @pytest.mark.parametrize(("tabor", "modulus_ratio", "exponent"), [(3.24, 0.1, 0.8), (5, 0.01, 0.5)])
 def test_simulations_are_met_at_every_rate(rate, tabor, modulus_ratio, exponent):
     """Nine of ten cases lie within 20 % in speed and 10 % in force."""
@@ -161,15 +155,6 @@ def test_simulations_are_met_at_every_rate(rate, tabor, modulus_ratio, exponent)
     assert state.crack_speed == pytest.approx(speed, rel=0.25, abs=0)
     found = lennard_jones.pull_off_ratio(tabor) * state.force / (1.5 * np.pi)
     assert found == pytest.approx(force, rel=0.12, abs=0)
-
-
-def test_a_start_of_any_size_has_the_state_that_it_tends_to():
-    law = CrackLaw(theory="persson-brener", material=SOLID, tip_length=TIP)
-    found = detachment.unlimited(1e-3, law, depth=[1e-5, DEPTH], **LENS)
-    assert found.force[1] == pytest.approx(float(at(1e-3).force), rel=1e-12, abs=0)
-    assert found.compliance[0] < found.compliance[1] and found.force[0] > found.force[1]
-    with pytest.raises(ValueError, match="below"):
-        detachment.at_pull_off(1e-3, law, depth=1e-5, **LENS)
 
 
 @pytest.mark.parametrize("theory", [greenwood, persson_brener])

@@ -115,21 +115,6 @@ def test_a_relaxing_solid_holds_a_disc_harder_and_accounts_for_its_energy():
     assert start == pytest.approx(1.0, abs=1e-9) and np.all(result.contact_radius[:5] > 0)
 
 
-def test_a_run_to_the_pull_off_ends_just_past_it():
-    # the strength of the interface on the contact that is left bounds the tension to come
-    result = vt.solve(
-        groups(material=RELAXING), until="pull-off", accuracy=1e-2, estimate_error=False
-    )
-    assert "just past the pull-off" in result.status and result.contact_radius[-1] > 0
-
-
-def test_a_disc_comes_down_dwells_and_pulls_as_from_rest():
-    rest = groups(material=RELAXING, rate=2.0)
-    moves = (vt.Approach(1.0, vt.AtForce(0.5)), vt.Dwell(8.0))
-    after = replace(rest, start=vt.Apart(6.0), moves=moves)
-    assert pulled(after) == pytest.approx(pulled(rest), rel=3e-3)
-
-
 @pytest.mark.parametrize(
     ("make", "words"),
     [

@@ -5,13 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID, power_law
 from energy_books import compared
-from viscotack.bem import Settings, jumps
-from viscotack.bem.body import Body, State
-from viscotack.bem.machine import Hold
-from viscotack.bem.solver import contact_of
 from viscotack.geometry import Cone, FlatPunch, Layer
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
@@ -19,8 +15,6 @@ from viscotack.traction import Exponential
 
 pytestmark = pytest.mark.march
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LOOP = (Approach(1.0, AtForce(4.0)), Retract(1.0, AtForce(2.0)))
 
 
@@ -97,9 +91,6 @@ def test_a_soft_spring_does_not_hide_missing_energy():
     assert result.energy_residual > 0.1 * np.max(np.abs(missing)) / largest
 
 
-POWER_LAW = RetardationPowerLaw(
-    rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
-)
 HISTORIES = {
     "apart, held, pulled off": sphere(
         Approach(5.0, AtDepth(3.0)),
@@ -115,7 +106,7 @@ HISTORIES = {
         Dwell(0.5),
         start=AtForce(1.0),
         tabor=1.0,
-        material=POWER_LAW,
+        material=power_law(),
         stiffness=2.0,
         rate=5.0,
     ),
@@ -143,7 +134,7 @@ DEEPER = sphere(
     Approach(3.0, AtForce(5.0)),
     start=AtForce(1.0),
     tabor=5.0,
-    material=replace(POWER_LAW, glassy_modulus=80.0),
+    material=replace(power_law(), glassy_modulus=80.0),
     traction=Exponential(1.0, 1.0, decay=0.157),
 )
 
@@ -153,43 +144,13 @@ def test_a_mesh_that_grows_with_the_depth_stores_nothing_beyond_the_old_one():
     assert np.max(np.abs(energy.transfer)) < 2e-4 * np.ptp(energy.elastic)
 
 
-def test_new_nodes_beyond_the_last_need_no_force():
-    contact = contact_of(DEEPER)
-    settings = Settings.for_accuracy(0.01)
-    start = contact.relaxed(DEEPER.start, settings)
-    modes = DEEPER.material.retardation_modes(shortest=1e-3, longest=1.0, tolerance=1e-3)
-    body = Body(contact, modes, np.asarray(modes.weights))
-    first, old = body.first(start), start.surface.position
-    nodes = contact.grading(settings, 4 * start.depth).nodes(start.edge, start.lattice)
-    assert nodes[-1] > 1.2 * old[-1]
-    moved = body.remeshed(first, nodes, Hold(np.inf, depth=start.depth))
-    assert isinstance(moved, State)
-    beyond = nodes > old[-1]
-    held = np.max(np.abs(first.memory.force))
-    assert np.max(np.abs(moved.memory.force[:, beyond])) < 1e-9 * held
-    assert moved.memory.stored(body.weights) == pytest.approx(
-        first.memory.stored(body.weights), rel=2e-3, abs=0
-    )
-
-
 def test_a_step_that_would_create_energy_is_cut():
     # the load changes by a sixth of the pull-off force in the first step of its ramp
     loaded = sphere(
         LoadTo(-824.3, 3.864e-3),
         start=AtForce(0.0),
         tabor=1.378,
-        material=replace(POWER_LAW, glassy_modulus=798.8, exponent=1.489),
+        material=replace(power_law(), glassy_modulus=798.8, exponent=1.489),
     )
     energy = solve(loaded, estimate_error=False).energy
     assert np.min(np.diff(energy.jumps)) > -1e-3 * abs(energy.interface[0])
-
-
-def test_new_nodes_that_would_tip_a_contact_uphill_are_not_taken(monkeypatch):
-    def tipped(run, at):
-        seen = replace(at.seen, force=at.seen.force - 1.0)
-        return replace(at, state=replace(at.state, seen=seen)), -1.0
-
-    monkeypatch.setattr(jumps, "_chased", tipped)
-    result = run(sphere(rate=20.0, tabor=2.0, material=SOLID), until="pull-off")
-    assert result.statistics["meshes"] == 1 and not result.events
-    assert np.max(np.abs(result.energy.jumps)) < 1e-9

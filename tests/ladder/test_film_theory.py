@@ -7,7 +7,7 @@ import viscotack as vt
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
 from viscotack.theory import SteadyCrack, disc, film, indenter, jkr, profiles
 from viscotack.theory.crack.contact import profile_on, recede
-from viscotack.theory.elastic import on_body, on_layer, relaxed
+from viscotack.theory.elastic import on_body, on_layer
 
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5))]
@@ -41,24 +41,14 @@ def test_a_thin_film_pulls_off_at_two_or_three_pi_r_dg(base, thickness):
 
 @pytest.mark.slow
 def test_the_thickness_of_a_half_space_is_that_at_which_the_force_differs_by_the_tolerance():
-    for shape, base in ((BALL, SQUEEZED), (BALL, Frictionless()), (Cone(1.0), BASES[2])):
+    for shape, base in ((BALL, SQUEEZED), (Cone(1.0), BASES[2])):
         whole = film.pull_off(shape=shape, body=HalfSpace(), **UNITS).force
-        for tolerance in (0.1, 0.01):
-            b = film.half_space_thickness(shape=shape, base=base, tolerance=tolerance, **UNITS)
-            force = film.pull_off(shape=shape, body=Layer(b, base), **UNITS).force
-            assert abs(force / whole - 1) == pytest.approx(tolerance, rel=1e-3)
+        b = film.half_space_thickness(shape=shape, base=base, tolerance=0.1, **UNITS)
+        force = film.pull_off(shape=shape, body=Layer(b, base), **UNITS).force
+        assert abs(force / whole - 1) == pytest.approx(0.1, rel=1e-3)
     assert film.half_space_thickness(shape=BALL, base=Frictionless(), tolerance=0.5, **UNITS) == 0
     with pytest.raises(vt.InputError, match="tolerance must lie between"):
         film.half_space_thickness(shape=BALL, base=SQUEEZED, tolerance=0.0, **UNITS)
-
-
-def test_the_thickness_of_a_half_space_has_the_units_of_length():
-    length = relaxed.adhesion_length(BALL, **UNITS)
-    lens = dict(contact_modulus=2e6, work_of_adhesion=0.05)
-    unit = relaxed.adhesion_length(Sphere(5e-3), **lens)
-    reduced = film.half_space_thickness(shape=BALL, base=SQUEEZED, **UNITS) / length
-    found = film.half_space_thickness(shape=Sphere(5e-3), base=SQUEEZED, **lens)
-    assert found == pytest.approx(reduced * unit, rel=1e-4)
 
 
 @pytest.mark.parametrize("base", BASES, ids=repr)
@@ -164,10 +154,3 @@ def test_what_the_theory_of_films_does_not_know_is_refused():
         on_layer.check_disc(1.0, Layer(1e-3))
     with pytest.raises(ValueError, match="use theory.disc"):
         film.instability(shape=vt.Disc(1.0), body=Layer(1.0), **UNITS)
-
-
-def test_a_film_whose_state_without_load_is_not_found_is_an_error_of_input(monkeypatch):
-    # so it is with numbers such as 1e-99, which take seconds
-    monkeypatch.setattr(relaxed, "contact", lambda *_, **__: None)
-    with pytest.raises(vt.InputError, match="too large or too small"):
-        film.work_to_pull_off(shape=BALL, body=HalfSpace(), **UNITS)

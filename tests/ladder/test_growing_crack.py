@@ -7,17 +7,16 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import viscotack as vt
+from dimensionless import ELASTIC, SOLID
 from viscotack.errors import OutOfRange
-from viscotack.materials import Elastic, StandardSolid
+from viscotack.materials import StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
-from viscotack.result import edge_energy as energies_of_edges
 from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
 from viscotack.theory.crack.contact import (
     GrowingCracks,
-    growing,
     profile_of,
     recede,
 )
@@ -25,8 +24,6 @@ from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
 from viscotack.traction import Eyring, GentSchultz, LennardJones
 from viscotack.traction.growing import reference_speed
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 REST = LennardJones(1.0, 1.0)
 POWER = GentSchultz(1, 1, 1.0, 0.5)
 solids = pytest.mark.parametrize("solid", [ELASTIC, SOLID], ids=["elastic", "solid"])
@@ -62,12 +59,6 @@ def test_in_an_elastic_solid_the_energy_is_work_of_adhesion_and_heat_of_the_inte
     assert found.amplification == pytest.approx(
         SteadyCrack(ELASTIC, POWER).amplification(speed), rel=2e-3, abs=0
     )
-
-
-def test_the_zone_of_a_stronger_interface_is_shorter():
-    crack = SteadyCrack(ELASTIC, POWER)
-    assert crack.at(30.0).zone_length < 0.5 * crack.zone_length
-    assert crack.interface_work(30.0) == pytest.approx(crack.amplification(30.0), rel=0.01)
 
 
 def test_growth_of_an_elastic_interface_hangs_on_speed_over_reference_speed_alone():
@@ -203,19 +194,6 @@ def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed
     np.testing.assert_allclose(fitted, found.amplification, rtol=0.1)
 
 
-def test_the_energy_at_an_edge_is_not_read_of_other_tests():
-    groups = Groups(tabor=0.5, material=ELASTIC, start=AtDepth(1.0), rate=1.0)
-    result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=1e-2)
-    with pytest.raises(ValueError, match="hardly ever a steady opening crack"):
-        edge_energy(result)
-
-
-def test_energies_that_grow_by_a_power_of_the_speed_have_its_reference_speed_and_exponent():
-    speed = np.geomspace(1e-3, 50.0, 9)
-    found = energies_of_edges._gent_schultz(speed, 1 + (speed / 0.3) ** 0.45)
-    assert found == pytest.approx((0.3, 0.45), rel=1e-6)
-
-
 def test_the_reference_speed_reproduces_the_given_growth():
     growth = np.array([1e-9, 1e-3, 0.3, 20.0])
     for n in (0.05, 0.4, 1.0):
@@ -231,40 +209,6 @@ def lattice():
     return GrowingCracks(SOLID, (0.1, 3.0), (1.0, 1.0), [0.3, 0.4, 0.5, 0.6])
 
 
-class _Known:
-    """A crack whose bulk doubles the energy at every speed."""
-
-    modes = None
-
-    def __init__(self, material, law):
-        self.law = law
-
-    def amplification(self, speed):
-        return 2.0 + 0.0 * np.asarray(speed)
-
-
-def test_a_lattice_holds_its_growths_at_all_speeds_at_which_they_are_defined(monkeypatch):
-    monkeypatch.setattr(growing, "SteadyCrack", _Known)
-    monkeypatch.setattr(growing, "_tabulated", lambda crack: (-1.0, 1.0))
-    # with growth, everywhere an energy of 4, of which the interface dissipates 3
-    rows = np.log([np.full(growing._ROWS, 3.0), np.full(growing._ROWS, 3.0)])
-    monkeypatch.setattr(growing, "_table", lambda crack, log_speed: rows)
-    # so much growth that it is a power of the speed
-    lattice = GrowingCracks(SOLID, (10.0, 300.0), (2.0, 18.0), [0.3, 0.4, 0.5, 0.6])
-    assert lattice.at_rest.law == REST
-    for n in (0.3, 0.45, 0.6):
-        for speed in (2.0, 5.0, 18.0):
-            edges = lattice.edges(reference_speed([10.0, 300.0], speed, n), n)
-            assert edges.amplification(1.0) == pytest.approx([4.0, 4.0], rel=1e-4)
-            assert edges.interface_work(1.0) == pytest.approx([3.0, 3.0], rel=1e-4)
-        with pytest.raises(ValueError, match="exceeds the lattice by a factor of 1.01"):
-            lattice.edges(reference_speed(303.0, 2.0, n), n)
-        # a fifth of the smallest growth: a fifth of its effects
-        edges = lattice.edges(reference_speed(2.0, 18.0, n), n)
-        assert edges.amplification(1.0) == pytest.approx([0.2 * 4 + 0.8 * 2], rel=1e-4)
-        assert edges.interface_work(1.0) == pytest.approx([0.2 * 3 + 0.8 * 1], rel=1e-4)
-
-
 @pytest.mark.slow
 def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own(lattice):
     n = np.array([0.42, 0.33, 0.57])
@@ -276,12 +220,3 @@ def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own(lattice):
         one = {name: values[:1] for name, values in given.items()}
         alone = recede(crack, profile_of(vt.Sphere(1.0)), **one).force.min()
         assert together[i] == pytest.approx(alone, rel=0.01, abs=0)
-
-
-@pytest.mark.slow
-def test_an_infinite_reference_speed_of_a_lattice_is_an_interface_that_does_not_grow(lattice):
-    speed = np.array([0.01, 1.0, 100.0])
-    edges = lattice.edges([np.inf], [0.4])
-    plain = np.asarray(SteadyCrack(SOLID, REST).amplification(speed))
-    np.testing.assert_allclose(edges.amplification(speed[:, None])[:, 0], plain, rtol=1e-3)
-    np.testing.assert_allclose(edges.interface_work(speed[:, None])[:, 0], 1.0, rtol=1e-12)

@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID, power_law
 from viscotack.bem import Settings
 from viscotack.bem.solver import contact_of
 from viscotack.geometry import FlatPunch, Layer
-from viscotack.materials import Elastic, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
+from viscotack.materials import RelaxationPowerLaw
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import (
@@ -28,19 +29,11 @@ from viscotack.result.observables import (
     pull_off,
     pull_off_force,
     summary,
-    work_of_separation,
-    work_to_pull_off,
 )
 from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale, Exponential
 
 pytestmark = pytest.mark.march
-
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-POWER_LAW = RetardationPowerLaw(
-    rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
-)
 
 
 def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, stiffness=None):
@@ -108,21 +101,6 @@ def test_a_soft_spring_is_load_control_to_first_order_in_its_stiffness():
     assert abs(short[2]) < 2e-3 * load
 
 
-def test_a_spring_stores_what_the_drive_gives_and_the_contact_does_not_take():
-    result = run(sphere(AtDepth(5.0), rate=1.0, stiffness=0.1))
-    # behind so soft a spring the contact detaches at the elastic force minimum, at a bound in time
-    assert kinds(result) == ["jump out of contact"]
-    assert result.force[-1] > -0.1  # and the spring springs back
-
-
-def test_holding_the_depth_is_holding_the_drive_of_a_rigid_machine():
-    ends = [
-        run(sphere(AtDepth(1.0), Approach(5.0, AtDepth(4.0)), Dwell(3.0, hold=hold))).force[-1]
-        for hold in ("drive", "depth")
-    ]
-    assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=0)
-
-
 def test_a_dwell_relaxes_the_force_to_that_of_the_relaxed_contact():
     held = run(sphere(AtDepth(0.0), MoveTo(6.0, 1e-3), Dwell(50.0)))
     relaxed = run(sphere(AtDepth(6.0), Dwell(1.0)))
@@ -144,8 +122,8 @@ def test_a_held_force_stays_as_it_is():
 @pytest.mark.parametrize(
     ("make", "size"),
     [
-        *((sphere, {"tabor": mu}) for mu in (0.03, 0.1, 1.0, 3.0, 20.0)),
-        *((punch, {"thickness": b}) for b in (0.5, 3.24, 32.42)),
+        *((sphere, {"tabor": mu}) for mu in (0.03, 1.0, 20.0)),
+        *((punch, {"thickness": b}) for b in (0.5, 32.42)),
     ],
 )
 def test_a_start_by_force_exists_up_to_the_elastic_pull_off(make, size):
@@ -175,7 +153,7 @@ def elastic_pull_off(tabor):
     )
 
 
-@pytest.mark.parametrize("material", [SOLID, POWER_LAW], ids=["solid", "power-law"])
+@pytest.mark.parametrize("material", [SOLID, power_law()], ids=["solid", "power-law"])
 def test_a_load_below_the_elastic_pull_off_is_borne_and_one_above_it_is_not(material):
     most = elastic_pull_off(2.0)
     ends = {}
@@ -212,10 +190,9 @@ def crack_time(load, tabor, material):
     [
         (SOLID, 3.24, 1.3),
         (SOLID, 3.24, 2.0),
-        pytest.param(SOLID, 8.0, 1.1, marks=pytest.mark.slow),
         (SOLID, 8.0, 3.0),
-        (POWER_LAW, 3.24, 1.3),
-        (POWER_LAW, 3.24, 2.0),
+        (power_law(), 3.24, 1.3),
+        (power_law(), 3.24, 2.0),
     ],
 )
 def test_a_dead_load_lets_go_after_the_time_of_persson_and_brener(material, tabor, load):
@@ -234,15 +211,6 @@ def test_a_dead_load_lets_go_where_a_law_of_finite_range_has_nothing_left(materi
     law = Dugdale(1.0, 1.0)
     result = run(replace(sphere(AtForce(0.5), *hang, material=material), traction=law))
     assert kinds(result) == ["jump out of contact"]
-
-
-def test_what_came_before_the_hold_is_not_part_of_its_time():
-    hang = (LoadTo(-1.5, 1e-3), Dwell(1e4, hold="force"))
-    at_once, later = (
-        time_to_detachment(run(sphere(AtForce(0.0), *moves)))
-        for moves in (hang, (Dwell(50.0, hold="force"), *hang))
-    )
-    assert later == pytest.approx(at_once, rel=2e-3, abs=0)
 
 
 def test_a_dead_load_has_a_time_and_no_pull_off_force():
@@ -264,43 +232,10 @@ def test_a_dead_load_has_a_time_and_no_pull_off_force():
     assert abs(held / exact - 1) < answer["error_estimate"]["time"] < 2e-2
 
 
-def test_a_load_that_grows_until_the_contact_lets_go_is_a_pull_off():
-    answer = summary(run(sphere(AtForce(1.0), LoadTo(-9.0, 10.0))))
-    ramp = run(sphere(AtForce(1.0), LoadTo(-9.0, 10.0), Dwell(1.0, hold="force")))
-    assert answer["time_to_detachment"] is None
-    assert answer["pull_off_force"] == pytest.approx(-ramp.force.min(), rel=1e-3, abs=0)
-    with pytest.raises(ValueError, match="detached before the hold"):
-        time_to_detachment(ramp)
-
-
-@pytest.mark.parametrize(
-    "moves",
-    [
-        (Dwell(1.0, hold="force"),),
-        (LoadTo(-0.5, 1.0),),
-        (Approach(10.0, AtDepth(2.0)), Retract(10.0, AtDepth(-30.0)), Dwell(1.0, hold="force")),
-    ],
-    ids=["held", "lowered", "apart again"],
-)
-def test_a_force_held_while_the_surfaces_are_apart_stops_the_run(moves):
+def test_a_force_held_while_the_surfaces_are_apart_stops_the_run():
+    moves = Approach(10.0, AtDepth(2.0)), Retract(10.0, AtDepth(-30.0)), Dwell(1.0, hold="force")
     result = solve(sphere(Apart(20.0), *moves), estimate_error=False, throw=False)
     assert result.outcome == "stopped"
-    assert "with the surfaces apart, at a depth of" in result.status
-
-
-def test_a_load_that_presses_brings_surfaces_together():
-    result = run(sphere(Apart(20.0), LoadTo(0.5, 1.0)))
-    assert kinds(result) == ["jump into contact"]
-    assert result.outcome == "still in contact"
-
-
-def test_only_a_load_that_was_held_and_lost_has_a_time_to_detachment():
-    pulled = run(sphere(AtDepth(1.0), rate=10.0))
-    with pytest.raises(ValueError, match="must end with a dwell at constant force"):
-        time_to_detachment(pulled)
-    borne = run(sphere(AtForce(0.0), Dwell(1.0, hold="force")))
-    with pytest.raises(ValueError, match="did not detach, and the run ended: still in contact"):
-        time_to_detachment(borne)
 
 
 # --- histories --------------------------------------------------------------------------------
@@ -359,21 +294,8 @@ def test_an_approaching_sphere_jumps_into_contact(tabor):
     assert spent == pytest.approx(booked + left, rel=0.05, abs=0.05)
 
 
-def test_a_contact_that_came_apart_is_made_again_in_every_cycle():
-    cycle = (Approach(5.0, AtDepth(5.0)), Retract(5.0, AtDepth(-25.0)))
-    result = run(sphere(Apart(15.0), *3 * cycle, rate=1.0, tabor=3.0))
-    touching = np.isfinite(result.contact_radius)
-    assert np.sum(np.diff(touching.astype(int)) == 1) == 3
-    assert np.sum(np.diff(touching.astype(int)) == -1) == 3
-    assert result.outcome in ("jumped", "detached")
-
-
-@pytest.mark.parametrize(
-    "moves", [(), (Approach(5.0, AtDepth(-8.0)),), (Dwell(1.0),)], ids=["pull", "near", "wait"]
-)
-@pytest.mark.parametrize("until", ["pull-off", "detached"])
-def test_surfaces_that_did_not_touch_were_never_in_contact(moves, until):
-    result = solve(sphere(Apart(20.0), *moves, rate=10.0), until=until)
+def test_surfaces_that_did_not_touch_were_never_in_contact():
+    result = solve(sphere(Apart(20.0), Approach(5.0, AtDepth(-8.0)), rate=10.0))
     assert result.outcome == "never in contact"
     assert result.error_estimate is None and result.events == ()
     with pytest.raises(ValueError, match="never in contact, so there is no pull-off"):
@@ -398,17 +320,6 @@ def test_every_cycle_has_the_pull_off_of_a_test_of_its_own(make, span):
     assert found[0].end == found[1].begin
 
 
-def test_the_hysteresis_of_a_cycle_is_what_solid_and_jumps_have_lost():
-    tap = (Approach(5.0, AtDepth(4.0)), Retract(5.0, AtDepth(-24.0)), Dwell(50.0))
-    for material in (SOLID, ELASTIC):
-        result = run(sphere(Apart(24.0), *2 * tap, tabor=3.0, material=material))
-        energy = result.energy
-        assert energy is not None
-        lost = energy.heat[-1] + energy.jumps[-1] + energy.transfer[-1]
-        found = sum(cycle.hysteresis for cycle in cycles(result))
-        assert found == pytest.approx(lost, rel=5e-3, abs=0)
-
-
 @pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
 def test_where_the_machine_turns_is_no_pull_off(material):
     # it turns in tension before the force minimum, where the force is the least of the cycle
@@ -425,15 +336,6 @@ def test_where_the_machine_turns_is_no_pull_off(material):
     assert end.time > turns[-1]
 
 
-def test_a_stop_on_the_way_out_is_no_pull_off_of_a_rigid_machine():
-    # pulled fast, it bears more at the stop than at the slow pull-off after it
-    moves = (Retract(100.0, AtDepth(3.5)), Dwell(20.0))
-    result = run(sphere(AtDepth(5.0), *moves, rate=0.1))
-    slow = run(sphere(AtDepth(5.0), rate=0.1))
-    assert -result.force.min() > 1.2 * pull_off_force(slow)
-    assert pull_off_force(result) == pytest.approx(pull_off_force(slow), rel=0.05, abs=0)
-
-
 def test_moves_end_where_they_are_to_end():
     history = [
         (Approach(5.0, AtForce(2.0)), "force", 2.0),
@@ -446,23 +348,6 @@ def test_moves_end_where_they_are_to_end():
         moves = [move for move, *_ in history[:number]]
         end = getattr(run(sphere(Apart(10.0), *moves)), quantity)[-1]
         assert end == pytest.approx(value, rel=1e-3, abs=0)
-
-
-@pytest.mark.parametrize(
-    "before",
-    [(), (MoveTo(8.0, 1.0),), (LoadTo(3.0, 1.0),), (Dwell(1.0, hold="depth"),)],
-    ids=["start", "spring", "dead-load", "rigid"],
-)
-def test_a_drive_ends_where_it_is_to_end_whatever_held_the_contact_before(before):
-    result = run(sphere(AtDepth(5.0), *before, MoveTo(2.0, 0.5), stiffness=0.5))
-    drive = result.depth[-1] + result.force[-1] / 0.5
-    assert drive == pytest.approx(2.0, rel=1e-5, abs=0)
-
-
-def test_a_move_to_where_the_contact_is_beyond_already_takes_no_time():
-    result = run(sphere(AtDepth(5.0), Approach(1.0, AtDepth(2.0)), Dwell(1.0)))
-    assert result.time[-1] == pytest.approx(1.0, rel=1e-2, abs=0)
-    assert result.depth[-1] == pytest.approx(5.0, rel=1e-2, abs=0)
 
 
 # --- whatever the machine does ------------------------------------------------------------------
@@ -500,7 +385,7 @@ def random_test(seed):
         start = Apart(20.0)
         moves.insert(0, Approach(10.0, AtDepth(span)))
     rate = float(10 ** random.uniform(-1, 2)) if random.random() < 0.7 else None
-    material = [ELASTIC, SOLID, POWER_LAW][random.integers(3)]
+    material = [ELASTIC, SOLID, power_law()][random.integers(3)]
     options = dict(rate=rate, material=material, stiffness=stiffness)
     if is_sphere:
         return sphere(start, *moves, tabor=tabor, **options)
@@ -549,27 +434,6 @@ def test_a_viscoelastic_solid_behind_a_soft_spring_keeps_its_history_until_the_j
     ]
     assert forces[0] == pytest.approx(forces[1], rel=0.01)
     assert forces[0] == pytest.approx(7.74, rel=0.02)
-
-
-def test_a_jump_that_new_nodes_tip_adds_no_work():
-    result = solve(
-        sphere(AtDepth(3.0), rate=1.0, material=ELASTIC, tabor=7.0, stiffness=0.01),
-        accuracy=0.01,
-        estimate_error=False,
-    )
-    assert kinds(result) == ["jump out of contact"]
-    # the spring goes on for a hundred h0, and what it does there is lost
-    assert work_to_pull_off(result) < work_of_separation(result) < 1.2 * work_to_pull_off(result)
-
-
-def test_a_force_that_is_borne_on_is_no_pull_off_whatever_snaps():
-    hang = (LoadTo(-0.9, 1.0), Dwell(10.0, hold="force"))
-    result = solve(
-        sphere(AtDepth(2.3), *hang, material=ELASTIC, tabor=5.0), accuracy=0.02, throw=False
-    )
-    assert result.outcome == "still in contact"
-    with pytest.raises(ValueError, match="no pull-off"):
-        pull_off_force(result)
 
 
 def test_nothing_jumps_where_a_deep_elastic_contact_waits():

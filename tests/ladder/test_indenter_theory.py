@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from viscotack.errors import InputError
-from viscotack.geometry import Cone, PowerLawProfile, Sphere, equivalent_radius
+from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.theory import jkr, profiles
 from viscotack.theory.elastic import indenter
 
@@ -55,29 +54,8 @@ def test_force_is_the_work_that_depth_takes(tip):
     assert slope == pytest.approx(2 * SOLID["contact_modulus"] * a, rel=1e-6)
 
 
-@pytest.mark.parametrize("tip", [Sphere(1e-3), *TIPS], ids=["sphere", "cone", "1.5", "cubic"])
-def test_the_equivalent_radius_of_an_unknown_shape_is_that_of_its_kind(tip):
-    length = 0.05 / 2e6
-    assert equivalent_radius(Unknown(tip), length) == pytest.approx(
-        equivalent_radius(tip, length), rel=1e-12
-    )
-
-
 def test_units_change_nothing():
     shape, other = PowerLawProfile(7.0, 1.5), PowerLawProfile(7.0 * 1e3**-0.5, 1.5)
     in_metres = indenter.depth(1e-4, shape=shape, **SOLID)
     in_millimetres = indenter.depth(1e-1, shape=other, contact_modulus=2.0, work_of_adhesion=5e-5)
     assert in_millimetres == pytest.approx(1e3 * in_metres, rel=1e-12)
-
-
-@pytest.mark.parametrize("function", [indenter.depth, indenter.force, indenter.drawn, indenter.gap])
-def test_a_wrong_modulus_or_adhesion_is_refused(function):
-    case = {"contact_radius": 1e-4, "shape": Sphere(1e-3)}
-    if function is indenter.gap:
-        case["position"] = 2e-4
-    solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.0}
-    assert np.isfinite(function(**case, **solid))
-    with pytest.raises(InputError, match="contact_modulus must be positive"):
-        function(**case, **solid | {"contact_modulus": 0.0})
-    with pytest.raises(InputError, match="work_of_adhesion must be finite and at least 0"):
-        function(**case, **solid | {"work_of_adhesion": -0.05})

@@ -9,7 +9,6 @@ from viscotack.errors import InputError
 from viscotack.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.materials.conversion import (
     PronyForm,
-    RetardationSeries,
     prony_form,
     relaxation_form,
     relaxation_series,
@@ -18,7 +17,6 @@ from viscotack.materials.conversion import (
 )
 from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence, Passport
-from viscotack.materials.shift import WLF
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
@@ -56,22 +54,6 @@ def test_the_two_forms_are_one_solid_to_round_off(pairs):
     assert len(back.branches) == len(solid.branches)
 
 
-def test_a_retardation_series_creeps_as_its_prony_series():
-    series = RetardationSeries(
-        glassy_modulus=2e9, elements=[(3e-7, 20.0), (1e-9, 1e-4)], poisson_ratio=0.5
-    )
-    t = np.geomspace(1e-6, 1e3, 50)
-    direct = 1 / 2e9 - 3e-7 * np.expm1(-t / 20) - 1e-9 * np.expm1(-t / 1e-4)
-    np.testing.assert_allclose(relaxation_series(series).creep(t), direct, rtol=1e-13)
-
-
-def test_a_standard_solid_is_one_branch():
-    solid = StandardSolid(rubbery_modulus=E0, glassy_modulus=9e6, tau0=0.3, poisson_ratio=0.4)
-    omega = np.geomspace(1e-2, 1e4, 40)
-    one = relaxation_form(solid)
-    np.testing.assert_allclose(one.complex_modulus(omega), solid.complex_modulus(omega), rtol=1e-14)
-
-
 @pytest.mark.parametrize("kind", [RetardationPowerLaw, RelaxationPowerLaw])
 @pytest.mark.parametrize("n", [0.2, 0.8, 1.6])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
@@ -105,23 +87,6 @@ def test_temperature_multiplies_times_by_the_shift_factor():
     assert moved.material == cold
     assert moved.at_temperature(293.15).tau0 == pytest.approx(PDMS.tau0, rel=1e-12, abs=0)
     assert moved.frequencies[0] == pytest.approx(passport.frequencies[0] / a, rel=1e-12, abs=0)
-
-
-def test_the_reference_of_the_law_does_not_matter():
-    at_room = Passport(
-        name="x",
-        material=_standard(),
-        temperature=293.15,
-        shift=WLF(reference_temperature=293.15, c1=8.0, c2=100.0),
-    )
-    seen_from_elsewhere = Passport(
-        name="x",
-        material=_standard(),
-        temperature=293.15,
-        shift=WLF(reference_temperature=293.15, c1=8.0, c2=100.0).at_reference(330.0),
-    )
-    a, b = (p.at_temperature(260.0).tau0 for p in (at_room, seen_from_elsewhere))
-    assert a == pytest.approx(b, rel=1e-12, abs=0)
 
 
 # ---- rung 4: the simulation is the judge -------------------------------------------------------

@@ -9,24 +9,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from dimensionless import slope
 from reference_data import VALUES
 from viscotack.materials import (
     Elastic,
     FractionalZener,
-    Modes,
     Prony,
     RelaxationPowerLaw,
     RetardationPowerLaw,
     StandardSolid,
 )
 from viscotack.materials.interconversion import reciprocal
-from viscotack.materials.modes import FINEST, compressed
 from viscotack.materials.spectrum import nodes
 
 # Ordinary numbers: 1 MPa rubber, 1 ms, k from 1e-1 to 1e-6, exponents with both integers.
 E0, TAU, NU = 1.2e6, 2e-3, 0.48
 POWER_LAWS = [RetardationPowerLaw, RelaxationPowerLaw]
-EXPONENTS = [0.2, 0.7, 1.0, 1.6, 2.0, 3.0]
 
 
 def power_law(kind, *, exponent, k, tau0=TAU):
@@ -114,20 +112,6 @@ def test_power_laws_have_the_verified_values(equation, kind, quantity):
         assert quantity(solid, x) == pytest.approx(value["value"], rel=1e-13, abs=0), x
 
 
-def test_silicone_has_the_verified_moduli():
-    pdms = RetardationPowerLaw(
-        rubbery_modulus=1.458e6,
-        glassy_modulus=3.089e9,
-        exponent=0.2207,
-        tau0=0.01876,
-        poisson_ratio=0.5,
-    )
-    for value in reference("4.27 with 4.7"):
-        modulus = pdms.complex_modulus(2 * np.pi * value["inputs"]["f_Hz"]) / 1e6
-        part = modulus.real if value["note"].startswith("PDMS E' ") else modulus.imag
-        assert part == pytest.approx(value["value"], rel=1e-13, abs=0), value["inputs"]
-
-
 def log_integral(function, *, first, last, step=0.08):
     """Return the integral of a function that falls off at both ends of ln x."""
     x = np.exp(np.arange(np.log(first), np.log(last), step))
@@ -160,22 +144,6 @@ def test_complex_modulus_is_the_transform_of_the_relaxation(solid):
         assert_allclose(
             a**3 * np.sqrt(2 / np.pi) * storage, odd, rtol=1e-12, atol=1e-12 * E0 * a**2
         )
-
-
-@every_solid
-def test_complex_compliance_is_the_transform_of_the_creep(solid):
-    for a in TAU * np.array([1e-5, 1e-2, 0.3]):
-        even = log_integral(
-            lambda t, a=a: (1 / E0 - solid.creep(t)) * np.exp(-((t / a) ** 2) / 2),
-            first=a * 1e-22,
-            last=a * 12,
-        )
-        loss = log_integral(
-            lambda w, a=a: -solid.complex_compliance(w).imag / w * np.exp(-((a * w) ** 2) / 2),
-            first=1e-80 / a,
-            last=12 / a,
-        )
-        assert_allclose(a * np.sqrt(2 / np.pi) * loss, even, rtol=1e-12, atol=1e-12 * a / E0)
 
 
 @every_solid
@@ -227,34 +195,6 @@ def test_reduced_twin_has_the_same_functions_in_its_own_units(solid):
     assert_allclose(twin.complex_compliance(t) / E0, solid.complex_compliance(t / unit), rtol=1e-13)
 
 
-def test_contact_modulus_is_that_of_plane_strain():
-    for solid in SOLIDS.values():
-        assert solid.contact_modulus == pytest.approx(E0 / (1 - 0.48**2), rel=1e-15)
-
-
-def test_standard_solid_creeps_two_thirds_in_its_retardation_time():
-    # k = 0.1: 1 - 0.9/e, and the relaxation is ten times faster
-    solid = standard_solid()
-    assert E0 * solid.creep(TAU) == pytest.approx(1 - 0.9 / np.e, rel=1e-15)
-    assert solid.relaxation_time == pytest.approx(0.1 * TAU, rel=1e-15)
-    assert solid.relaxation(solid.relaxation_time) == pytest.approx(E0 * (1 + 9 / np.e), rel=1e-14)
-
-
-def test_modes_creep_as_the_prony_series_they_were_taken_from():
-    # two branches by hand: E0 C(t) = 0.1 + 0.4 (1 - e^{-t/1 ms}) + 0.5 (1 - e^{-t/2 s})
-    modes = Modes(instantaneous=0.1, weights=(0.4, 0.5), times=(1e-3, 2.0), error=0.0)
-    by_hand = 1 - 0.4 * np.exp(-1.0) - 0.5 * np.exp(-1e-3 / 2)
-    assert modes.creep(1e-3) == pytest.approx(by_hand, rel=1e-15)
-    # and back: the same moduli from the relaxation of the same solid
-    moduli, times = reciprocal(0.1, np.array([0.4, 0.5]), np.array([1e-3, 2.0]))
-    prony = Prony(
-        rubbery_modulus=E0, branches=zip(E0 * moduli, times, strict=True), poisson_ratio=NU
-    )
-    t = 10.0 ** np.arange(-8, 3)
-    assert_allclose(E0 * prony.creep(t), modes.creep(t), rtol=1e-13)
-    assert prony.modulus_ratio == pytest.approx(0.1, rel=1e-13)
-
-
 def pole(branch):
     return 10.0 ** branch[1]
 
@@ -279,10 +219,6 @@ def test_interconversion_is_exact_for_any_branches(branches):
 
 
 # ---- rung 2: limits ----------------------------------------------------------------------------
-
-
-def slope(x, y):
-    return np.polyfit(np.log(x), np.log(y), 1)[0]
 
 
 def test_prony_of_one_branch_is_the_standard_solid():
@@ -344,7 +280,7 @@ def test_late_relaxation_falls_with_the_exponent(n):
     assert slope(t, solid.relaxation(t) - E0) == pytest.approx(-n, abs=1e-3)
 
 
-@pytest.mark.parametrize("n", EXPONENTS)
+@pytest.mark.parametrize("n", [0.2, 1.0, 3.0])
 def test_slow_losses_of_the_retardation_form_are_those_of_a_dashpot(n):
     # C'' -> (C0 - Cinf) n omega tau0: the mean retardation time is n tau0
     solid = power_law(RetardationPowerLaw, exponent=n, k=0.1)
@@ -415,27 +351,6 @@ def test_error_of_the_spectrum_nodes_falls_exponentially_with_their_distance():
 WINDOWS = [(1e-9, 1e3), (1e-12, 1.0), (1e-12, 1e-6), (1e-3, 1e3), (10.0, 1e6), (1e-15, 1e10)]
 
 
-@pytest.mark.parametrize("k", [0.5, 1e-6])
-@pytest.mark.parametrize(
-    "solid",
-    [
-        *((kind, {"exponent": n}) for kind in POWER_LAWS for n in (0.05, 0.6, 1.6, 3.0)),
-        *((FractionalZener, {"order": a}) for a in (0.02, 0.3, 0.9)),
-    ],
-    ids=lambda solid: f"{solid[0].__name__}-{[*solid[1].values()][0]:g}",
-)
-def test_modes_reach_the_rounding_error_where_a_crack_theory_needs_more(solid, k):
-    kind, constants = solid
-    material = kind(
-        rubbery_modulus=E0, glassy_modulus=E0 / k, tau0=TAU, poisson_ratio=0.4, **constants
-    )
-    t = TAU * np.geomspace(1e-13, 1e9, 300)
-    modes = material.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-14 * k)
-    missed = np.max(np.abs(modes.creep(t) - E0 * material.creep(t)))
-    # the creep is itself exact to 2e-14 only
-    assert missed <= modes.error + 2e-14 and modes.error <= FINEST
-
-
 @pytest.mark.parametrize("kind", POWER_LAWS)
 @pytest.mark.parametrize("n", [0.05, 0.2, 1.0, 2.0, 3.0])
 @pytest.mark.parametrize("k", [0.5, 1e-4])
@@ -458,72 +373,15 @@ def test_modes_keep_the_stated_error_over_their_window(kind, n, k):
             )
 
 
-@pytest.mark.parametrize(
-    ("n", "window", "at_most"),
-    [
-        # non-negative least squares, the best there is, needs 24, 27 and 14 for these 12 decades
-        (0.2, (1e-9, 1e3), 28),
-        (0.6, (1e-9, 1e3), 28),
-        (1.6, (1e-9, 1e3), 16),
-        (0.2, (1e-12, 1e-6), 15),
-        (0.6, (1e-12, 1e-6), 5),
-    ],
-)
-def test_modes_are_few_and_their_stated_error_is_near_the_true_one(n, window, at_most):
-    solid = power_law(RetardationPowerLaw, exponent=n, k=1e-3)
-    t = TAU * np.geomspace(*window, 3000)
-    modes = solid.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-4)
-    assert len(modes.times) <= at_most
-    assert np.max(np.abs(modes.creep(t) - E0 * solid.creep(t))) > modes.error / 4
-
-
-@pytest.mark.parametrize("name", ["standard", "prony"])
-def test_modes_of_branches_are_exact_inside_the_window_and_pruned_outside(name):
-    solid = SOLIDS[name]
-    t = 10.0 ** np.arange(-13, 6, 0.01)
-    modes = solid.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-9)
-    assert len(modes.times) == len(getattr(solid, "branches", [1]))
-    assert np.max(np.abs(modes.creep(t) - E0 * solid.creep(t))) <= modes.error < 1e-12
-    for shortest, longest in [(1e-4, 1e6), (1e-10, 1e-7), (1e-4, 1e-2), (10.0, 1e3)]:
-        inside = t[(t >= shortest) & (t <= longest)]
-        for tolerance in (1e-2, 1e-5):
-            few = solid.retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
-            missed = np.max(np.abs(few.creep(inside) - E0 * solid.creep(inside)))
-            assert missed <= few.error <= tolerance
-            assert few.instantaneous + sum(few.weights) == pytest.approx(1, abs=1e-13)
-    assert solid.retardation_modes(shortest=10.0, longest=1e3, tolerance=1e-5).weights == ()
-    early = solid.retardation_modes(shortest=1e-12, longest=1e-9, tolerance=1e-3)
-    assert len(early.times) == 1
-
-
-def test_error_of_merged_slow_modes_is_second_order_in_the_window():
-    # same weight and same first rate of creep: what is lost is of the order (longest/time)^2
-    longest = 0.02 * 0.5 ** np.arange(5)
-    modes = [
-        compressed(
-            0.1,
-            np.array([0.4, 0.5]),
-            np.array([1.0, 3.0]),
-            shortest=1e-4,
-            longest=x,
-            tolerance=1e-3,
-            error=0.0,
-        )
-        for x in longest
-    ]
-    assert {len(m.times) for m in modes} == {1}
-    assert slope(longest, [m.error for m in modes]) == pytest.approx(2, abs=0.1)
-
-
 # ---- rung 4: peers -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("n", [*EXPONENTS, 0.01, 1 + 1e-6])
+@pytest.mark.parametrize("n", [0.01, 0.7, 1.0, 1 + 1e-6, 3.0])
 def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
     k = 1e-6
     solid = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
     with mpmath.workdps(120):
-        for t in 10.0 ** np.arange(-25, 4, 3):
+        for t in 10.0 ** np.arange(-25, 4, 7):
             order, x = mpmath.mpf(n), mpmath.mpf(t)
             bessel = x ** (order / 2) * mpmath.besselk(order, 2 * mpmath.sqrt(x))
             k_exact = mpmath.mpf(solid.rubbery_modulus) / mpmath.mpf(solid.glassy_modulus)
@@ -531,7 +389,7 @@ def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
             assert E0 * solid.creep(t) == pytest.approx(float(exact), rel=1e-13)
 
 
-@pytest.mark.parametrize("n", [*EXPONENTS, 0.01, 1 + 1e-6])
+@pytest.mark.parametrize("n", [0.01, 0.7, 1.0, 1 + 1e-6, 3.0])
 def test_complex_functions_agree_with_an_exponential_integral_of_many_digits(n):
     relaxing = power_law(RelaxationPowerLaw, exponent=n, k=0.5, tau0=1.0)
     creeping = power_law(RetardationPowerLaw, exponent=n, k=0.5, tau0=1.0)
@@ -545,29 +403,3 @@ def test_complex_functions_agree_with_an_exponential_integral_of_many_digits(n):
             assert C.imag == pytest.approx(-float(phi.imag) / 2, rel=1e-13, abs=0)
             assert E.real == pytest.approx(1 + float(phi.real), rel=1e-14)
             assert C.real == pytest.approx(0.5 + float(phi.real) / 2, rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("n", "k", "t"),
-    [
-        (0.2, 1e-6, 1e-20),
-        (0.5, 1e-6, 1e-20),
-        (0.2, 1e-6, 1e-8),
-        (0.2, 1e-6, 1e20),
-        (1.0, 0.1, 1.0),
-        (3.0, 1e-4, 1e-3),
-    ],
-)
-def test_interconversion_agrees_with_an_inverse_laplace_transform_of_many_digits(n, k, t):
-    creeping = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
-    relaxing = power_law(RelaxationPowerLaw, exponent=n, k=k, tau0=1.0)
-    with mpmath.workdps(30):
-        ratio = mpmath.mpf(creeping.rubbery_modulus) / mpmath.mpf(creeping.glassy_modulus)
-
-        def phi(s):
-            return s * mpmath.exp(s) * mpmath.expint(n, s)
-
-        R = mpmath.invertlaplace(lambda s: 1 / s / (ratio + (1 - ratio) * phi(1 / s)), t)
-        C = mpmath.invertlaplace(lambda s: 1 / s / (1 + (1 / ratio - 1) * phi(s)), t)
-    assert creeping.relaxation(t) / E0 == pytest.approx(float(R), rel=1e-12)
-    assert relaxing.creep(t) * E0 == pytest.approx(float(C), rel=1e-12)

@@ -72,15 +72,3 @@ def test_files_that_the_peer_writes_are_read(tmp_path, ending):
     path.write_bytes(whole[: len(whole) // 2])
     with pytest.raises(InputError, match="cannot read it"):
         read_map(path)
-
-
-def test_profiles_and_pixels_that_are_not_square_are_refused(tmp_path):
-    surface, _ = both(False)
-    wide = peer.Topography(surface.heights, (96e-6, 192e-6), unit="m")
-    wide.to_netcdf(str(path := tmp_path / "wide.nc"))
-    with pytest.raises(InputError, match="must be square"):
-        read_map(path)
-    line = peer.UniformLineScan(surface.heights[0], 96e-6, unit="m")
-    line.to_netcdf(str(path := tmp_path / "line.nc"))
-    with pytest.raises(InputError, match="map of two dimensions"):
-        read_map(path)

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from dimensionless import ELASTIC, SOLID
 from viscotack.bem import Settings
 from viscotack.bem.contacts.profile import ProfileContact
-from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.geometry import PowerLawProfile
-from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
@@ -22,8 +21,6 @@ from viscotack.traction import LennardJones
 
 pytestmark = pytest.mark.march
 
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LAW = LennardJones(1.0, 1.0)
 # what the default setting promises of the pull-off force
 DEFAULT = 2e-3
@@ -75,18 +72,6 @@ def test_the_square_is_the_sphere(start, moves):
     assert square.force[:5] == pytest.approx(sphere.force[:5], rel=1e-9, abs=1e-9)
 
 
-def test_what_the_square_knows_of_its_shape_is_what_the_sphere_knows():
-    sphere, square = SphereContact(3.0, LAW), ProfileContact(3.0, LAW, 2.0)
-    for name in ("rise", "radius_of_rise", "bare_radius", "jkr_depth", "jkr_radius_at_force"):
-        expected = getattr(sphere, name)(1.7)
-        assert getattr(square, name)(1.7) == pytest.approx(expected, rel=1e-12, abs=0)
-    for depth in (5.0, -0.9, -50.0):  # the last lies past the end of JKR
-        assert square.jkr_radius(depth) == pytest.approx(sphere.jkr_radius(depth), rel=1e-12, abs=0)
-    assert square.zone == pytest.approx(sphere.zone, rel=1e-14, abs=0)
-    r = np.linspace(0.0, 30.0, 40)
-    assert square.jkr_gap(r, 1.7) == pytest.approx(sphere.jkr_gap(r, 1.7), rel=1e-11, abs=1e-12)
-
-
 @exponents
 def test_the_gap_of_jkr_opens_at_its_edge_like_a_crack(exponent):
     # sqrt(2 pi a w/E*) (2/pi) sqrt(2 (r - a)/a), whatever the shape
@@ -101,16 +86,6 @@ def test_energy_audit_closes_for_every_shape(exponent):
     start = AtForce(0.5) if exponent > 1 else AtDepth(10.0)
     result = solve(tip(exponent, 3.0, start=start, material=SOLID, rate=30.0), estimate_error=False)
     assert result.energy_residual is not None and result.energy_residual < 1e-3
-
-
-@pytest.mark.slow
-def test_energy_audit_of_a_preloaded_cone_closes_with_the_accuracy():
-    groups = tip(1.0, 3.0, start=AtForce(0.5), material=SOLID, rate=9.0)
-    missing = [
-        solve(groups, accuracy=accuracy, estimate_error=False).energy_residual
-        for accuracy in (2e-3, 5e-4)
-    ]
-    assert missing[0] < 4e-3 and missing[1] < 1e-3
 
 
 # --- limits ---------------------------------------------------------------------------------

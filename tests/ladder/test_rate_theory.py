@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from dimensionless import last_slope
 from viscotack.materials import RetardationPowerLaw, StandardSolid
-from viscotack.materials.shift import WLF
 from viscotack.theory import (
     CrackLaw,
     bounds,
@@ -40,11 +40,6 @@ def rubber(exponent, modulus_ratio):
     )
 
 
-def slope(x, y):
-    """The exponent with which y follows x, on the last two levels."""
-    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
-
-
 # Regimes of the crack -------------------------------------------------------------------------
 
 
@@ -54,7 +49,7 @@ def test_slow_cracks_dissipate_in_proportion_to_their_speed(exponent):
     exact = persson_brener.amplification(v, material=rubber(exponent, 0.1))
     slow = crack_regimes.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
     assert slow == pytest.approx(exact, rel=1e-5, abs=0)
-    assert slope(v, exact - slow) == pytest.approx(3, abs=0.02)
+    assert last_slope(v, exact - slow) == pytest.approx(3, abs=0.02)
 
 
 @pytest.mark.parametrize("exponent", [0.3, 0.6, 1.7])
@@ -114,13 +109,6 @@ def test_a_table_of_the_power_law_tends_to_the_power_law_at_second_order(theory)
     assert np.log2(error[1] / error[2]) == pytest.approx(2, abs=0.1)
 
 
-def test_the_weights_of_an_uneven_table_are_the_area_under_its_straight_pieces():
-    t, L = np.array([1e-3, 2e-3, 1e-2, 5e-2]), np.array([1e-7, 2e-7, 1e-7, 5e-8])
-    table = TabulatedSpectrum(rubbery_modulus=1e6, times=tuple(t), densities=tuple(L))
-    area = np.sum((L[1:] + L[:-1]) / 2 * np.diff(np.log(t)))
-    assert 1 - table.modulus_ratio == pytest.approx(1e6 * area, rel=1e-12, abs=0)
-
-
 def test_a_table_creeps_from_its_glassy_to_its_rubbery_compliance():
     table = table_of(rubber(1.6, 0.1), 10)
     creep = table.creep(np.array([0.0, 1e9]))
@@ -137,12 +125,8 @@ def test_a_table_creeps_from_its_glassy_to_its_rubbery_compliance():
     [
         (dict(times=(1, 1e-1, 1e-2, 1e-3)), "ascend"),
         (dict(times=(1e-3, 1e-2, 1, 2)), "gap of 2 decades"),
-        (dict(times=(-1e-3, 1e-2, 1e-1, 1)), "positive and finite"),
-        (dict(densities=(0, 1e-7, float("nan"), 0)), "not negative"),
         (dict(densities=(0, -1e-7, 1e-7, 0)), "not negative"),
-        (dict(densities=(0, 1e-7, 1e-7)), "as many densities"),
         (dict(densities=(0, 1.0, 1.0, 0)), "units of the densities"),
-        (dict(rubbery_modulus=-1.0), "rubbery_modulus"),
     ],
 )
 def test_an_impossible_table_is_refused(change, message):
@@ -159,7 +143,7 @@ def test_the_fit_is_a_power_law_and_warns_away_from_its_tabor_number():
     r = np.array([1e-2, 1.0, 1e6])
     speed = rate.crack_speed(r, tabor=3.24)
     assert speed[1] == pytest.approx(2.887, rel=1e-15, abs=0)
-    assert slope(r, speed) == pytest.approx(1.171, rel=1e-12, abs=0)
+    assert last_slope(r, speed) == pytest.approx(1.171, rel=1e-12, abs=0)
     with pytest.warns(UserWarning, match="this one is 0.8"):
         rate.crack_speed(r, tabor=0.8)
     with warnings.catch_warnings():
@@ -167,33 +151,6 @@ def test_the_fit_is_a_power_law_and_warns_away_from_its_tabor_number():
         rate.crack_speed(r, tabor=3.0)
     with pytest.raises(ValueError, match="not negative"):
         rate.crack_speed(-1.0, tabor=3.24)
-
-
-def test_the_readings_of_the_rate_agree_where_they_should():
-    mu = 3.24
-    # h0 for this Tabor number
-    h0 = lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / mu
-    published = rate.rate_as_published(1e-4 * 0.02 / h0)
-    own = rate.rate_in_contact_heights(1e-4, time_unit=0.02, **LENS)
-    assert own == pytest.approx(published, rel=1e-12, abs=0)
-    height = (np.pi**2 * 0.15**2 * 5e-3 / 2e6**2) ** (1 / 3)
-    printed = rate.rate_in_tip_lengths(1e-4, time_unit=0.02, tip_length=height)
-    assert printed == pytest.approx(own, rel=1e-12, abs=0)
-
-
-@given(power, power, power)
-def test_the_rate_does_not_depend_on_the_units(length, load, time):
-    L, M, T = 10**length, 10**load, 10**time
-    old = dict(radius=2.0, contact_modulus=3.0, work_of_adhesion=5.0)
-    new = dict(radius=2 * L, contact_modulus=3 * M / L**2, work_of_adhesion=5 * M / L)
-    assert rate.rate_in_contact_heights(0.3 * L / T, time_unit=7 * T, **new) == pytest.approx(
-        rate.rate_in_contact_heights(0.3, time_unit=7.0, **old), rel=1e-9, abs=0
-    )
-    assert rate.rate_in_tip_lengths(
-        0.3 * L / T, time_unit=7 * T, tip_length=2 * L
-    ) == pytest.approx(
-        rate.rate_in_tip_lengths(0.3, time_unit=7.0, tip_length=2.0), rel=1e-9, abs=0
-    )
 
 
 # Unloading ------------------------------------------------------------------------------------
@@ -246,7 +203,7 @@ def test_unloading_leaves_jkr_in_proportion_to_the_rate():
     r = np.array([3e-9, 1e-9])
     rest = [pulled(x).pull_off_force / force - 1 for x in r]
     # the crack's own law is linear there; the next order is some per cent of it
-    assert slope(r, rest) == pytest.approx(1, abs=0.05)
+    assert last_slope(r, rest) == pytest.approx(1, abs=0.05)
 
 
 def test_fast_unloading_of_a_large_contact_takes_the_glassy_energy():
@@ -408,11 +365,6 @@ def test_the_bounds_do_not_depend_on_the_units(length, load):
     )
 
 
-def test_bounds_refuse_an_exchanged_modulus_ratio():
-    with pytest.raises(ValueError, match=r"in \(0, 1\]"):
-        bounds.glassy_force(**CASE, modulus_ratio=10.0)
-
-
 # Empirical ------------------------------------------------------------------------------------
 
 
@@ -421,46 +373,24 @@ def test_gent_schultz_doubles_at_its_reference_speed_and_is_inverted():
     assert empirical.gent_schultz(213.5e-6, **law) == pytest.approx(2, rel=1e-14, abs=0)
     v = np.geomspace(1e-7, 1e-1, 9)
     gamma = empirical.gent_schultz(v, **law)
-    assert slope(v, gamma - 1) == pytest.approx(0.4154, rel=1e-9, abs=0)
+    assert last_slope(v, gamma - 1) == pytest.approx(0.4154, rel=1e-9, abs=0)
     assert empirical.gent_schultz_speed(gamma, **law) == pytest.approx(v, rel=1e-9, abs=0)
-
-
-def test_gent_schultz_constants_give_the_same_law():
-    c, a, n, v = 30.0, 1e-3, 0.6, 2e-5
-    v0 = empirical.gent_schultz_reference_speed(coefficient=c, shift=a, exponent=n)
-    found = empirical.gent_schultz(v, reference_speed=v0, exponent=n)
-    assert found == pytest.approx(1 + c * (a * v) ** n, rel=1e-13, abs=0)
 
 
 def test_the_process_zone_takes_as_much_as_the_bulk_at_its_speed():
     assert empirical.process_zone_correction(1e-2) == pytest.approx(2, rel=1e-14, abs=0)
     v = np.array([1e-6, 1e-5])
     rest = empirical.process_zone_correction(v) - 1
-    assert slope(v, rest) == pytest.approx(0.5, rel=1e-9, abs=0)
-
-
-@given(power, power)
-def test_the_empirical_laws_do_not_depend_on_the_units(length, time):
-    u = 10 ** (length - time)
-    law = dict(reference_speed=3.0, exponent=0.4)
-    scaled = law | dict(reference_speed=3.0 * u)
-    for function in (empirical.gent_schultz, empirical.process_zone_correction):
-        assert function(2 * u, **scaled) == pytest.approx(function(2.0, **law), rel=1e-9, abs=0)
+    assert last_slope(v, rest) == pytest.approx(0.5, rel=1e-9, abs=0)
 
 
 def test_wlf_is_one_at_the_glass_transition_and_ends_at_its_constant():
     assert empirical.wlf_shift(200.0, glass_transition=200.0) == 1
     far = np.log10(empirical.wlf_shift(np.array([1e6, 1e7]), glass_transition=200.0))
-    assert slope([1e6, 1e7], far + 17.44) == pytest.approx(-1, abs=1e-3)
+    assert last_slope([1e6, 1e7], far + 17.44) == pytest.approx(-1, abs=1e-3)
     # 15 K above, by hand: -17.44*15/66.6
     assert np.log10(empirical.wlf_shift(215.0, glass_transition=200.0)) == pytest.approx(
         -3.927927927927928, rel=1e-12, abs=0
     )
-    # the range is that of the law everywhere: down to its pole
-    law = WLF.from_glass_transition(200.0)
-    assert np.log10(empirical.wlf_shift(185.0, glass_transition=200.0)) == pytest.approx(
-        law.log10_shift(185.0), rel=1e-12, abs=0
-    )
-    for below in (law.pole, 149.0, 100.0):
-        with pytest.raises(ValueError, match="has its pole"):
-            empirical.wlf_shift(below, glass_transition=200.0)
+    with pytest.raises(ValueError, match="has its pole"):
+        empirical.wlf_shift(149.0, glass_transition=200.0)

@@ -10,7 +10,6 @@ from viscotack import (
     AtRadius,
     Bonded,
     Cone,
-    Disc,
     Groups,
     Layer,
     MeasuredProfile,
@@ -18,19 +17,15 @@ from viscotack import (
     Sphere,
     WavySphere,
 )
-from viscotack.errors import InputError
 from viscotack.forecast.closed_forms import closed_forms
 from viscotack.materials import StandardSolid
 from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (
-    adhesion_length,
     contact,
-    contact_in_groups,
     curve,
     ends,
     largest_radius,
-    radius_without_adhesion,
     strongest,
 )
 
@@ -94,27 +89,6 @@ def test_a_power_law_starts_on_its_closed_form(shape):
         assert profiles.force(found.contact_radius, **of) == pytest.approx(found.force, rel=1e-9)
 
 
-def test_dimensionless_starts_are_those_of_the_same_test_in_si():
-    h0 = 1e-6
-    mu = (5e-3 * (0.15 / 2e6) ** 2 / h0**3) ** (1 / 3)
-    beta = (5e-3**2 * 0.15 / 2e6) ** (1 / 3)
-    load = 1.5 * np.pi * 5e-3 * 0.15
-    for groups, si in (
-        (AtDepth(20.0), AtDepth(20.0 * h0)),
-        (AtForce(-0.5), AtForce(-0.5 * load)),
-        (AtRadius(2.0), AtRadius(2.0 * np.pi ** (1 / 3) * beta)),
-    ):
-        found, same = contact_in_groups(groups, tabor=mu), contact(si, shape=Sphere(5e-3), **LENS)
-        units = (beta, beta**2 / 5e-3, 5e-3 * 0.15)
-        np.testing.assert_allclose(np.multiply(found, units), same, rtol=1e-12)
-
-
-def test_large_starts_have_the_radius_without_adhesion_at_any_depth():
-    for start in (AtDepth(1e8), AtDepth(1e90), AtDepth(1e250), AtForce(1e8), AtForce(1e250)):
-        found = contact_in_groups(start, tabor=3.0).contact_radius / np.pi ** (1 / 3)
-        assert found == pytest.approx(radius_without_adhesion(start, tabor=3.0), rel=1e-3)
-
-
 def test_closed_forms_have_no_start_of_a_radius_that_nothing_holds():
     solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
     for radius, held in ((0.3, False), (0.7, True)):
@@ -123,14 +97,6 @@ def test_closed_forms_have_no_start_of_a_radius_that_nothing_holds():
         assert found.start_radius == (pytest.approx(radius) if held else None)
         unloading = next(x for x in found.estimates if x.tier == "unloading")
         assert held or not unloading.applies
-
-
-def test_a_tabor_number_of_0_is_refused():
-    for function in (contact_in_groups, radius_without_adhesion):
-        with pytest.raises(InputError, match="tabor must be positive"):
-            function(AtDepth(1.0), tabor=0.0)
-    with pytest.raises(InputError, match="exponent must be positive"):
-        radius_without_adhesion(AtDepth(1.0), tabor=1.0, exponent=0.0)
 
 
 WORN = MeasuredProfile(((0.0, 0.0), (1e-4, 0.0), (2e-4, 1e-6), (3e-4, 3e-6)))
@@ -162,11 +128,3 @@ def test_the_strongest_contact_is_the_pull_off_or_the_start_itself():
     small = 0.5 * end.contact_radius
     found = strongest(Sphere(5e-3), largest=small, **LENS)
     assert found == pytest.approx((small, jkr.depth(small, **SPHERE), jkr.force(small, **SPHERE)))
-
-
-@pytest.mark.parametrize("wrong", [{"contact_modulus": 0.0}, {"work_of_adhesion": -1.0}])
-def test_a_solid_without_stiffness_or_adhesion_is_refused(wrong):
-    with pytest.raises(InputError, match=f"{next(iter(wrong))} must be positive"):
-        adhesion_length(Sphere(5e-3), **(LENS | wrong))
-    with pytest.raises(InputError, match=f"{next(iter(wrong))} must be positive"):
-        strongest(Disc(1e-3), largest=1e-3, **(LENS | wrong))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from dimensionless import standard
 from viscotack import (
     Apart,
     Approach,
@@ -10,23 +11,15 @@ from viscotack import (
     AtForce,
     Dwell,
     Groups,
-    LennardJones,
     LoadTo,
     MoveTo,
     OutOfRange,
     Retract,
-    Sphere,
-    StandardSolid,
     crack_contact,
     pull_off_force,
     solve,
 )
-from viscotack.theory import SteadyCrack
-from viscotack.theory.crack.contact import Contact, Drive, history, profile_of, radius_at_force
-
-
-def standard(k=0.1):
-    return StandardSolid(rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0)
+from viscotack.theory.crack.contact import history
 
 
 def pressed(*moves, rate=20.0, tabor=10.0, k=0.1, speed=20.0, **more):
@@ -84,21 +77,10 @@ def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
         assert np.all(np.diff(found.time) >= 0) and found.move[-1] == len(moves)
 
 
-def test_the_annuli_themselves_rest():
-    crack, profile = SteadyCrack(standard(), LennardJones(1.0, 1.0)), profile_of(Sphere(1.0))
-    radius = radius_at_force(profile, 10.0)
-    contact = Contact(crack, profile, tabor=20.0, largest=1.1 * radius)
-    pull = Drive("drive", -30.0, np.inf)
-    at_once = contact.run(contact.relaxed(radius), (pull,)).force.min()
-    for hold in ("drive", "force"):
-        waited = contact.run(contact.relaxed(radius), (Drive(hold, 0.0, 4.0), pull))
-        assert waited.force.min() == pytest.approx(at_once, rel=1e-8)
-
-
 def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():
     forces = [
         crack_contact(pressed(Dwell(duration), rate=100.0, tabor=20.0)).pull_off_force
-        for duration in (1e-3, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0)
+        for duration in (1e-3, 0.1, 1.0, 10.0)
     ]
     assert np.all(np.diff(forces) > 0)
 
@@ -112,9 +94,8 @@ def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():
     ],
     ids=["turn", "dwell", "reversal"],
 )
-@pytest.mark.parametrize("rate", [2.0, 200.0])
-def test_shorter_steps_neither_chatter_nor_tell_another_force(monkeypatch, moves, rate):
-    case = pressed(*moves, rate=rate)
+def test_shorter_steps_neither_chatter_nor_tell_another_force(monkeypatch, moves):
+    case = pressed(*moves, rate=2.0)
     usual = crack_contact(case)
     monkeypatch.setattr(history, "_TRAVEL", history._TRAVEL / 2)
     monkeypatch.setattr(history, "_DRIVE", history._DRIVE / 2)
@@ -167,16 +148,7 @@ def test_a_contact_that_lets_go_where_it_starts_is_answered_where_zones_are_shor
     ("case", "words"),
     [
         (pressed(tabor=100.0), "tabor is 100, verified from 8 to 60"),
-        (
-            pressed(speed=5000.0),
-            "speed of a move over the Tabor number is 500, verified",
-        ),
         (pressed(MoveTo(50.0, 1.0)), "moves of type MoveTo were not compared"),
-        (pressed(*(Dwell(0.1),) * 3), "number of moves is 4, verified from 1 to 3"),
-        (
-            pressed(stiffness=9e-3),
-            "stiffness times the Tabor number is 0.09, verified",
-        ),
     ],
 )
 def test_a_history_of_a_kind_that_was_not_simulated_has_a_note(case, words):
@@ -186,7 +158,7 @@ def test_a_history_of_a_kind_that_was_not_simulated_has_a_note(case, words):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rate", [4.0, 20.0, 400.0])
+@pytest.mark.parametrize("rate", [4.0, 400.0])
 def test_turns_after_an_approach_are_those_of_a_simulation(rate):
     case = pressed(rate=rate)
     found = crack_contact(case)

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
+from dimensionless import ELASTIC, SOLID, power_law
 from noise import noise
-from viscotack.bem import jumps
 from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
@@ -15,19 +14,6 @@ from viscotack.result.observables import pull_off_force
 from viscotack.traction import Dugdale
 
 pytestmark = pytest.mark.march
-
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-
-
-def power_law(modulus_ratio, exponent=0.6):
-    return RetardationPowerLaw(
-        rubbery_modulus=1.0,
-        glassy_modulus=1 / modulus_ratio,
-        exponent=exponent,
-        tau0=1.0,
-        poisson_ratio=0.0,
-    )
 
 
 def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, **options):
@@ -126,20 +112,3 @@ def compare(case, seeds, accuracy):
 @pytest.mark.parametrize("name", CASES)
 def test_noise_changes_neither_outcome_nor_events_nor_force(name):
     compare(CASES[name], [0], accuracy=5e-3)
-
-
-def test_a_way_down_that_takes_too_long_is_looked_for_later(monkeypatch):
-    # just past the end of its branch this one takes more than 30 iterations, hundreds if need be
-    case = behind_spring(1e-3, material=ELASTIC)
-    patient = solve(case, accuracy=5e-3, estimate_error=False)
-    monkeypatch.setattr(jumps, "_PATIENCE", 30)
-    hasty = solve(case, accuracy=5e-3, estimate_error=False)
-    assert hasty.statistics["newton_iterations"] > patient.statistics["newton_iterations"]
-    assert [e.kind for e in hasty.events] == ["jump out of contact"]
-    assert pull_off_force(hasty) == pytest.approx(pull_off_force(patient), rel=1e-6, abs=0)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CASES)
-def test_other_noise_changes_nothing_either(name):
-    compare(CASES[name], [1], accuracy=5e-3)

@@ -1,7 +1,5 @@
 """The steady crack: balances, limits, other theories, another formulation."""
 
-import time
-
 import numpy as np
 import pytest
 from scipy.special import wofz
@@ -9,8 +7,6 @@ from scipy.special import wofz
 from viscotack.errors import InputError
 from viscotack.materials import Elastic, FractionalZener, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory.crack.steady import (
-    MESH_ERROR,
-    Comparison,
     SteadyCrack,
     _balance,
     _branch,
@@ -76,15 +72,6 @@ def test_the_heat_is_what_the_modes_dissipate_one_by_one():
     stress = mesh.kernel @ (found.u[:-1] - lagging) + amplitude * of_far
     heat = (k - 1) * np.sum(stress * np.diff(lagging + amplitude * far.real))
     assert heat == pytest.approx(crack.at(speed).heat, rel=1e-4)
-
-
-def test_trial_values_of_a_standard_solid():
-    # values of an independent trial; its closing crack at 10 was 0.333, and is 0.3354 by both
-    # formulations here, the other one below
-    crack = SteadyCrack(standard(0.1), REDUCED)
-    found = crack.amplification([0.1, 1, 10, -0.1, -1])
-    assert found == pytest.approx([1.129, 1.852, 3.959, 0.894, 0.612], rel=5e-3)
-    assert crack.amplification(-10) == pytest.approx(0.333, rel=8e-3)
 
 
 def test_a_crack_that_closes_is_the_same_with_the_memory_of_the_openings():
@@ -154,13 +141,6 @@ def test_slow_and_fast_limits_of_random_spectra():
         check_limits(spectrum(rng, most=4), law)
 
 
-@pytest.mark.slow
-def test_slow_and_fast_limits_of_thirty_random_spectra():
-    rng = np.random.default_rng(2026)
-    for i in range(30):
-        check_limits(spectrum(rng), LAWS[i % 4])
-
-
 def test_speed_and_amplification_are_inverse():
     crack = SteadyCrack(standard(0.05), REDUCED)
     speed = np.array([-300.0, -2.0, -1e-3, 1e-4, 0.3, 40.0, 5e3])
@@ -168,17 +148,6 @@ def test_speed_and_amplification_are_inverse():
     assert crack.speed(1.0) == 0
     with pytest.raises(InputError, match="between 0.05 and 20"):
         crack.speed(21.0)
-
-
-def test_interpolated_amplifications_are_those_of_cracks_solved_at_the_speed():
-    solid = spectrum(np.random.default_rng(5), most=4)
-    crack = SteadyCrack(solid, REDUCED)
-    for speed in np.geomspace(0.01, 1e5, 5):
-        for v in (speed, -speed):
-            solved = crack.at(v).amplification
-            # without the part of the mesh
-            stated = crack.error(v) - MESH_ERROR + 1e-5
-            assert crack.amplification(v) == pytest.approx(solved, rel=stated)
 
 
 def test_an_elastic_solid_takes_the_work_of_adhesion_at_any_speed():
@@ -216,44 +185,10 @@ def test_a_power_law_is_found_at_all_speeds_with_a_stated_error():
     assert np.all(crack.error(np.geomspace(1e-3, 1e9, 50)) < 2e-3)
 
 
-def test_a_thousand_speeds_of_twenty_arms_take_seconds():
-    rng = np.random.default_rng(3)
-    branches = tuple(zip(rng.uniform(0.1, 1, 20), 10 ** rng.uniform(-6, 3, 20), strict=True))
-    solid = Prony(rubbery_modulus=1.0, poisson_ratio=0.5, branches=branches)
-    start = time.process_time()
-    SteadyCrack(solid, REDUCED).amplification(np.geomspace(1e-4, 1e8, 1000))
-    assert time.process_time() - start < 5
-
-
-def test_how_far_others_are_off():
-    crack = SteadyCrack(standard(0.1), REDUCED)
-    found = compared(crack, np.array([1e-3, 1e5]))
-    assert isinstance(found, Comparison)
-    assert found.off("slow")[0] == pytest.approx(0, abs=1e-5)
-    assert found.off("fast")[1] == pytest.approx(0, abs=3e-3)
-    alpha, off = best_strength_ratio(crack)
-    assert np.pi / 9 * 0.7 < alpha < np.pi / 9 * 1.2
-    better = compared(crack, np.geomspace(0.01, 1e3, 30), strength_ratio=alpha)
-    assert np.max(np.abs(better.off("persson_brener"))) < off + 1e-3
-
-
-def test_a_slow_mode_of_next_to_no_weight_changes_nothing():
-    branches = ((5.0, 0.1), (4.0, 1.0))
-    solid = Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
-    faint = Prony(rubbery_modulus=1.0, branches=((1e-13, 1e20), *branches), poisson_ratio=0.0)
-    law = LennardJones(work_of_adhesion=1.0, equilibrium_gap=1.0)
-    gamma = np.array([0.2, 0.6, 1.01, 3.0, 9.0])
-    one, other = SteadyCrack(solid, law), SteadyCrack(faint, law)
-    assert other.speed(gamma) * other.speed_unit == pytest.approx(
-        one.speed(gamma) * one.speed_unit, rel=1e-9
-    )
-
-
 @pytest.mark.parametrize(
     ("ratio", "order"),
     [
         (1e-3, 0.6),
-        pytest.param(1e-6, 0.3, marks=pytest.mark.slow),
         pytest.param(1e-6, 0.9, marks=pytest.mark.slow),
     ],
 )
@@ -264,12 +199,3 @@ def test_a_fractional_solid_has_cracks_down_to_a_modulus_ratio_of_a_millionth(ra
     crack = SteadyCrack(solid, LennardJones(work_of_adhesion=1.0, equilibrium_gap=1.0))
     gamma = np.array([1.01, 2.0, 30.0])
     assert crack.amplification(crack.speed(gamma)) == pytest.approx(gamma, rel=1e-3)
-
-
-def test_what_is_no_material_or_law_is_refused():
-    with pytest.raises(InputError, match="material must be"):
-        SteadyCrack(1.0, REDUCED)
-    with pytest.raises(InputError, match="traction must be"):
-        SteadyCrack(standard(), "dugdale")
-    with pytest.raises(InputError, match="finite"):
-        SteadyCrack(standard(), REDUCED).amplification(np.nan)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
@@ -81,13 +81,6 @@ def test_bounds_contain_the_exact_value_where_the_table_begins_late(first):
     assert np.all(high > low)
 
 
-def test_the_bounds_below_the_table_hold_for_every_relaxation_time():
-    x = np.geomspace(1e-6, 1e6, 10001)
-    lossy, stored = x / (1 + x**2), x**2 / (1 + x**2)
-    assert np.all(lossy <= np.arctan(x) * (1 + 1e-15))
-    assert np.all(np.arctan(x) <= (lossy + np.pi / 2 * stored) * (1 + 1e-15))
-
-
 @given(st.floats(-6, 6), st.floats(-6, 6), st.floats(0.02, 30.0))
 def test_the_amplification_does_not_depend_on_the_units(time, load, speed):
     T, M = 10**time, 10**load
@@ -100,18 +93,6 @@ def test_the_amplification_does_not_depend_on_the_units(time, load, speed):
     )
     new = tabulated_modulus.amplification(T * speed, modulus=TabulatedModulus(**scaled))
     assert new == pytest.approx(old, rel=1e-9, abs=0)
-
-
-def test_an_array_of_speeds_equals_single_calls_and_increases():
-    table = sampled(RUBBER, (0, 6), 8)
-    v = inside(table, 3000).reshape(2, -1)
-    low, high = tabulated_modulus.amplification(v, modulus=table)
-    assert low.shape == v.shape
-    assert np.size(tabulated_modulus.amplification([], modulus=table).low) == 0
-    assert np.all(np.diff(np.ravel(low)) > 0) and np.all(np.diff(np.ravel(high)) > 0)
-    for i in (0, 700, 1499):
-        one = tabulated_modulus.amplification(v[1, i], modulus=table)
-        assert one == pytest.approx((low[1, i], high[1, i]), rel=1e-11, abs=0)
 
 
 def test_a_speed_whose_cut_off_leaves_the_table_is_refused():
@@ -129,13 +110,9 @@ def test_a_speed_whose_cut_off_leaves_the_table_is_refused():
     ("change", "message"),
     [
         (dict(frequencies=(100.0, 10.0, 1.0, 0.1)), "must ascend"),
-        (dict(frequencies=(0.1, 1.0, 1.0, 10.0)), "must ascend"),
         (dict(frequencies=(0.1, 1.0, 100.0, 1000.0)), "gap of 2 decades"),
         (dict(loss=(3e4, 0.0, 9e5, 3e6)), "loss must be positive"),
-        (dict(storage=(1.01e6, float("nan"), 2e6, 4e6)), "storage must be positive"),
-        (dict(loss=(3e4, 2e5, 9e5)), "4 or more rows"),
         (dict(rubbery_modulus=2e6), "must not exceed the first storage modulus"),
-        (dict(rubbery_modulus=-1.0), "rubbery_modulus must be positive"),
         (dict(storage=(1.01e6,) * 4, loss=(9e5,) * 4), "impossible for a linear solid"),
     ],
 )
@@ -204,42 +181,6 @@ def test_bounds_of_greenwood_contain_the_exact_value_where_the_table_ends_early(
     assert np.all((high / low)[v < v[-1] / 100] < 1.15)
 
 
-def test_the_bounds_above_the_table_hold_for_every_relaxation_time():
-    """The integral of x/(1 + x^2) from x to infinity over ln x is arctan(1/x)."""
-    x = np.geomspace(1e-6, 1e6, 10001)
-    lossy, stored = x / (1 + x**2), 1 / (1 + x**2)
-    assert np.all(np.arctan(1 / x) <= (lossy + np.pi / 2 * stored) * (1 + 1e-15))
-
-
-@given(st.floats(-6, 6), st.floats(-6, 6), st.floats(0.2, 200.0))
-@settings(max_examples=30, deadline=None)
-def test_greenwood_of_a_table_does_not_depend_on_the_units(time, load, speed):
-    T, M = 10**time, 10**load
-    old = tabulated_modulus.greenwood_amplification(speed, modulus=TabulatedModulus(**GOOD))
-    scaled = dict(
-        rubbery_modulus=M * 1e6,
-        frequencies=tuple(T * w for w in GOOD["frequencies"]),
-        storage=tuple(M * e for e in GOOD["storage"]),
-        loss=tuple(M * e for e in GOOD["loss"]),
-    )
-    new = tabulated_modulus.greenwood_amplification(T * speed, modulus=TabulatedModulus(**scaled))
-    assert new == pytest.approx(old, rel=1e-9, abs=0)
-
-
-def test_greenwood_of_a_table_keeps_shapes_rises_and_refuses_what_leaves_it():
-    table = sampled(RUBBER, (0, 6), 8)
-    v = inside_zone(table, 300).reshape(2, -1)
-    low, high = tabulated_modulus.greenwood_amplification(v, modulus=table)
-    assert low.shape == v.shape
-    assert np.all(np.diff(np.ravel(low)) > 0) and np.all(np.diff(np.ravel(high)) > 0)
-    one = tabulated_modulus.greenwood_amplification(v[1, 7], modulus=table)
-    assert one == pytest.approx((low[1, 7], high[1, 7]), rel=1e-12, abs=0)
-    ends = tabulated_modulus.greenwood_speed_range(modulus=table)
-    for speed in (0.99 * ends[0], 1.01 * ends[1]):
-        with pytest.raises(ValueError, match="zone lengths per second.*measure a wider range"):
-            tabulated_modulus.greenwood_amplification(speed, modulus=table)
-
-
 # Files ----------------------------------------------------------------------------------------
 
 TEXT = """\
@@ -276,21 +217,10 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_the_columns(tmp_path)
     ("old", "new", "message"),
     [
         ("_Hz", "", "first row must name frequency, storage and loss with their units"),
-        ("loss_kPa", "phase_rad", "first row must name"),
         ("loss_kPa", "loss_kg", "column loss_kg: .* a quantity in Pa"),
-        ("_Hz", "_m", "column frequency_m: .* a quantity in 1/s"),
         ("1,1.1,200", "1,1.1", "line 5: a row must be 3 numbers .* got '1,1.1'; remove rows"),
-        ("1,1.1,200", "1,,200", "line 5: a row must be 3 numbers"),
-        ("1,1.1,200", "1,nan,200", "line 5: a row must be 3 numbers"),
         ("1,1.1,200", "0.01,1.1,200", "line 5: the frequency 0.01 comes after 0.1; sort the table"),
         ("1,1.1,200\n", "", "line 5: a gap of 2 decades between the frequencies 0.1 and 10"),
-        ("100,4,3000\n", "", "4 or more rows"),
-        (
-            "1.01,30",
-            "0.9,30",
-            "dma.csv: rubbery_modulus 1e.06 Pa must not exceed the first storage",
-        ),
-        (TEXT, "", "first row must name"),
     ],
 )
 def test_a_wrong_file_is_refused_with_its_line(old, new, message, tmp_path):

@@ -1,4 +1,4 @@
-"""Traction laws beside Lennard-Jones: identities of each, and contacts that are known exactly."""
+"""Traction laws: identities of each, and contacts that are known exactly."""
 
 from dataclasses import replace
 
@@ -10,33 +10,33 @@ from scipy.integrate import quad
 from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
+from dimensionless import ELASTIC
 from viscotack.bem import Settings
 from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.materials import Elastic
 from viscotack.methods import solve
 from viscotack.problem import Groups
-from viscotack.protocol import Apart, AtDepth
+from viscotack.protocol import AtDepth
 from viscotack.result.observables import pull_off
 from viscotack.theory import maugis
 from viscotack.traction import (
-    LAWS,
     Dugdale,
     Exponential,
     LennardJones,
     Tabulated,
-    has_rest,
     softening,
 )
 
 WORK, RANGE = 0.1523, 1.55e-6
-ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 DUGDALE = Dugdale(WORK, RANGE, rise=0.05, fall=0.3)
 EXPONENTIAL = Exponential(WORK, RANGE, decay=0.3)
 TABLE = Tabulated.of_points(
     np.array([1.2, 1.5, 1.8, 2.1, 3.0, 4.5, 8.0]) * 1e-6,
     [-300e3, -10e3, 60e3, 75e3, 30e3, 4e3, 0.0],
 )
-laws = pytest.mark.parametrize("law", [DUGDALE, EXPONENTIAL, TABLE], ids=["D", "E", "T"])
+LENNARD_JONES = LennardJones(WORK, RANGE)
+ALL = [LENNARD_JONES, DUGDALE, EXPONENTIAL, TABLE]
+every_law = pytest.mark.parametrize("law", ALL, ids=["L", "D", "E", "T"])
+laws = pytest.mark.parametrize("law", ALL[1:], ids=["D", "E", "T"])
 # From pressed below the first point to out of range, away from the corners of the stiffness.
 GAPS = np.array([0.7, 0.93, 0.99, 1.02, 1.04, 1.2, 1.7, 1.9, 2.0, 2.1, 3.3, 9.0])
 
@@ -47,7 +47,7 @@ def derivative(function, x):
     return (function(x + d) - function(x - d)) / (2 * d)
 
 
-@laws
+@every_law
 def test_each_function_is_the_derivative_of_the_one_before(law):
     h = GAPS * law.equilibrium_gap
     w, h0 = law.work_of_adhesion, law.equilibrium_gap
@@ -77,7 +77,7 @@ def test_separating_from_the_equilibrium_gap_costs_the_work_of_adhesion(law):
     assert abs(float(law.energy_beyond(1e3 * h0))) < 1e-12 * w * h0
 
 
-@laws
+@every_law
 def test_surfaces_repel_below_the_equilibrium_gap_and_attract_above(law):
     h = law.equilibrium_gap * np.linspace(0.05, 3.5, 400)
     below = h < 0.9999 * law.equilibrium_gap
@@ -86,14 +86,14 @@ def test_surfaces_repel_below_the_equilibrium_gap_and_attract_above(law):
     assert np.all(law.traction(h[~below]) >= 0)
 
 
-@laws
+@every_law
 def test_tension_is_largest_at_the_edge_gap(law):
     h = law.equilibrium_gap * np.linspace(0.9, 4, 2000)
     assert float(law.traction(law.edge_gap)) == pytest.approx(law.strength, rel=1e-12, abs=0)
     assert np.max(law.traction(h)) <= law.strength * (1 + 1e-12)
 
 
-@laws
+@every_law
 def test_the_reduced_law_is_the_law_in_its_own_units(law):
     small, w, h0 = law.reduced(), law.work_of_adhesion, law.equilibrium_gap
     assert (small.work_of_adhesion, small.equilibrium_gap) == (1.0, 1.0)
@@ -116,7 +116,7 @@ def test_the_reduced_law_is_the_law_in_its_own_units(law):
 @given(st.floats(-9, 9), st.floats(-9, 9), st.floats(0.7, 5))
 def test_a_law_does_not_depend_on_the_units(length, load, x):
     L, M = 10**length, 10**load
-    for old in (DUGDALE, EXPONENTIAL, TABLE):
+    for old in ALL:
         w, h0 = old.work_of_adhesion, old.equilibrium_gap
         new = replace(old, work_of_adhesion=w * M / L, equilibrium_gap=h0 * L)
         unit = M / L**2
@@ -179,35 +179,18 @@ def test_beyond_its_end_a_table_has_nothing_however_steeply_it_ends():
         np.testing.assert_array_equal(function(beyond), 0.0)
 
 
-def test_surfaces_apart_beyond_the_reach_of_a_table_that_ends_steeply_are_at_rest():
-    steep = Tabulated.of_points([0.8, 1.0, 1.5, 2.0, 2.5], [-100.0, 0.0, 1.0, 0.8, 0.0]).reduced()
-    relaxed = SphereContact(2.0, steep).relaxed(Apart(15.0), Settings.for_accuracy(5e-3))
-    assert relaxed.force == 0
-
-
 @pytest.mark.parametrize(
     ("gap", "traction", "words"),
     [
-        ([1, 2, 3], [-1, 1, 0], "at least four gaps"),
         ([1, 2, 2, 3], [-1, 0, 1, 0], "gaps must be positive and ascend"),
-        ([0, 1, 2, 3], [-1, 0, 1, 0], "gaps must be positive and ascend"),
         ([1, 2, 3, 4], [1, 2, 1, 0], "must begin with repulsion"),
-        ([1, 2, 3, 4], [-1, -2, 1, 0], "must begin with repulsion"),
         ([1, 2, 3, 4], [-1, 0, 1, 0.5], "must be zero at the last gap, got 0.5; add a row"),
         ([1, 2, 3, 4, 5], [-1, 1, -1, 1, 0], "must change its sign once"),
-        ([1, 2, 3, 4], [-2, -1, -1, 0], "must change its sign once"),
-        ([1, 2, 3, 4], [-1, np.nan, 1, 0], "must be finite"),
     ],
 )
 def test_a_table_that_is_no_law_is_refused(gap, traction, words):
     with pytest.raises(ValueError, match=words):
         Tabulated.of_points(gap, traction)
-
-
-def test_points_of_another_scale_are_refused_with_the_cure():
-    points = tuple((2 * gap, traction) for gap, traction in TABLE.points)
-    with pytest.raises(ValueError, match="Tabulated.of_points normalises them"):
-        Tabulated(1.0, 1.0, points)
 
 
 @pytest.mark.parametrize(
@@ -223,16 +206,11 @@ def test_an_impossible_shape_is_refused(kind, wrong, words):
         kind(WORK, RANGE, **wrong)
 
 
-@laws
+@every_law
 def test_surfaces_cannot_pass_through_each_other(law):
     for formula in (law.traction, law.energy, law.energy_beyond, law.stiffness):
         with pytest.raises(ValueError, match="gap must be positive"):
             formula(0.0)
-
-
-def test_every_law_has_a_word():
-    at_rest = {law for law in LAWS.values() if not has_rest(law)}
-    assert at_rest == {LennardJones, Dugdale, Exponential, Tabulated}
 
 
 # --- contacts -------------------------------------------------------------------------------
@@ -262,9 +240,6 @@ def near_dugdale(parameter):
     [
         (0.5, 3.0),
         pytest.param(0.05, 12.0, marks=pytest.mark.slow),
-        pytest.param(0.2, 6.0, marks=pytest.mark.slow),
-        pytest.param(1.0, 4.0, marks=pytest.mark.slow),
-        pytest.param(2.0, 4.0, marks=pytest.mark.slow),
         pytest.param(5.0, 3.0, marks=pytest.mark.slow),
     ],
 )
@@ -284,9 +259,7 @@ def test_relaxed_contacts_of_dugdale_are_those_of_maugis(parameter, finer):
         assert found.edge / contact.edge_unit == pytest.approx(exact, rel=3e-3, abs=0)
 
 
-@pytest.mark.parametrize(
-    "parameter", [0.05, 0.2, 0.5, 1.0, 2.0, pytest.param(5.0, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("parameter", [0.05, 0.5, 2.0])
 def test_dugdale_pull_off_is_that_of_maugis(parameter):
     tabor, force, depth, _ = maugis_branch(parameter)
     result = solve(
@@ -302,23 +275,6 @@ def test_dugdale_pull_off_is_that_of_maugis(parameter):
     )
     assert pull_off(result).force == pytest.approx(-force[0], rel=3e-3, abs=0)
     assert result.energy_residual < 1e-3
-
-
-@pytest.mark.slow
-def test_a_force_that_wavers_around_zero_is_no_pull_off():
-    # with so few nodes the edge is caught by each of them, and the force goes up and down
-    tabor, force, depth, _ = maugis_branch(5.0)
-    groups = Groups(
-        tabor=tabor,
-        material=ELASTIC,
-        start=AtDepth(float(np.interp(0.3, force, depth))),
-        rate=1.0,
-        traction=Dugdale(1.0, 1.0, fall=0.2),
-    )
-    coarse = replace(Settings.for_accuracy(2e-3), nodes_per_zone=1.5)
-    result = solve(groups, until="pull-off", settings=coarse, estimate_error=False)
-    assert np.sum(np.diff(result.force) > 0) > 5
-    assert pull_off(result).force > 0.9
 
 
 @laws
@@ -356,6 +312,6 @@ def test_nodes_are_as_fine_as_the_law_is_steep():
     assert softening(EXPONENTIAL) == pytest.approx(1.0, rel=1e-4, abs=0)
     spacings = [
         SphereContact(1.0, law.reduced()).grading(Settings.for_accuracy(2e-3), 1.0).spacing
-        for law in (LennardJones(WORK, RANGE), DUGDALE)
+        for law in (LENNARD_JONES, DUGDALE)
     ]
     assert spacings[1] < 0.25 * spacings[0]
