@@ -56,7 +56,7 @@ ASKED = {
     "theory jkr": [JKR, JKR | {"thickness": "60 um", "bonded": 0.49}],
     "theory maugis": [JKR | {"strength": "0.1 MPa"}],
     "theory persson-brener": [CRACK],
-    "theory punch": [{"case": "pad.toml", "stress": "30 kPa"}],
+    "theory punch": [{"case": "pad.toml", "stress": "60 kPa"}],
     "theory steady-crack": [CRACK | {"law": "exponential:0.25"}],
 }
 # The same of those that take seconds, or need what another has written.
@@ -138,7 +138,8 @@ def test_all_doors_answer_alike(word, folder, http):
     for given in ASKED[word]:
         question = Question(word, given)
         found = through_all(question, http)
-        assert not found["Python"].refused
+        # the plan names Python files, which nobody permitted to execute
+        assert bool(found["Python"].refused) is (word == "campaign plan")
         agree(question, found)
 
 
