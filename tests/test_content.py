@@ -1,8 +1,6 @@
 """Tables are found by their content: each test has a small file in the layout of a public one."""
 
-import io
 import re
-import shlex
 
 import numpy as np
 import pytest
@@ -115,22 +113,6 @@ def test_raw_waves_between_the_points_of_a_workbook_are_not_used(file):
     assert "15 samples of raw waves between the points are not used" in found.source.notes
 
 
-def test_raw_waves_in_an_interval_do_not_count_as_points(file):
-    head = "Test:\tfilm\n\nInterval and data points:\t1\t3\nInterval data:"
-    lines = ["\t".join(["", *map(str, row)]) for row in waves()]
-    text = "\n".join([head + lines[0], *lines[1:], ""])
-    assert_the_sweep(lab.read(file(text.encode("utf-16"))))
-    with pytest.raises(InputError, match="states 4 points but has 3"):
-        lab.read(file(text.replace("\t1\t3\n", "\t1\t4\n").encode("utf-16")))
-
-
-def test_a_point_with_a_cut_cell_is_no_sample_of_a_wave(file):
-    rows = waves()
-    rows[3][0] = ""
-    with pytest.raises(InputError):
-        lab.read(file({"Sheet1": rows}, "cut.xlsx"))
-
-
 def creep(stress, strain):
     """Rows of a creep step, or of what follows it."""
     names = ["Point No.", "Time", "Shear Stress", "Shear Strain"]
@@ -202,13 +184,6 @@ def test_sheets_of_sweeps_at_temperatures_of_their_own_are_one_test(file):
     )
 
 
-def test_a_sheet_of_gaps_is_no_test(file):
-    gaps = [["f [Hz]", "G' [Pa]", "G'' [Pa]"], ["---", 2.0, 1.0]]
-    step = [["t [s]", "stress [Pa]", "strain [-]"], [1.0, "---", "---"]]
-    with pytest.raises(InputError, match="no row has all required numbers"):
-        lab.read(file({"One": gaps, "Two": step}, "gaps.xlsx"))
-
-
 def test_segments_of_rheowin_are_tables(file):
     rows = [f"1|{i},{f},{s},{l}" for i, (f, s, l) in enumerate(zip(HERTZ, STORAGE, LOSS), 1)]  # noqa: B905, E741
     rows += [f"2|{i},1,{900 + i},90" for i in range(1, 5)]
@@ -228,13 +203,6 @@ def test_a_column_and_its_unit_are_chosen_by_heading_or_number(file):
     rows = [[w, s, l] for w, s, l in zip(OMEGA, STORAGE, LOSS)]  # noqa: B905, E741
     columns = "angular_frequency=1 [rad/s]; storage=2 [Pa]; loss=3 [Pa]"
     assert_the_sweep(lab.read(file({"Data": rows}, "film.xlsx"), kind="G", columns=columns))
-
-
-def test_a_chosen_column_settles_two_columns_of_one_quantity(file):
-    path = file("w,G',G'',G'\nrad/s,Pa,Pa,Pa\n1,10,1,20\n10,11,1,21\n")
-    with pytest.raises(InputError, match='two columns of one quantity.*--columns "storage=2"'):
-        lab.read(path)
-    assert lab.read(path, columns="storage=4").storage.tolist() == [20.0, 21.0]
 
 
 @pytest.mark.parametrize(
@@ -258,46 +226,6 @@ def test_a_removed_unit_is_never_guessed(file):
     for names in ("omega_rad_s,G_storage,G_loss", "f,G' [Pa],G''", "w,G' (kPa),G''"):
         with pytest.raises(InputError, match="the file does not state the unit of"):
             lab.read(file(table(names)))
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "1,2,3\n2,3,4\n3,4,5\n",
-        "1;2\n2;3\n",
-        "# film\n1\t2\n2\t3\n",
-        "w,G',G''\n1,10,1\n10,11,1\n",
-        "w,G',G'',G'\nrad/s,Pa,Pa,Pa\n1,10,1,20\n10,11,1,21\n",
-    ],
-)
-def test_the_command_in_a_refusal_reads_the_file(file, text):
-    path = file(text, "sample 1.csv")
-    with pytest.raises(InputError) as said:
-        lab.read(path)
-    words = shlex.split(str(said.value).partition("for example: ")[2])
-    assert words[:5] == ["viscotack", "material", "fit", str(path), "--poisson-ratio"]
-    flags = dict(zip(words[6::2], words[7::2], strict=True))
-    options = {key[2:].replace("-", "_"): value for key, value in flags.items()}
-    try:
-        lab.read(path, **options)
-    except InputError as error:
-        options["kind"] = "G"
-        assert "tensile or shear" in str(error)
-        lab.read(path, **options)
-
-
-def test_options_are_one_object_for_every_reader(file):
-    options = lab.Options(kind="G", modulus_unit="Pa", frequency_unit="rad/s")
-    path = file(table("f,storage,loss"))
-    assert_the_sweep(lab.read(path, options))
-    assert_the_sweep(lab.read_dma([path], options))
-    with pytest.raises(TypeError, match="colour"):
-        lab.read(path, colour="red")
-
-
-def test_a_pointer_of_git_lfs_is_named(file):
-    with pytest.raises(InputError, match="pointer of Git LFS"):
-        lab.read(file("version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 3\n"))
 
 
 def jpk_text(height="measuredHeight", units="N m s", rows=60):
@@ -324,21 +252,6 @@ def test_text_of_jpk_is_read_with_its_cantilever(file):
 def test_the_position_of_a_tip_has_no_bending_left(file):
     (record,) = tack.read(file(jpk_text("tipSampleSeparation"), "curve.txt"))
     assert record.compliance == 0.0
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (jpk_text(units="V m s"), "vDeflection is in V; expected N; calibrate"),
-        (jpk_text("error"), "a height or position of the tip"),
-        (jpk_text().replace("1.000000e-09", "1.0", 1).replace("1.0 ", "1.0", 1), "line 9: 2 num"),
-        (jpk_text().replace("46.0", "stiff"), "springConstant must be a number"),
-        (jpk_text().replace("\n2.000000e-09", "\nabc", 1), "line 10: expected a number, got 'abc'"),
-    ],
-)
-def test_text_of_jpk_that_is_not_calibrated_or_damaged_is_refused(file, text, words):
-    with pytest.raises(InputError, match=words):
-        tack.read(file(text, "curve.txt"))
 
 
 def test_columns_of_a_rig_are_chosen_by_number(file):
@@ -390,34 +303,6 @@ def test_text_of_nt_mdt_needs_the_cantilever_of_the_caller(file):
     assert record.compliance == 10.0
     # nA, by the sensitivity [m/A] and the spring constant [N/m]
     assert np.ptp(record.force[:60]) == pytest.approx(5.9e-9 * 50.0 * 0.1, rel=0.02)
-
-
-def test_units_of_the_modulus_are_checked_with_one_word(file):
-    found = lab.read(file("w,G',G''\nrad/s,uPa,uPa\n1,10,1\n10,11,1\n"))
-    (note,) = [note for note in found.source.notes if note.startswith("check")]
-    assert note.count("check") == 1
-
-
-def test_every_archive_that_unpacks_to_too_much_is_refused_alike(file, monkeypatch):
-    monkeypatch.setattr(lab.lab_file, "LARGEST", 10)
-    monkeypatch.setattr(lab.lab_file, "read_bytes", lambda path, most: path.read_bytes())
-    buffer = io.BytesIO()
-    import zipfile
-
-    with zipfile.ZipFile(buffer, "w") as parts:
-        parts.writestr("segments/0/segment-header.properties", "x" * 100)
-    for reader, name in ((lab.read, "book.xlsx"), (tack.read, "curve.jpk-force")):
-        with pytest.raises(InputError, match=f"{name}.*unpacks to more than 200 MB"):
-            reader(file(buffer.getvalue(), name))
-
-
-@pytest.mark.parametrize("heading", ["Segment", "Cycle", "Sample"])
-def test_a_column_that_counts_no_points_does_not_split_a_table(tmp_path, heading):
-    rows = [f"1,{f:g},{1e6 + 1e4 * f:g},{1e5 + 1e3 * f:g}" for f in (1, 2, 5, 10, 20, 50)]
-    path = tmp_path / "one.csv"
-    path.write_text("\n".join([f"{heading},f [Hz],E' [Pa],E'' [Pa]", *rows, ""]))
-    found = lab.read(path, temperature=293.15)
-    assert len(found) == 6 and found.ids == (0,)
 
 
 def test_tables_side_by_side_may_be_headed_by_primes(tmp_path):

@@ -13,7 +13,6 @@ from viscotack.identify import PullOff, identify_rates
 from viscotack.lab import (
     fit,
     fit_errors,
-    fit_prony,
     master_curve,
     nonnegative,
     read_dma,
@@ -24,7 +23,7 @@ from viscotack.lab.fit_power_law import fit_constants
 from viscotack.lab.fit_prony import fit_series
 from viscotack.lab.fitting import Tried, _alike
 from viscotack.lab.observed import observed
-from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest
+from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
 from viscotack.lab.thinned import thinned
 from viscotack.materials import (
@@ -39,7 +38,6 @@ from viscotack.materials import (
 from viscotack.materials.library import published
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.shift import WLF
-from viscotack.pictures.lab import draw_fit
 from viscotack.problem import Problem
 from viscotack.protocol import AtDepth, Retraction
 from viscotack.traction import LennardJones
@@ -166,13 +164,6 @@ def test_the_plateau_of_a_series_with_single_arms_is_held_by_its_interval():
     assert held >= 3
 
 
-def test_shear_moduli_become_tensile_ones():
-    tensile = fit(curve(noise=0.0), poisson_ratio=0.5, model="power-law", draws=0).material
-    shear = fit(curve(noise=0.0, kind="G"), poisson_ratio=0.5, model="power-law", draws=0)
-    assert shear.material.glassy_modulus == pytest.approx(tensile.glassy_modulus, rel=1e-6)
-    assert shear.observed.kind == "G"
-
-
 @pytest.mark.parametrize(
     "law", ["power-law", pytest.param("relaxation-power-law", marks=pytest.mark.slow)]
 )
@@ -222,19 +213,6 @@ def test_a_series_without_a_plateau_has_a_bound_as_well():
     assert "the rubbery plateau was not measured" in report.words()
 
 
-def test_the_range_of_time_is_said():
-    assert "the measurement covers 2.7e-21 s to 0.16 s" in constants_words()
-
-
-def constants_words():
-    return fit(curve(), poisson_ratio=0.5, model="power-law", draws=0).words()
-
-
-def test_a_law_that_misses_is_called_so():
-    report = fit(curve(), poisson_ratio=0.5, model="sls")
-    assert "does not describe the measurement" in report.words()
-
-
 def test_the_thesis_puts_37_constants_on_32_numbers():
     report = fit(curve(), poisson_ratio=0.5, model="prony", arms=18)
     assert "18 arms have 37 constants" in report.words()
@@ -257,24 +235,6 @@ def test_a_series_of_few_arms_is_found_with_few_arms():
     low, high = report.band(data.angular_frequency)
     true = observed(data, poisson_ratio=0.4).predicted(solid)
     assert np.mean((low < true) & (true < high)) > 0.7
-
-
-def test_arms_have_positive_moduli_and_times_near_the_measured_range():
-    report = fit_series(observed(curve(), poisson_ratio=0.5), arms=None, level=0.9, draws=0, seed=0)
-    E, tau = np.array(report.material.branches).T
-    assert np.all(E > 0)
-    assert tau.min() > 0.1 / OMEGA.max() and tau.max() < 10 / OMEGA.min()
-
-
-def test_a_series_is_the_best_in_logarithms():
-    data = observed(curve(noise=0.1), poisson_ratio=0.5)
-    solid = fit_series(data, arms=10, level=0.9, draws=0, seed=0).material
-    residuals, predicted = data.residuals(solid), data.predicted(solid)
-    for E, tau in solid.branches:
-        arm = 1j * data.at * tau / (1 + 1j * data.at * tau)
-        # the slope of the sum of squares against ln E_i
-        slope = np.sum(residuals * E * np.array([arm.real, arm.imag]) / predicted)
-        assert abs(slope) < 1e-3 * np.sum(residuals**2)
 
 
 @pytest.mark.parametrize("exponent", [0.2, 0.5])
@@ -394,19 +354,6 @@ def test_noise_that_grows_counts_where_it_is():
 # ---- many points, few arms, liquids, springpots ------------------------------------------------
 
 
-def test_many_points_are_averaged_and_that_is_said():
-    t = np.linspace(1e-3, 1e3, 100_000)
-    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=30.0, poisson_ratio=0.5)
-    noise = np.exp(0.02 * np.random.default_rng(0).normal(size=t.size))
-    data = RelaxationTest(t, solid.relaxation(t) * noise, "E")
-    report = fit(data, poisson_ratio=0.5, model="sls")
-    assert len(report.observed.at) <= 500
-    assert "100000 points were averaged to" in report.words()
-    assert report.observed.source.notes[-1] in report.cautions
-    assert report.material.tau0 == pytest.approx(30.0, rel=5e-3)
-    assert report.material.rubbery_modulus == pytest.approx(1e6, rel=5e-3)
-
-
 def test_points_of_two_sweeps_are_not_averaged_together():
     t = np.geomspace(1, 10, 600)
     data = observed(
@@ -418,21 +365,6 @@ def test_points_of_two_sweeps_are_not_averaged_together():
     assert set(few.sweep) == {0, 1}
     assert few.at.size == pytest.approx(80, abs=4)
     assert thinned(few) is few
-
-
-def test_what_few_arms_cost_is_said():
-    data = curve(material=SMOOTH, omega=np.geomspace(1e-1, 1e4, 40), noise=0.01)
-    report = fit(data, poisson_ratio=0.5, model="prony", arms=3)
-    assert len(report.material.branches) == 3
-    assert "the error of 3 arms is" in report.words()
-    assert "the best number for these data, it is 0." in report.words()
-    assert "contradict" not in report.words()
-    # moved to where they serve best: better than on any even grid
-    grid = fit_prony._fitted(
-        report.observed, fit_prony._grid(report.observed, 3), report.observed.logs
-    )
-    even = report.observed.residuals(fit_prony._material(report.observed, *grid))
-    assert np.sum(report.residuals**2) < 0.8 * np.sum(even**2)
 
 
 def test_a_liquid_is_called_one():
@@ -514,17 +446,6 @@ def test_a_fractional_zener_solid_is_found_again():
         assert found.tau0 == pytest.approx(1.0, rel=1e-3)
 
 
-def test_without_draws_a_series_has_no_interval_but_states_its_last_time():
-    middle = curve(1).chosen((OMEGA[::-1] > 1e3) & (OMEGA[::-1] < 1e13))
-    report = fit(middle, poisson_ratio=0.5, model="prony", draws=0)
-    assert not any(each.told for each in report.intervals)
-    assert "no interval, because draws=0" in report.words()
-    assert "the glassy plateau was not measured" in report.words()
-    assert issued(report, name="x").evidence.intervals == ()
-    with pytest.raises(ValueError, match="fit with draws=100"):
-        report.band([1.0])
-
-
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_an_end_that_no_profile_reaches_is_no_bound(seed):
     # a decade in the middle of a broad spectrum: nothing but its slope is known
@@ -568,11 +489,6 @@ def test_published_relaxation_master_curve_is_met():
 # ---- report, passport, picture -----------------------------------------------------------------
 
 
-def test_the_same_seed_is_the_same_report():
-    one, two = (fit(curve(), poisson_ratio=0.5, model="prony", draws=5) for _ in range(2))
-    assert one.draws == two.draws and one.words() == two.words()
-
-
 def test_a_fit_issues_a_passport_that_comes_back(tmp_path):
     report = fit(curve(), poisson_ratio=0.5, model="power-law", draws=0)
     passport = issued(report, name="rubber", shift=WLF.from_glass_transition(158.15))
@@ -580,32 +496,6 @@ def test_a_fit_issues_a_passport_that_comes_back(tmp_path):
     assert passport.at_temperature(293.15) == report.material
     write_passport(passport, tmp_path / "x.toml")
     assert read_passport(tmp_path / "x.toml") == passport
-
-
-def test_the_picture_has_the_points_the_law_and_the_residuals():
-    report = fit(curve(), poisson_ratio=0.5, model="power-law", draws=5)
-    above, below = draw_fit(report).axes
-    labels = above.get_legend_handles_labels()[1]
-    assert {"storage modulus $E'$, measured", "loss modulus $E''$, fitted"} <= set(labels)
-    assert above.get_ylabel() == "Young's modulus [Pa]" and below.get_xlabel() == "frequency [Hz]"
-    points = [line.get_ydata() for line in below.lines if line.get_marker() == "o"]
-    assert_allclose(points[0], 100 * np.expm1(report.residuals[0]))
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({"model": "rubber"}, "model must be one of power-law"),
-        ({"model": "sls", "arms": 3}, "arms apply to the model prony only"),
-        ({"model": "best", "known": {"tau0": 1.0}}, "known constants apply to"),
-        ({"model": "sls", "known": {"exponent": 1.0}}, "model sls has no constant exponent"),
-        ({"model": "sls", "level": 1.0}, "must lie between 0 and 1"),
-        ({"model": "prony", "arms": 0}, "arms must be between"),
-    ],
-)
-def test_impossible_options_are_refused(options, words):
-    with pytest.raises(ValueError, match=words):
-        fit(curve(), poisson_ratio=0.5, **options)
 
 
 def liquid(decades):
@@ -622,31 +512,6 @@ def test_a_modulus_over_more_decades_than_instruments_have_is_refused(options):
         fit(liquid(260), poisson_ratio=0.5, **options)
     report = fit(liquid(19), poisson_ratio=0.5, **options)
     assert report.interval("rubbery_modulus").low == 0
-
-
-def test_a_constant_that_nothing_moves_has_no_bound():
-    report = fit(liquid(9), poisson_ratio=0.5, model="sls", draws=2)
-    assert all(each.high == np.inf for each in report.intervals)
-
-
-def test_unfit_data_is_refused():
-    with pytest.raises(ValueError, match="at least 3 points"):
-        fit(curve().chosen([0, 1]), poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="make a master curve"):
-        sweeps = FrequencySweeps([250, 280, 300], [1, 2, 3], [1e6] * 3, [1e5] * 3, "E", [0, 1, 2])
-        fit(sweeps, poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="needs a MasterCurve"):
-        fit([1, 2, 3], poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="no loss modulus to omit"):
-        fit(RelaxationTest([1, 2, 3], [3e6, 2e6, 1e6], "E"), poisson_ratio=0.5, loss=False)
-    three = RelaxationTest([1, 2, 3], [3e6, 2e6, 1e6], "E")
-    with pytest.raises(ValueError, match="too few to compare models"):
-        fit(three, poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="too few to choose the number of arms"):
-        fit(three, poisson_ratio=0.5, model="prony")
-    with pytest.raises(ValueError, match="so a Prony series cannot describe it"):
-        rising = RelaxationTest(np.arange(1, 9), np.arange(1, 9) * 1e6, "E")
-        fit(rising, poisson_ratio=0.5, model="prony")
 
 
 def test_numbers_without_scatter_have_intervals_of_no_width():

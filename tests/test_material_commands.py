@@ -72,12 +72,6 @@ def test_from_file_to_pull_off_in_two_commands(lab, capsys):
     assert fitted["pull_off_force_N"] == pytest.approx(4.6e-3, rel=0.03)
 
 
-def test_advice_takes_a_passport(lab, capsys):
-    write_passport(published("pdms-10-1"), "pdms.toml")
-    out, _ = printed("advise --material pdms.toml --tabor 2.05 --preload 30 --rate 1", capsys)
-    assert "Use: " in out
-
-
 def test_a_relaxation_test_is_fitted(lab, capsys):
     t = np.geomspace(1e-3, 1e3, 30)
     rows = "\n".join(f"{x:.6g},{1 + 9 * np.exp(-x / 0.5):.6g}" for x in t)
@@ -129,19 +123,6 @@ def melt_file(folder):
     )  # fmt: skip
     lines = [",".join(f"{x:.8g}" for x in row) for row in rows]
     (folder / "melt.csv").write_text("\n".join(["f,G',G'',T", "Hz,Pa,Pa,C", *lines, ""]))
-
-
-def test_shifts_are_printed_drawn_and_kept(lab, capsys):
-    melt_file(lab)
-    line = 'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
-    out, _ = printed(line + "--model prony --arms 16 -o melt.toml --plot melt.png", capsys)
-    assert "log10 a_T" in out and "nearest law: WLF" in out
-    passport = read_passport("melt.toml")
-    assert np.allclose(passport.shift.values, LAW.log10_shift(CHAMBER[:5]), atol=0.1)
-    assert max(passport.shift.uncertainty) < 0.06
-    assert (lab / "melt.png").stat().st_size > 10_000
-    shown, _ = printed("material show melt.toml", capsys)
-    assert "nearest law: WLF" in shown
 
 
 def test_flags_choose_how_sweeps_are_shifted(lab, capsys):
@@ -248,44 +229,3 @@ def test_relaxation_at_many_temperatures_is_one_curve(lab, capsys):
     answer = json.loads(out)
     assert np.allclose(answer["shift"]["values"], LAW.log10_shift(CHAMBER[:5]), atol=0.1)
     assert "5 tests" in answer["origin"]["notes"][-1]
-
-
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("material fit nothing.csv --poisson-ratio 0.5", "there is no file nothing.csv"),
-        ("material fit dma.csv", "--poisson-ratio"),
-        ("material fit dma.csv --poisson-ratio 0.5", "say at which temperature"),
-        (
-            'material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC"',
-            "nothing overlaps that could tell the shift; give --glass-transition",
-        ),
-        (FIT + '--wlf "8.86,101.6 K"', "give one shift, got --glass-transition and --wlf"),
-        (FIT + "-o /nowhere/x.toml", "folder /nowhere does not exist"),
-        (FIT + "--plot fit.docx", "the file name must end in one of"),
-        (FIT + "--model sls --arms 3", "arms apply to the model prony only"),
-        (FIT + "--test creep --frequency-unit Hz", "cannot be used for --test creep"),
-        ("material show nothing", "neither a passport"),
-        ("material show dma.csv", "is not a TOML file"),
-        ('material convert pdms-10-1 --temperature "60 degC"', "superposition is not extrapolated"),
-        ("material convert dma.csv --from abaqus", "dma.csv: the text does not state its units"),
-        ("material convert pdms-10-1 --pressure-unit MPa", "cannot be used without --from"),
-        ("material export pdms-10-1 --to nastran", "nastran"),
-        ("material export pdms-10-1 --to ansys", "ansys forbids a Poisson ratio of 0.5"),
-        (FIT + "--model fractional-maxwell -o x.toml", "law for fits only"),
-        (
-            "simulate sphere --material fractional-maxwell --tabor 2 --preload 3 --rate 1",
-            "two springpots have neither a rubbery nor a glassy plateau",
-        ),
-        ('material export pdms-10-1 --to abaqus --frequencies "1 Hz"', "needs two values"),
-        ("material export pdms-10-1 --to abaqus --pressure-unit m", "wrong dimension"),
-        (
-            'simulate sphere --tabor 2 --preload 3 --rate 1 --temperature "0 degC"',
-            "has no effect on a dimensionless problem",
-        ),
-        ("simulate sphere --material dma.toml --tabor 2 --preload 3 --rate 1", "there is no file"),
-    ],
-)
-def test_what_is_wrong_is_said_in_words(line, words, lab, capsys):
-    message = refused(line, capsys)
-    assert words in " ".join(message.split()), message

@@ -8,9 +8,8 @@ from numpy.testing import assert_allclose
 
 import lab_files
 from command_line import exit_status
-from effort import calls
-from viscotack.lab import read, read_creep, read_dma, read_relaxation, read_shifts
-from viscotack.lab.quantities import is_unit, recognise
+from viscotack.lab import read, read_creep, read_dma, read_shifts
+from viscotack.lab.quantities import recognise
 
 
 @pytest.fixture
@@ -67,11 +66,6 @@ def test_a_name_that_holds_another_is_another_quantity(text):
     assert recognise(text) is None
 
 
-def test_units_are_distinguished_from_words():
-    assert all(map(is_unit, ("MPa", "1/MPa", "°C", "%", "min", "rad/s", "Pa.s")))
-    assert not any(map(is_unit, ("step", "cmd", "sample", "Mpa", "sin(delta)")))
-
-
 # ---- layouts -----------------------------------------------------------------------------------
 
 
@@ -79,20 +73,6 @@ def test_units_are_distinguished_from_words():
 def test_size_and_angle_make_both_moduli(file, name, unit):
     sweeps = read_dma(file(lab_files.polar(name, unit)))
     assert_the_film(sweeps, rtol=1e-13)
-
-
-def test_an_angle_that_is_none_is_refused(file):
-    bad = lab_files.polar("delta", "°").replace("(°)".encode(), b"(rad)")
-    with pytest.raises(ValueError, match=r"line 2: .*a loss angle lies between 0 and 90 degrees"):
-        read_dma(file(bad))
-    with pytest.raises(ValueError, match=r"the unit of .delta \(-\). \(written in the heading"):
-        read_dma(file(lab_files.polar("delta", "-")))
-
-
-def test_doubles_that_are_not_needed_are_passed_over(file):
-    sweeps = read_dma(file(lab_files.trios_all()))
-    assert_the_film(sweeps)
-    assert (sweeps.kind, sweeps.source.format) == ("E", "trios")
 
 
 def test_a_column_that_is_not_needed_needs_no_unit(file):
@@ -149,22 +129,6 @@ def test_json_in_lists_is_read(file):
     assert test.strain == 0.02
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ('{"a": 1', "the JSON cannot be read; it may be truncated"),
-        ('{"a": 1}', "the file has no Results"),
-        ('{"Results": {"Rows": []}}', "'ColumnHeaders'.* is missing"),
-        ('{"Results": [3]}', "expected tables of a TRIOS export"),
-        ('{"Results": {"ColumnHeaders": {}, "Rows": [{"x": 1}]}}', "row 1: a cell 'x' without"),
-        ('{"a":' * 5000, "the JSON cannot be read"),
-    ],
-)
-def test_json_of_another_kind_is_refused(file, text, words):
-    with pytest.raises(ValueError, match=words):
-        read_dma(file(text, "film.json"))
-
-
 def test_columns_side_by_side_are_sweeps(file):
     for within in (False, True):
         sweeps = read_dma(file(lab_files.wide(within)))
@@ -214,23 +178,6 @@ def test_steps_of_reptate_stand_in_its_first_line(file):
         read(file("T=20;Mw=3;\n1 0.001\n", "melt.creep"))
     with pytest.raises(ValueError, match="recovery after creep"):
         read(file("T=20;stress=50;rec=1;\nt strain stress\n1 0.001\n", "melt.creep"))
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [("melt.laos", "large amplitude"), ("melt.shear", "start-up of shear flow"),
-     ("melt.dls", "dielectric"), ("melt.gpc", "molar mass"), ("melt.txt", "name it .tts")],
-)  # fmt: skip
-def test_other_files_of_reptate_are_no_sweeps(file, name, words):
-    with pytest.raises(ValueError, match=words):
-        read_dma(file("omega=1;gamma=3;\n1 30 4\n2 40 5\n", name))
-
-
-def test_headings_that_are_not_those_of_the_format_are_refused(file):
-    with pytest.raises(ValueError, match="column 1 has the heading 't'; expected 'w'"):
-        read_dma(file("T=20;Mw=1;\nt G' G''\n1 30 4\n", "melt.osc"))
-    with pytest.raises(ValueError, match="column 2 has the unit 'kPa'; expected 'Pa'"):
-        read_dma(file("T=20;Mw=1;\nw G' G''\nrad/s kPa kPa\n1 30 4\n", "melt.osc"))
 
 
 def test_rheocompass_may_leave_out_the_empty_cell_and_state_its_temperature(file):
@@ -317,60 +264,11 @@ def test_two_amplitudes_are_no_frequency_sweep(file):
 # ---- which test, and the true cause ------------------------------------------------------------
 
 
-def test_the_test_is_found_out(file):
-    stress = "t [s],stress_kPa,strain_%,shear_x\n"
-    held_strain = stress + "1,9,2,0\n2,8,2,0\n3,7,2.01,0\n"
-    held_stress = stress + "0.1,4,0.5,0\n1,9,2,0\n2,9,3,0\n3,9.1,4,0\n4,0,3.5,0\n"
-    relaxation = read(file(held_strain), kind="G")
-    assert_allclose(relaxation.modulus, [450e3, 400e3, 7e3 / 0.0201])
-    creep = read(file(held_stress), kind="G")
-    assert_allclose(creep.time, [1, 2, 3])
-    assert "rejected 1 points: the stress is more than 5 % off its level" in notes(creep)
-    ramp = file(stress + "1,1,1,0\n2,2,2,0\n3,3,3,0\n4,4,4,0\n")
-    with pytest.raises(ValueError, match="a relaxation test needs a constant strain"):
-        read_relaxation(ramp, kind="G")
-    assert type(read(file(lab_files.plain()))).__name__ == "FrequencySweeps"
-
-
-def test_a_flag_that_is_lacking_is_named_with_all_others(file):
-    path = file("Time\tCreep Compliance\n0.5\t3e-6\n1\t4e-6\n")
-    with pytest.raises(ValueError, match="--time-unit") as said:
-        read(path)
-    for flag in ("--modulus-unit Pa, kPa or MPa, of the stress", "--kind E or --kind G"):
-        assert flag in str(said.value)
-    assert "=" not in str(said.value).partition("film.csv")[2]
-    creep = read(path, time_unit="min", modulus_unit="kPa", kind="E")
-    assert_allclose(creep.time, [30, 60])
-    assert_allclose(creep.compliance, [3e-9, 4e-9])
-
-
 def test_an_angular_frequency_without_a_unit_is_in_radians(file):
     path = file("Angular Frequency,Storage Modulus,Loss Modulus\n10,3,0.4\n20,4,0.5\n")
     sweeps = read_dma(path, modulus_unit="MPa", kind="G")
     assert sweeps.angular_frequency.tolist() == [10, 20]
     assert '"Angular Frequency" has no unit; rad/s assumed' in notes(sweeps)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("Shear Rate,Viscosity\n1/s,Pa.s\n1,2\n2,3\n", "it is a flow curve"),
-        (
-            "Time,Strain,Rate,Stress\ns,1,1/s,Pa\n0,0,1,2\n0.1,0.1,0.9,3\n0.2,0,-1,-2\n",
-            "waves of a large amplitude",
-        ),
-        ("t,Shear Rate,Stress\ns,1/s,Pa\n1,2,3\n2,3,4\n", "start-up of a steady"),
-        ("t,stress\ns,Pa\n1,2\n2,3\n", "a stress over time without the strain"),
-        ("t,strain\ns,-\n1,2\n2,3\n", "a strain over time without the stress"),
-        ("f,E'\nHz,Pa\n1,2\n2,3\n", "a loss modulus or a loss angle"),
-        ("T,log_aT\nC,-\n20,0\n30,-1\n", "it contains shift factors, --shift-file"),
-        ("strain\n1\n2\n", "'strain' is the only column"),
-        ("1,2\n3,4\n", "begins with numbers without headings"),
-    ],
-)  # fmt: skip
-def test_what_a_file_holds_instead_is_said(file, text, words):
-    with pytest.raises(ValueError, match=words):
-        read(file(text))
 
 
 def test_shifts_of_the_other_sign_are_refused(file):
@@ -396,23 +294,6 @@ def test_what_is_hardly_possible_is_said(file):
     assert "check: temperatures from 298 to 298 C" in notes(read_dma(hot))
 
 
-def test_a_formula_without_its_value_is_named(tmp_path):
-    openpyxl = pytest.importorskip("openpyxl")
-    book, path = openpyxl.Workbook(), tmp_path / "film.xlsx"
-    for row in (["f", "E'", "E''"], ["Hz", "MPa", "MPa"], [1, 3, 0.4], [2, "=B3*2", 0.5]):
-        book.active.append(row)
-    book.save(path)
-    with pytest.raises(
-        ValueError, match=r"row 4: column .E'.: .*the formula '=B3\*2' without a val"
-    ):
-        read_dma(path)
-    text = "f,E',E''\nHz,MPa,MPa\n1,=B2,0.4\n"
-    path = tmp_path / "film.csv"
-    path.write_text(text)
-    with pytest.raises(ValueError, match="line 3: .*holds the formula '=B2' without a value"):
-        read_dma(path)
-
-
 def test_the_first_point_of_a_workbook_is_no_row_of_units(tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     book, path = openpyxl.Workbook(), tmp_path / "film.xlsx"
@@ -423,18 +304,6 @@ def test_the_first_point_of_a_workbook_is_no_row_of_units(tmp_path):
 
 
 # ---- the command line --------------------------------------------------------------------------
-
-
-def test_the_command_line_requires_and_accepts_flags(file, capsys):
-    path = file("Time,Relaxation Modulus\n1,3\n2,2\n9,1.5\n20,1.2\n")
-    command = ["material", "fit", path, "--poisson-ratio", "0.5", "--model", "sls"]
-    assert exit_status(command) == 2
-    said = capsys.readouterr().err
-    assert "--time-unit s or min" in said and "--modulus-unit" in said and "--kind E" in said
-    assert "defect" not in said
-    flags = ["--time-unit", "min", "--modulus-unit", "MPa", "--kind", "G", "--json"]
-    assert exit_status([*command, *flags]) == 0
-    assert 1e6 < json.loads(capsys.readouterr().out)["material"]["rubbery_modulus"] < 6e6
 
 
 def test_the_command_line_reads_several_files(file, capsys):
@@ -449,18 +318,6 @@ def test_the_command_line_reads_several_files(file, capsys):
 
 
 # ---- sizes -------------------------------------------------------------------------------------
-
-
-def test_a_hundred_thousand_rows_take_seconds(file):
-    rows = 100_000
-    times = np.geomspace(1e-3, 1e3, rows)
-    lines = [f"{t:.9g},{1e6 / (1 + t):.9g},20.0" for t in times]
-    path = file("\n".join(["time_s,G_relax,T", "s,Pa,C", *lines, ""]))
-    read = []
-    assert calls(lambda: read.append(read_relaxation(path))) < 50 * rows
-    (test,) = read
-    assert len(test) == rows
-    assert_allclose(test.modulus[[0, -1]], 1e6 / (1 + times[[0, -1]]), rtol=1e-8)
 
 
 def test_a_decimal_comma_may_be_said(file):

@@ -19,7 +19,6 @@ from viscotack.lab import (
     master_curve,
     nearest_law,
     read_dma,
-    read_relaxations,
     shift_factors,
     superposed,
     superposition,
@@ -83,13 +82,6 @@ def test_shifting_by_storage_alone_has_an_error_for_a_melt_and_reports_it():
     assert "Kramers-Kronig" in contradiction(curve)
 
 
-def test_a_melt_that_superposes_has_no_warnings():
-    sweeps = melt(2)
-    curve = master_curve(sweeps, reference_temperature=REFERENCE)
-    assert superposition(sweeps, curve.shifts).holds
-    assert contradiction(curve) == ""
-
-
 @pytest.mark.parametrize("draws", [6, pytest.param(100, marks=pytest.mark.slow)])
 def test_intervals_hold_the_true_shift(draws):
     tables = [shift_factors(melt(seed), reference_temperature=REFERENCE) for seed in range(draws)]
@@ -100,13 +92,6 @@ def test_intervals_hold_the_true_shift(draws):
     assert np.mean(held) > (0.75 if draws < 20 else 0.85)
     score = np.delete(off / np.where(doubt == 0, 1, doubt), 1, axis=1)
     assert 0.4 < np.sqrt(np.mean(score**2)) < 1.4
-
-
-@pytest.mark.slow
-def test_many_points_cost_no_more_than_a_few():
-    table = shift_factors(melt(3, points=2000), reference_temperature=REFERENCE)
-    few = shift_factors(melt(3), reference_temperature=REFERENCE)
-    assert_allclose(table.log10_shift, few.log10_shift, atol=0.02)
 
 
 def test_a_sweep_that_is_off_is_named():
@@ -141,20 +126,6 @@ def test_a_law_for_the_table_is_found_or_none_is():
     rows = ShiftTable(CHAMBER, activated.log10_shift(CHAMBER), np.full(7, 0.02))
     law = nearest_law(rows, reference_temperature=REFERENCE).law
     assert isinstance(law, Arrhenius)
-
-
-@pytest.mark.parametrize(
-    ("keywords", "words"),
-    [
-        ({"vertical": "some"}, "vertical must be"),
-        ({"vertical": True}, "vertical must be"),
-        ({"vertical": 0.1}, "from 0 to 0.01"),
-        ({"temperature_uncertainty": -1.0}, "between 0 and 50 K"),
-    ],
-)
-def test_impossible_ways_to_shift_are_refused(keywords, words):
-    with pytest.raises(ValueError, match=words):
-        shift_factors(melt(0), reference_temperature=REFERENCE, **keywords)
 
 
 # ---- what uncertain shifts do ------------------------------------------------------------------
@@ -208,39 +179,6 @@ def test_tests_over_time_superpose(make):
     assert len(curve) == sum(map(len, tests))
     exact, _ = superposed(tests, reference_temperature=REFERENCE, shift=LAW)
     assert_allclose(exact.time[[0, -1]], curve.time[[0, -1]], rtol=0.3)
-
-
-def test_the_source_of_tests_from_several_files_names_all(tmp_path):
-    paths = []
-    for test in relaxations(0, temperatures=CHAMBER[:3]):
-        rows = "".join(
-            f"{t!r},{G!r}\n"
-            for t, G in zip(*map(np.ndarray.tolist, (test.time, test.modulus)), strict=True)
-        )
-        path = tmp_path / f"melt_{test.temperature:.2f}K.csv"
-        path.write_text("t,G_relax\ns,Pa\n" + rows)
-        paths.append(path)
-    tests = read_relaxations(paths, temperature_in_name=True)
-    curve, _ = superposed(tests, reference_temperature=REFERENCE, vertical=EXPANSION)
-    assert all(path.name in curve.source.path for path in paths)
-    assert "3 files joined as one material" in curve.source.notes
-    copy = tmp_path / "melt_283.15K.csv"
-    copy.write_bytes(paths[0].read_bytes())
-    tests = read_relaxations([*paths, copy], temperature_in_name=True)
-    with pytest.raises(ValueError, match="is the same file as"):
-        superposed(tests, reference_temperature=REFERENCE, shift=LAW)
-
-
-def test_tests_over_time_that_cannot_superpose_are_refused():
-    tests = relaxations(0)
-    with pytest.raises(ValueError, match="only tests of one kind can be superposed"):
-        superposed([tests[0], creeps(0)[1]], reference_temperature=REFERENCE)
-    with pytest.raises(ValueError, match="the temperature of a test is unknown"):
-        superposed([replace(tests[0], temperature=None)], reference_temperature=REFERENCE)
-    with pytest.raises(ValueError, match="two tests have the same temperature"):
-        superposed([tests[0], tests[0]], reference_temperature=REFERENCE)
-    with pytest.raises(ValueError, match="got none"):
-        superposed([], reference_temperature=REFERENCE)
 
 
 def test_a_vertical_shift_multiplies_a_modulus_and_divides_a_compliance():

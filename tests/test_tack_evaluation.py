@@ -139,15 +139,6 @@ def bad():
     }
 
 
-@pytest.mark.parametrize(("digit", "place"), [(1e-4, 0.4), (1.5e-4, 0.0), (2e-4, 0.6)])
-def test_whole_digits_around_a_flat_extreme_are_no_saturation(digit, place):
-    test = tack_files.made()
-    force = digit * (np.round(test.force / digit + place) - place)
-    assert np.count_nonzero(force == force.min()) >= 8
-    pull_off = only(replace(test, force=force)).pull_off_force
-    assert pull_off.value == pytest.approx(-test.force.min(), abs=digit)
-
-
 @pytest.mark.parametrize("what", bad())
 def test_a_bad_curve_is_refused_with_the_reason(what):
     test, words = bad()[what]
@@ -169,21 +160,6 @@ def test_a_retraction_alone_is_taken_where_that_is_said():
     off = np.array([(one.value + PULL_OFF.force) / one.uncertainty for one in forces])
     assert np.all(np.abs(off) < 3)
     assert np.mean([one.value for one in forces]) == pytest.approx(-PULL_OFF.force, rel=0.005)
-
-
-def test_tests_that_cannot_be_evaluated_are_refused():
-    test = tack_files.made(noise=5e-5)
-    still = replace(test, drive=np.full_like(test.drive, 1e-3))
-    with pytest.raises(InputError, match="does not move"):
-        tack.evaluate(record(still))
-    rng = np.random.default_rng(3)
-    nothing = replace(test, force=1e-4 * rng.standard_normal(test.force.size))
-    with pytest.raises(InputError, match="--into"):
-        tack.evaluate(record(nothing, into=0))
-    with pytest.raises(InputError, match="a test needs at least 20"):
-        tack.evaluate(record(cut_at(test, 12)))
-    with pytest.raises(InputError, match="time must increase"):
-        record(replace(test, time=test.time[::-1]))
 
 
 def test_textbook_signals_are_evaluated_within_their_uncertainties():
@@ -355,9 +331,3 @@ def test_a_tension_that_lasts_behind_the_pull_off_is_a_sign_of_fibrils():
     assert "fibrils or cavities" in fibrils.cautions[0]
     (sphere,) = tack.evaluate(pulled_film(1e-6, 5e-7), into=1).cycles
     assert sphere.cautions == ()
-
-
-def test_a_speed_as_uncertain_as_it_is_large_is_refused():
-    found = tack.evaluate(pulled_film(1e-6, 6e-6), into=1)
-    assert not found.cycles
-    assert "the true speed is not determined" in found.refused[0].reason

@@ -40,13 +40,6 @@ def test_a_contact_radius_is_read_where_there_is_one(tmp_path):
     )
 
 
-def test_labels_between_tables_that_repeat_their_headings_are_no_rows(tmp_path):
-    between = b"Result:,probe 2\r\nInterval:,2\r\n"
-    records = read(tmp_path, PLAIN + between + PLAIN)
-    assert [len(record) for record in records] == [WHOLE.time.size] * 2
-    assert np.array_equal(records[0].force, records[1].force)
-
-
 def test_intervals_in_files_of_their_own_are_one_test(tmp_path):
     # numbered so that the order of names is not that of the intervals
     paths = []
@@ -165,10 +158,6 @@ class Curve(dict):
         self.enum, self.metadata = enum, metadata
 
 
-class NotCalibrated(BaseException):
-    """What afmformats raises is no Exception."""
-
-
 def stand_in(monkeypatch, load_data):
     monkeypatch.setitem(sys.modules, "afmformats", SimpleNamespace(load_data=load_data))
 
@@ -202,33 +191,6 @@ def test_a_curve_of_afmformats_without_time_needs_the_nominal_speed(tmp_path, mo
     del curve["force"]
     with pytest.raises(InputError, match="curve 0 has no force"):
         read(tmp_path, content, nominal_speed=1e-5)
-
-
-def test_what_afmformats_cannot_read_is_refused_by_the_name_of_the_file(tmp_path, monkeypatch):
-    def load_data(path):
-        raise NotCalibrated("Please specify sensitivity and spring constant!")
-
-    stand_in(monkeypatch, load_data)
-    with pytest.raises(InputError, match="map.h5: afmformats cannot read it: Please specify"):
-        read(tmp_path, b"\x89HDF\r\n\x1a\n" + bytes(40), "map.h5")
-
-
-def test_files_that_this_package_reads_itself_are_not_given_to_afmformats(tmp_path, monkeypatch):
-    stand_in(monkeypatch, lambda path: pytest.fail("the library was called"))
-    path = tmp_path / "curve.ibw"
-    path.write_bytes(tack_files.ibw(WHOLE))
-    with pytest.raises(InputError, match="leave out --format"):
-        tack.read(path, format="afmformats")
-
-
-def test_without_afmformats_the_error_states_how_to_install_it(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "afmformats", None)
-    with pytest.raises(InputError, match=r"map.jpk-qi-data: .*\[afm\]'"):
-        read(tmp_path, tack_files.jpk(WHOLE), "map.jpk-qi-data")
-    # it does not hide the others
-    (tmp_path / "plain.csv").write_bytes(PLAIN)
-    found = tack.survey([tmp_path / "map.jpk-qi-data", tmp_path / "plain.csv"])
-    assert len(found.cycles) == len(found.unread) == 1
 
 
 @pytest.mark.outside
@@ -273,16 +235,3 @@ def test_every_reader_reads_or_refuses_a_mutated_file(tries, tmp_path):
             assert np.isfinite(cycle.work_of_separation.uncertainty)
             assert cycle.pull_off_force.uncertainty < cycle.pull_off_force.value
     assert 0.05 * tries < answered < 0.9 * tries
-
-
-@pytest.mark.parametrize("name", tack_files.TEXTS)
-def test_a_text_cut_anywhere_gives_right_numbers_or_a_refusal(name, tmp_path):
-    content = tack_files.TEXTS[name](WHOLE)
-    (whole,) = read(tmp_path, content)
-    for length in np.linspace(10, len(content) - 1, 15, dtype=int):
-        try:
-            (cut,) = read(tmp_path, content[:length])
-        except InputError as error:
-            assert "test.csv" in str(error)
-            continue
-        assert np.array_equal(cut.force, whole.force[: len(cut)])

@@ -3,7 +3,6 @@
 import csv
 import json
 import shutil
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,12 +10,9 @@ import numpy as np
 import pytest
 
 from command_line import exit_status
-from picture_units import in_si
-from viscotack.errors import InputError
 from viscotack.identify.speed_table import jkr_work, speed_table
 from viscotack.lab.tack import Measured, survey
 from viscotack.operations.parts.workbook import as_workbook, headed
-from viscotack.pictures.tack import draw_tests
 from viscotack.theory import jkr
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"
@@ -88,12 +84,6 @@ def test_columns_have_units_and_the_prefix_of_their_median():
     assert heading == "work [J]"
 
 
-def test_a_workbook_without_openpyxl_names_the_package(monkeypatch, tmp_path):
-    monkeypatch.setitem(sys.modules, "openpyxl", None)
-    with pytest.raises(InputError, match=r"pip install .*\[lab\]'"):
-        as_workbook({"cycles": [{"a": 1}]})(tmp_path / "book.xlsx")
-
-
 def test_text_in_a_workbook_is_no_formula(tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     as_workbook({"cycles": [{"file": "=1+1\x07.csv"}], "refused": []})(tmp_path / "book.xlsx")
@@ -144,21 +134,3 @@ def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):
     assert answer["exponent"] == pytest.approx(0.138, abs=1e-3)
     assert exit_status(["test", "read", tmp_path / "rig" / "inside"]) == 2
     assert "contains no file" in capsys.readouterr().err
-
-
-def test_curves_are_labelled_by_speed(cycle):
-    same = repeated(cycle, 1.331e-6, [4.30e-3, 4.32e-3])
-    figure = draw_tests([*repeated(cycle, 1e-3, [9e-3]), *same])
-    legend = figure.axes[0].get_legend()
-    assert legend is not None
-    right = figure.axes[1]
-    x, y = right.containers[0].lines[0].get_data()
-    assert sorted(in_si(right.xaxis, x)) == pytest.approx([1.331e-6, 1.331e-6, 1e-3])
-    assert sorted(in_si(right.yaxis, y)) == pytest.approx([4.30e-3, 4.32e-3, 9e-3])
-    texts = [text.get_text() for text in legend.get_texts()]
-    assert texts == ["1.33 µm/s: 4.31 mN (2 tests)", "1 mm/s: 9 mN"]
-    colours = [line.get_color() for line in figure.axes[0].lines[:5:2]]
-    assert np.all(colours[0] == colours[1]) and np.any(colours[1] != colours[2])
-    few = draw_tests([*same, *repeated(cycle, 1e-3, [9e-3])], most=2)
-    # two curves with their pull-offs, two keys of the legend and the line at zero
-    assert len(few.axes[0].lines) == 7

@@ -15,7 +15,6 @@ from viscotack.identify.speed_table import speed_table
 from viscotack.lab.tables import stated_temperature
 from viscotack.lab.tack import Measured, survey
 from viscotack.materials.shift import WLF
-from viscotack.pictures.tack import draw_tests
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"
 LINES = (RIG / "lens_30_um_s.csv").read_text().splitlines()
@@ -157,7 +156,7 @@ def test_a_folder_at_several_temperatures_becomes_tables_and_a_picture(tmp_path,
     shift = ["--wlf", "5,150 K", "--reference-temperature", "20 degC"]
     named = ["test", "read", folder, "--temperature-in-name"]
     picture = tmp_path / "tests.png"
-    outputs = ["--repeats", repeats, "--csv", table, "--plot", picture]
+    outputs = ["--repeats", repeats, "--csv", table, "--plot", picture, "--force"]
     assert exit_status([*named, *shift, *outputs]) == 0
     both = capsys.readouterr()
     assert "--temperature-in-name" not in both.err
@@ -177,17 +176,3 @@ def test_a_folder_at_several_temperatures_becomes_tables_and_a_picture(tmp_path,
     assert picture.stat().st_size > 10_000
     assert exit_status([*named, "--reference-temperature", "20 degC"]) == 2
     assert "needs a shift" in capsys.readouterr().err
-
-
-def test_pictures_have_a_colour_for_each_temperature(cycle):
-    cycles = [*power_law(cycle, 283.15), *power_law(cycle, 313.15)]
-    figure = draw_tests(cycles, shift=SHIFT)
-    left, right = figure.axes
-    legend = left.get_legend()
-    assert legend is not None and legend.get_texts()[0].get_text() == "10 °C, 1 µm/s: 4.72 mN"
-    legend = right.get_legend()
-    assert legend is not None
-    assert [text.get_text() for text in legend.get_texts()] == ["10 °C", "40 °C"]
-    assert right.get_xlabel().startswith("speed $a_T v$ at 20 °C")
-    coldest = np.asarray(right.lines[0].get_xdata())
-    assert coldest[1] / coldest[0] == pytest.approx(10)
