@@ -86,30 +86,6 @@ STANDARD = {"contact_modulus": "1 MPa", "modulus_ratio": 0.1, "tau0": "1 ms"}
 ASKED = {"thickness": "200 um", "speed": "100 um/s"}
 
 
-@pytest.mark.parametrize(
-    ("theory", "changed"),
-    [
-        ("greenwood", {"thickness": 1e300}),
-        ("greenwood", {"thickness": 1e-320}),
-        ("greenwood", {"half_width": 1e300}),
-        ("greenwood", {"speed": 1e-320}),
-        ("greenwood", {"strength": 1e-300}),
-        ("persson-brener", {"work_of_adhesion": 1e-320}),
-    ],
-)
-def test_a_pad_of_numbers_that_cannot_be_computed_with_is_refused(theory, changed, capsys):
-    given = PAD | STANDARD | ASKED | {"theory": theory} | changed
-    with pytest.raises(InputError, match="must lie between .*; check its unit"):
-        ask("theory punch", **given)
-    flags = [x for name, value in given.items() for x in (f"--{name.replace('_', '-')}", value)]
-    for i, value in enumerate(flags):
-        if isinstance(value, float) and flags[i - 1] != "--modulus-ratio":
-            unit = {"--speed": "m/s", "--strength": "Pa", "--work-of-adhesion": "J/m^2"}
-            flags[i] = f"{value!r} {unit.get(flags[i - 1], 'm')}"
-    assert exit_status(["theory", "punch", *flags]) == 2
-    assert "; check its unit" in capsys.readouterr().err
-
-
 @pytest.fixture
 def passport(tmp_path):
     """Return a passport, and the file that holds it."""
@@ -142,20 +118,3 @@ def test_a_passport_is_taken_as_an_object_where_a_file_of_one_is(word, name, giv
     found, file = passport
     by_file = ask(word, **given, **{name: str(file)}).record()
     assert ask(word, **given, **{name: found}).record() == by_file
-
-
-def test_a_rate_series_takes_a_passport_as_an_object(passport):
-    found, file = passport
-    for given in (found, str(file)):
-        rates = {"files": ["tests.csv"], "material": given, "radius": "5 mm"}
-        assert take(operation("identify rates"), rates, Here()).study().material == found
-
-
-def test_a_problem_by_numbers_takes_a_passport_as_an_object(passport):
-    found, file = passport
-    given = SPHERE | {"tabor": 3.0, "radius": "1 mm", "work_of_adhesion": "50 mJ/m^2"}
-    given["temperature"] = "0 degC"
-    by_file, by_object = (
-        ask("predict", problem=given | {"material": each}).record() for each in (str(file), found)
-    )
-    assert by_object == by_file
