@@ -48,6 +48,7 @@ _FLANKS = ((1.5,), (2,), (1, 2), (1.5, 2, 3), (0,), (0, 1), (0, 1.5, 2), (0, 1, 
 _SURE = 10.0  # half of the degrees of freedom of the noise of neighbouring points
 _BLOCKS = 60  # largest number of blocks of a free part
 _LINE, _TILTED = 4, 6.0  # share of a part and its rise over the noise that show a tilt
+_STRAIGHT = 2.0  # largest scatter around that tilt, over the noise
 _SINGLE = 50  # points next to contact that are not averaged
 _CANDIDATES = 28  # contact points compared at a time
 _BEYOND = 4  # points of the flank beyond its part in use
@@ -221,11 +222,12 @@ class _Part:
 def straight(force: Array, depth: Array, noise: float) -> Array:
     """Return the line through the outer quarter of a part, its level where there is no tilt.
 
-    A tilt is no flank of a contact.
+    A tilt is no flank of a contact, and a quarter that reaches into the flank is no line.
     """
     outer = slice(max(force.size // _LINE, _FEW))
     line = np.polynomial.Polynomial.fit(depth[outer], force[outer], 1)
-    if abs(float(line(depth[outer][-1]) - line(depth[0]))) > _TILTED * noise:
+    rise = abs(float(line(depth[outer][-1]) - line(depth[0])))
+    if rise > _TILTED * noise and np.std(force[outer] - line(depth[outer])) < _STRAIGHT * noise:
         return np.asarray(line(depth))
     return np.full(force.size, float(np.median(force[: max(force.size // 10, _FEW)])))
 
