@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
+from viscotack.theory import jkr, maugis, modulus_file, tabulated_modulus
 from viscotack.traction import effective_range
 
 JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
@@ -99,16 +99,6 @@ def test_a_start_too_light_for_the_rate_has_no_state_at_pull_off():
     assert not long.applies and "range of the forces is too long" in long.why
 
 
-def test_the_glassy_band_widens_with_the_range_of_the_forces_and_the_lightness_of_the_start():
-    bands = [
-        estimate(vt.advise(groups(1e8, tabor=mu, start=vt.AtRadius(x))), "glassy").error
-        for mu, x in ((5.0, 6.0), (1.0, 6.0), (1.0, 5.0))
-    ]
-    assert 0.05 <= bands[0] * (1 + 1e-12) < bands[1] < bands[2] <= 0.25
-    far = estimate(vt.advise(groups(1e8, tabor=0.3, start=vt.AtRadius(3.5))), "glassy")
-    assert not far.applies and "larger contact at the start" in far.why
-
-
 def test_the_limits_bracket_the_simulation():
     advice = vt.advise(groups(316.23))
     assert estimate(advice, "elastic").pull_off_force < 7.33
@@ -144,18 +134,6 @@ def test_pressing_harder_does_what_is_said(rate, exponent, radius, preload):
     low, high = advice.preload_change
     # each of the two simulations is good to half a per cent
     assert low - 0.01 <= heavy / light - 1 <= high + 0.01
-
-
-def test_pressing_harder_is_said_with_its_band_or_not_at_all():
-    for start, words in ((vt.AtRadius(2.4), "would lower the force"), (vt.AtRadius(1.5), "raise")):
-        said = [s for s in vt.advise(groups(100.0, start=start)).sentences if "Pressing" in s]
-        assert len(said) == 1 and words in said[0] and "%)" in said[0]
-    for advice, preload in (
-        (vt.advise(groups(1e-5)), "any"),
-        (vt.advise(groups(100.0, tabor=0.5, start=vt.AtRadius(3.0))), "unknown"),
-    ):
-        assert (advice.preload, advice.preload_change) == (preload, None)
-        assert not any("Pressing" in s for s in advice.sentences)
 
 
 def test_the_same_start_said_in_three_ways_is_one():
@@ -217,19 +195,6 @@ def test_every_law_gets_advice_as_good_as_it_is_said_to_be(law, effective_tabor,
     assert found
     for e in found:
         assert e.pull_off_force == pytest.approx(force, rel=e.error + 5e-3, abs=0), e.tier
-
-
-def test_a_law_as_strong_as_lennard_jones_gets_its_advice_with_a_band_of_its_own():
-    # as strong, and the work the same: the decay at which the effective range is that of the gap
-    decay = 9 * 3**0.5 / (16 * np.e)
-    case = groups(1.0, start=vt.AtRadius(3.0))
-    first = vt.advise(case)
-    second = vt.advise(replace(case, traction=vt.Exponential(1.0, 1.0, decay)))
-    steep = vt.advise(replace(case, traction=vt.Dugdale(1.0, 1.0)))
-    forces = [estimate(x, "unloading").pull_off_force for x in (first, second)]
-    assert forces[1] == pytest.approx(forces[0], rel=1e-9, abs=0)
-    bands = [estimate(x, "unloading").error for x in (first, second, steep)]
-    assert bands[0] < bands[1] < bands[2]
 
 
 def test_an_elastic_solid_has_one_answer():
@@ -328,23 +293,6 @@ def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, cap
     }
     assert found == pytest.approx(expected, rel=1e-9, abs=0)
     assert picture.stat().st_size > 1000
-
-
-@pytest.mark.parametrize("name", ["persson-brener", "greenwood"])
-def test_theory_of_the_crack_prints_a_table_or_the_wanted_speeds(name, tmp_path, capsys):
-    law = ["theory", name, "--modulus-ratio", "0.1", "--exponent", "0.6"]
-    picture = tmp_path / "crack.svg"
-    assert exit_status([*law, "--plot", picture]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 42
-    assert picture.exists()
-    assert exit_status([*law, "--speed", "1", "--speed", "10", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["speed"] == [1, 10]
-    if name == "persson-brener":
-        expected = persson_brener.amplification(
-            [1.0, 10.0], material=groups(1.0, exponent=0.6).material
-        )
-        assert found["amplification"] == pytest.approx(expected, rel=1e-12, abs=0)
 
 
 MODULUS = "frequency_Hz,storage_MPa,loss_kPa\n0.1,1.01,30\n1,1.1,200\n10,2,900\n100,4,3000\n"

@@ -100,13 +100,6 @@ def test_workbooks_and_semicolons_have_the_rows_of_a_plain_table(case, tmp_path,
         assert body[0][head.index("inside")] is True and body[1][head.index("why")] == "empty row"
 
 
-def test_a_budget_an_exact_answer_and_a_time_limit_are_those_of_a_row(case):
-    exact = ask("predict", problem=case, cases=[{"radius": 1e-3}], exact=True, time_limit=1e-9)
-    assert "time limit" in exact.record()["rows"][0]["why"]
-    theory = ask("predict", problem=case, cases=[{"radius": 1e-3}], budget=0.01).record()
-    assert sum(theory["methods"].values()) + theory["unanswered"] == 1
-
-
 def test_a_dimensionless_problem_is_changed_as_well():
     stated = {"indenter": "sphere", "tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8}
     stated |= {"preload": 73, "rate": 316.23}
@@ -126,14 +119,6 @@ def test_a_pad_has_stresses():
     stream = io.BytesIO()
     found.files["csv"](stream)
     assert b"pull_off_stress [Pa]" in stream.getvalue().splitlines()[0]
-
-
-def test_improbable_sizes_are_warned_about_for_one_problem_too(case, capsys):
-    case.write_text(LENS.replace("100 um/s", "100 m/s"))
-    warning = "protocol.speed of 100 m/s is improbable; check its unit"
-    assert exit_status(["predict", case, "--json"]) == 0
-    assert warning in capsys.readouterr().err
-    assert warning in ask("advise", problem=case).notes
 
 
 def test_two_headings_of_one_number_are_refused(case):

@@ -103,19 +103,6 @@ def test_zone_response_and_lengths_give_the_verified_value(row):
 
 
 @pytest.mark.parametrize("theory", [persson_brener, greenwood])
-def test_a_scalar_gives_a_float_and_an_array_keeps_its_shape(theory):
-    material = standard(0.1)
-    assert type(theory.amplification(1, material=material)) is float
-    assert type(theory.speed(2, material=material)) is float
-    gamma = theory.amplification(np.array([[0, 1e-3], [1.0, 1e9]]), material=material)
-    assert gamma.shape == (2, 2)
-    assert theory.speed(gamma, material=material).shape == (2, 2)
-    assert theory.amplification([], material=material).shape == (0,)
-    one = theory.amplification(1.0, material=material)
-    assert gamma[1, 0] == pytest.approx(one, rel=1e-13, abs=0)
-
-
-@pytest.mark.parametrize("theory", [persson_brener, greenwood])
 @pytest.mark.parametrize(
     ("call", "message"),
     [

@@ -77,12 +77,6 @@ def test_flags_state_a_layer(capsys):
     assert found["pull_off_force"] == pytest.approx(vt.pull_off_force(result), rel=1e-12)
 
 
-def test_a_poisson_ratio_without_a_thickness_is_refused(capsys):
-    flags = "simulate sphere --tabor 1 --material elastic --preload 1 --bonded 0.3".split()
-    assert exit_status(flags) == 2
-    assert "give its --thickness as well" in capsys.readouterr().err
-
-
 def test_a_film_is_not_pressed_beyond_half_its_thickness(problem):
     deep = vt.Retraction(vt.AtDepth(40e-6), 1e-5)
     with pytest.raises(vt.InputError, match="over 0.5 thicknesses of the layer"):
@@ -102,6 +96,7 @@ def test_a_disc_is_pressed_by_the_stiffness_of_its_layer():
         vt.Problem(**parts, body=vt.Layer(1e-4), protocol=vt.Retraction(vt.AtDepth(4e-4), 1e-8))
 
 
+@pytest.mark.slow
 def test_theories_of_a_film_are_asked_in_si():
     lens = {"radius": "5 mm", "contact_modulus": "2 MPa", "work_of_adhesion": "50 mJ/m^2"}
     record = ask("theory jkr", **lens, thickness="50 um", bonded=0.5).record()

@@ -1,38 +1,15 @@
 """Advice on films, discs and profiles: limits by theory, thickness of a half-space, saturation."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import viscotack as vt
-from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from viscotack.theory import disc, film
 
 SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 GLUED = vt.Bonded(poisson_ratio=0.49)
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 LOAD = 1.5 * np.pi
-CASE = """
-[material]
-model = "sls"
-rubbery_modulus = "1 MPa"
-glassy_modulus = "10 MPa"
-tau0 = "1 s"
-poisson_ratio = 0.49
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "10 nm"
-[sphere]
-radius = "2 mm"
-[layer]
-thickness = "60 um"
-base = "bonded"
-[protocol]
-preload_force = "3 mN"
-speed = "10 um/s"
-"""
 
 
 def groups(body, *, tabor=50.0, rate=10.0, start=None, **more):
@@ -43,6 +20,7 @@ def row(advice, tier):
     return next(e for e in advice.estimates if e.tier == tier)
 
 
+@pytest.mark.slow
 def test_the_limits_of_a_film_are_those_of_jkr():
     layer = vt.Layer(0.5, GLUED)
     contact = vt.advise(groups(layer)).contact
@@ -127,26 +105,3 @@ def test_a_disc_has_kendall_and_its_strength_as_limits():
         assert contact.fast_force == pytest.approx(expected)
         simulated = vt.solve(case, until="pull-off", accuracy=2e-2, estimate_error=False)
         assert 0.9 * contact.slow_force < simulated.pull_off_force < contact.fast_force
-
-
-def case_problem():
-    path = Path("case.toml")
-    path.write_text(CASE)
-    return vt.read_case(path)
-
-
-@pytest.fixture(autouse=True)
-def in_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
-def test_every_door_gives_the_same_advice_on_a_film():
-    case_problem()
-    question = Question("advise", {"problem": "case.toml"})
-    http = Http()
-    try:
-        found = by_python(question)
-        assert found.record["half_space_thickness_m"][2] > 60e-6
-        assert found == by_command(question) == by_study(question) == by_http(question, http)
-    finally:
-        http.close()

@@ -127,31 +127,6 @@ def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
     assert crack_contacts([]) == []
 
 
-def test_errors_are_measured_on_other_solids():
-    from research.training.rows import of_arrays
-    from research.training.train_short_range import measured
-
-    rows = drawn(300, seed=5)
-    rows = rows[answered(rows)]
-    tests = shipped().tests(rows)
-    said = shipped().evaluate(tests)
-    found = tests.curves(said)
-    force, work = 1.02 * said.pull_off_force, said.work_to_pull_off
-    left = found.depth - found.depth[:, -1:]
-    true = of_arrays(rows, force, work, found.force, found.contact_radius, left)
-    first = np.where(found.force[:, 0] > 0, 8, 0)
-    steps = [
-        [depth[i] - depth[i:][[0, -1]], -tension[i:][[0, -1]]]
-        for i, depth, tension in zip(first, found.depth, found.force, strict=True)
-    ]
-    made, scores = measured(shipped(), true, np.array(steps))
-    assert made.constants["error"][0] == pytest.approx([0.02, 0.02])
-    assert made.constants["error"][1:] == pytest.approx(np.zeros((3, 2)), abs=1e-9)
-    assert scores["cases"] == len(rows)
-    assert scores["force"]["median"] == pytest.approx(0.02)
-    assert scores["with work"] == pytest.approx(tests.agree(said).mean())
-
-
 def test_work_and_curve_agree_with_the_theory():
     from viscotack.methods.by_crack import unloading
 

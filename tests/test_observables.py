@@ -1,4 +1,3 @@
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -252,24 +251,6 @@ def test_a_work_with_an_error_above_half_its_value_is_omitted(error):
         assert answer["work_to_pull_off"] is None
         assert "is half of it or more, because the" in answer["work_to_pull_off_note"]
         assert answer["pull_off_force"] == pytest.approx(1.0, rel=1e-3)
-
-
-def test_summary_of_groups_has_the_promised_keys_and_is_json():
-    answer = json.loads(json.dumps(summary(jkr_detachment()), allow_nan=False))
-    assert answer["status"].startswith("jumped at depth")
-    assert answer["outcome"] == "jumped"
-    assert answer["pull_off_force"] == pytest.approx(1, rel=1e-5)
-    assert answer["work_to_pull_off"] == pytest.approx(WORK_TO_PULL_OFF, rel=1e-4)
-    assert answer["work_of_separation"] == pytest.approx(8.33, abs=0.01)
-    assert answer["tabor"] == 3.24
-    assert answer["modulus_ratio"] == 0.1
-    assert answer["rate"] == RATE
-    assert answer["error_estimate"] is None
-    assert answer["energy_residual"] is None
-    assert answer["wall_time_s"] == 0.25
-    assert answer["events"][0]["kind"] == "jump out of contact"
-    assert answer["problem"]["type"] == "Groups"
-    assert not any(key.endswith(("_N", "_J", "_m", "_m_per_s")) for key in answer)
 
 
 def test_summary_in_si_adds_the_same_names_with_units():

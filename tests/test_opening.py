@@ -11,35 +11,6 @@ from viscotack.result import Outcome, observables, opening
 MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)
 
 
-@pytest.mark.parametrize(
-    ("c", "b", "a", "place"),
-    [
-        (-1.0, 1.0, 0.0, 0.5),
-        # nearly a parabola: the other root of the slope is far away
-        (-1.0, 1.0, 1e-17, 0.5),
-        # slope 3 (u - 1) (u - 2)
-        (6.0, -4.5, 1.0, 2.0),
-        # no minimum: a slope without roots, a parabola that is open below, a line
-        (1.0, 0.0, 1.0, np.nan),
-        (1.0, -1.0, 0.0, np.nan),
-        (1.0, 0.0, 0.0, np.nan),
-    ],
-)
-def test_the_minimum_of_a_cubic_is_found_without_cancellation(c, b, a, place):
-    assert opening._valley(c, b, a) == pytest.approx(place, rel=1e-14, nan_ok=True)
-
-
-def test_the_ligament_of_a_punch_that_opens_at_once_is_the_one_just_before(monkeypatch):
-    radius = np.array([8.0, 6.0, 4.0, np.nan])
-    result = SimpleNamespace(time=np.arange(4.0), contact_radius=radius)
-    punch = SimpleNamespace(geometry=SimpleNamespace(half_width=10.0))
-    monkeypatch.setattr(observables, "_punch", lambda result: punch)
-    for time, expected in ((2.0, 0.4), (3.0, 0.4), (1.5, 0.6)):
-        found = SimpleNamespace(time=time, contact_radius=np.nan)
-        monkeypatch.setattr(observables, "pull_off", lambda result, found=found: found)
-        assert observables.ligament_at_pull_off(result) == expected
-
-
 @pytest.mark.parametrize(("lower", "equal"), [(4.0, True), (3.0, True), (2.9, False)])
 def test_peaks_are_equal_if_their_difference_is_within_their_errors(lower, equal, monkeypatch):
     # a quarter of each: 5 - 1.25 = 3 + 0.75

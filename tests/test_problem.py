@@ -1,14 +1,11 @@
-import json
 import math
 from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from typer.testing import CliRunner
 
-from viscotack.app.cli import application
-from viscotack.geometry import Bonded, Cone, FlatPunch, Layer, PowerLawProfile, Sphere
+from viscotack.geometry import Bonded, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -18,7 +15,7 @@ from viscotack.materials import (
 )
 from viscotack.problem import Groups, Problem, plane, ranges, revolution
 from viscotack.problem.inputs import check_exponent, check_paths, inputs_of, replaced
-from viscotack.problem.record import from_dict, run_id, to_dict
+from viscotack.problem.record import run_id, to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import LennardJones
 
@@ -199,13 +196,6 @@ def test_a_part_in_the_wrong_place_is_refused(part, wrong, words):
         lens(**{part: wrong})
 
 
-def test_a_start_must_state_its_controlled_quantity():
-    with pytest.raises(ValueError, match="AtRadius or Apart, got 1e-06"):
-        Retraction(start=1e-6, speed=1e-4)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="AtRadius or Apart, got 73"):
-        Groups(tabor=2, material=MATERIALS[0].reduced(), start=73, rate=1)  # type: ignore[arg-type]
-
-
 def test_groups_refuse_what_is_not_reduced():
     with pytest.raises(ValueError, match=r"use material.reduced\(\)"):
         Groups(tabor=2, material=MATERIALS[1], start=AtDepth(1), rate=1)
@@ -219,30 +209,6 @@ def test_groups_refuse_what_is_not_reduced():
         )
 
 
-@pytest.mark.parametrize("material", MATERIALS, ids=lambda m: type(m).__name__)
-@pytest.mark.parametrize("start", STARTS, ids=lambda s: type(s).__name__)
-def test_a_problem_is_unchanged_by_a_json_round_trip(material, start):
-    case = lens(material=material, protocol=Retraction(start=start, speed=37e-6))
-    for thing in (case, case.groups()):
-        assert from_dict(json.loads(json.dumps(to_dict(thing)))) == thing
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (lambda r: r | {"type": "Marble"}, "unknown type 'Marble'"),
-        (lambda r: r | {"type": "positive"}, "unknown type 'positive'"),
-        (lambda r: r | {"speed": 1}, "must have the fields"),
-        (lambda r: {k: v for k, v in r.items() if k != "geometry"}, "must have the fields"),
-        (lambda r: [r], "must be a dictionary"),
-        (lambda r: r | {"geometry": {"type": "Sphere", "radius": -1}}, "radius must be positive"),
-    ],
-)
-def test_a_wrong_record_is_refused(change, words):
-    with pytest.raises(ValueError, match=words):
-        from_dict(change(to_dict(lens())))
-
-
 def test_a_case_is_named_by_its_content():
     assert run_id(lens()) == run_id(lens(geometry=Sphere(radius=5.19e-3)))
     assert run_id(lens(protocol=Retraction(AtDepth(0), 1))) == run_id(
@@ -251,65 +217,6 @@ def test_a_case_is_named_by_its_content():
     names = {run_id(lens()), run_id(lens().groups()), run_id(lens(geometry=Sphere(5.2e-3)))}
     assert len(names) == 3
     assert all(len(name) == 16 for name in names)
-
-
-def test_a_problem_in_si_is_converted_once_in_and_once_out(tmp_path, monkeypatch):
-    """One `simulate sphere` with words, table and JSON asks for groups and for scales once each."""
-    case = tmp_path / "lens.toml"
-    case.write_text(
-        """
-[material]
-model = "sls"
-rubbery_modulus = "1.5 MPa"
-glassy_modulus = "15 MPa"
-tau0 = "0.1 s"
-poisson_ratio = 0.5
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.15 J/m^2"
-equilibrium_gap = "1.5 um"
-[sphere]
-radius = "5 mm"
-[protocol]
-preload_force = "1.5 mN"
-speed = "100 um/s"
-"""
-    )
-    asked = []
-    for name in ("groups", "scales"):
-        plain = getattr(Problem, name)
-
-        def counted(self, name=name, plain=plain):
-            asked.append(name)
-            return plain(self)
-
-        monkeypatch.setattr(Problem, name, counted)
-    command = ["simulate", "sphere", str(case), "--csv", str(tmp_path / "x.csv"), "--json"]
-    done = CliRunner().invoke(application(), [*command, "--plot", str(tmp_path / "x.svg")])
-    assert done.exit_code == 0, done.stderr
-    assert sorted(asked) == ["groups", "scales"]
-
-
-def test_geometries_that_are_none_are_refused_in_words():
-    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
-    law, test = LennardJones(0.05, 1e-7), Retraction(start=AtForce(0.0), speed=1e-5)
-
-    class Odd(Sphere):
-        symmetry = "axial"
-
-    for wrong, words in (
-        (Sphere, "geometry cannot be a Sphere"),
-        (Odd(1e-3), "must have the symmetry 'revolution'.*got 'axial'"),
-        (Cone(1e10), "too steep"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            Problem(solid, law, wrong, test)
-    with pytest.raises(ValueError, match="a punch cannot start at a contact radius"):
-        pulled = Retraction(start=AtRadius(1e-4), speed=1e-5)
-        Problem(solid, law, FlatPunch(1e-3), pulled, body=Layer(1e-4))
-    with pytest.raises(ValueError, match="no radius and no Tabor number"):
-        pad = Problem(solid, law, FlatPunch(1e-3), Retraction(AtDepth(0.0), 1e-5), Layer(1e-4))
-        assert pad.tabor
 
 
 @pytest.mark.parametrize("radius, gap", [(5e-324, 1e-9), (1e300, 1e-9), (1e-3, 5e-324)])

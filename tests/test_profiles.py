@@ -10,9 +10,7 @@ from scipy.special import struve
 
 import viscotack as vt
 from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
-from viscotack.bem import jumps
 from viscotack.bem.contacts.shape import ShapeContact
-from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of
 from viscotack.check.tiers import problems
@@ -110,14 +108,6 @@ def test_a_start_has_the_largest_of_several_radii():
     force = np.asarray(indenter.force(a, shape=WAVY, **SOLID))
     least = contact.jkr_radius_at_force(-1e9)
     assert indenter.force(least, shape=WAVY, **SOLID) == pytest.approx(force.min(), rel=1e-3)
-
-
-def test_nodes_follow_the_waves():
-    contact = ShapeContact(4.0, LennardJones(1.0, 1.0), WAVY)
-    nodes = contact.grading(Settings.for_accuracy(1e-2), 12.0).nodes(2.0, 2.0)
-    assert np.diff(nodes[nodes < 2.3]).max() < WAVY.wavelength / 9
-    smooth = ShapeContact(4.0, LennardJones(1.0, 1.0), replace(WAVY, amplitude=1e-6))
-    assert len(smooth.grading(Settings.for_accuracy(1e-2), 12.0).nodes(2.0, 2.0)) < len(nodes) - 10
 
 
 @pytest.mark.parametrize("height", [worn, cup, WAVY.gap], ids=["worn", "cup", "waves"])
@@ -294,22 +284,6 @@ def test_parts_of_a_contact_that_comes_together_are_counted():
     assert result.energy_residual is not None and result.energy_residual < 5e-3
 
 
-def test_nodes_are_fine_at_each_edge(ring_result):
-    contact = contact_of(ring_result.groups)
-    settings = Settings.for_accuracy(1e-2)
-    start = contact.relaxed(vt.AtDepth(5.0), settings)
-    grading = contact.grading(settings, 5.0)
-    mesh = Mesh(grading, contact.zone, start.lattice, grading, start.edge)
-    inner = start.surface.inner_edges(start.gap, contact.law.edge_gap)
-    assert len(inner) == 1 and mesh.left_by(start.edge, inner)
-    mesh = mesh.around(start.edge, contact.zone, inner)
-    assert not mesh.left_by(start.edge, inner)
-    nodes = mesh.nodes()
-    for edge in (*inner, start.edge):
-        around = np.searchsorted(nodes, edge)
-        assert np.diff(nodes)[around - 3 : around + 3] == pytest.approx(grading.spacing, rel=0.3)
-
-
 # --- every door -----------------------------------------------------------------------------------
 
 ROWS = [[f"{r} um", f"{max(r * r - 6400, 0) / 10:.1f} nm"] for r in range(0, 401, 100)]
@@ -344,15 +318,3 @@ def test_every_door_gives_the_same_answer(word, send, tmp_path, monkeypatch):
     )
     advice: Any = by_python(Question("advise", {"problem": "case.toml"})).record
     assert advice["use"] == "simulation" and advice["slow_force"] <= advice["fast_force"]
-
-
-def test_a_march_goes_on_where_new_nodes_have_no_compliance(monkeypatch):
-    def failing(*given):
-        raise ArithmeticError("not positive definite")
-
-    monkeypatch.setattr(jumps, "around_edge", failing)
-    groups = vt.Groups(
-        tabor=2.0, material=ELASTIC, start=vt.AtDepth(2.0), rate=1.0, geometry=reduced(worn)
-    )
-    result = vt.solve(groups, accuracy=2e-2, estimate_error=False)
-    assert result.pull_off_force > 1

@@ -9,14 +9,8 @@ from scipy.interpolate import PchipInterpolator
 import viscotack as vt
 from punches import resized
 from viscotack.forecast.tiers import AT_ONCE, SOON
-from viscotack.result.trajectory import PRESSED, TENSILE
 from viscotack.surrogate import punch_physics as physics
 from viscotack.surrogate import store
-from viscotack.surrogate.line import OUTPUTS, PRESSING, SHAPE
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks
-from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
-from viscotack.surrogate.trust import INPUTS as TOLD
 
 SOLID = {"rubbery_modulus": 1.5e6, "glassy_modulus": 15e6, "poisson_ratio": 0.5}
 # A pad of SI units, in the middle of the range.
@@ -41,52 +35,6 @@ def random_rows(count, seed=1):
     return rows
 
 
-def random_surrogate(seed=0):
-    """Return a surrogate that has learned nothing: what holds for it holds by construction."""
-    random = np.random.default_rng(seed)
-
-    def networks(inputs, outputs, count=2, **scale):
-        sizes = (inputs, 6, outputs)
-        pairs = list(zip(sizes[:-1], sizes[1:], strict=True))
-        return Networks(
-            tuple(random.normal(size=(count, a, b)) for a, b in pairs),
-            tuple(random.normal(size=(count, 1, b)) for _, b in pairs),
-            **scale,
-        )
-
-    def scaled(inputs, outputs, count=2):
-        scale = {"centre": np.zeros(outputs), "spread": np.full(outputs, 0.1)}
-        return networks(inputs, outputs, count, **scale)
-
-    # shapes that rise, and waver
-    shapes = {"centre": _rising(), "spread": np.full(OUTPUTS, 0.02)}
-    return Surrogate(
-        physics.PunchContact,
-        {
-            "start": scaled(3, 1),
-            "slow": networks(2, 1),
-            "fast": networks(4, 1),
-            "force": networks(5, 1),
-            "work": scaled(7, 1),
-            "give": scaled(7, 1),
-            "line": networks(8, OUTPUTS, 1, **shapes),
-            "second": networks(7, 2, 1),
-        },
-        Trust(
-            networks(TOLD, len(OF)),
-            np.ones((len(OF), len(CONFIDENCES))),
-            np.ones(len(CONFIDENCES)),
-        ),
-    )
-
-
-def _rising():
-    shape = np.full(OUTPUTS, 0.9)
-    shape[SHAPE] = np.linspace(0.0, 1.0, TENSILE)[1:-1]
-    shape[PRESSING] = np.linspace(0.9, 0.1, PRESSED - 1)
-    return shape
-
-
 def punch_of(size=64.85, thickness=3.24, ratio=0.1, start=None, rate=10.0, **others):
     """Return a punch without dimensions."""
     solid = vt.StandardSolid(
@@ -100,9 +48,8 @@ def punch_of(size=64.85, thickness=3.24, ratio=0.1, start=None, rate=10.0, **oth
 # by construction
 
 
-@pytest.mark.parametrize("made", [random_surrogate, shipped])
-def test_no_stress_leaves_its_limits(made):
-    surrogate, rows = made(), random_rows(2000)
+def test_no_stress_leaves_its_limits():
+    surrogate, rows = shipped(), random_rows(2000)
     tests = surrogate.tests(rows)
     slow, fast = tests.slow, tests.fast
     stress = surrogate.evaluate(rows).pull_off_force
@@ -112,9 +59,8 @@ def test_no_stress_leaves_its_limits(made):
     assert np.all(stress <= 10**1e-4)
 
 
-@pytest.mark.parametrize("made", [random_surrogate, shipped])
-def test_the_curve_ends_at_the_stress_and_its_area_is_the_work(made):
-    surrogate, rows = made(), random_rows(300)
+def test_the_curve_ends_at_the_stress_and_its_area_is_the_work():
+    surrogate, rows = shipped(), random_rows(300)
     said = surrogate.evaluate(rows)
     curves = surrogate.curves(rows, said)
     assert curves.force[:, -1] == pytest.approx(-said.pull_off_force, rel=1e-9)
@@ -128,12 +74,11 @@ def test_the_curve_ends_at_the_stress_and_its_area_is_the_work(made):
     ]
     # sigma0 h0 in dg0; by another rule of integration
     off = np.abs(np.array(areas) * physics.STRENGTH / said.work_to_pull_off - 1)
-    assert np.median(off) < (5e-4 if made is shipped else 5e-3)
+    assert np.median(off) < 5e-4
 
 
-@pytest.mark.parametrize("made", [random_surrogate, shipped])
-def test_derivatives_are_those_of_differences(made):
-    surrogate, rows, step = made(), random_rows(200, seed=9), 1e-5
+def test_derivatives_are_those_of_differences():
+    surrogate, rows, step = shipped(), random_rows(200, seed=9), 1e-5
     force, work = surrogate.slopes(rows)
     for i in range(5):
         up, down = (
@@ -283,48 +228,22 @@ def test_test_rows_are_predicted_within_the_documented_errors():
 # where it ends
 
 
-def test_what_was_not_learned_is_refused_in_words():
+def test_what_was_not_learned_is_refused_by_name():
     glued = punch_of(base=vt.Bonded(poisson_ratio=0.4))
-    power_law = vt.RetardationPowerLaw(
-        rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
-    )
     branches = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.1), (5.0, 1.0)], poisson_ratio=0.0)
-    elastic = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    dugdale = vt.Dugdale(work_of_adhesion=1.0, equilibrium_gap=1.0)
-    far = punch_of(size=640.0, rate=1e9)
-    for words, case in (
-        ("size is 640 a0, outside the training range of 1 to 200 a0; rate is 1e+09 h0/tau0", far),
-        ("outside the training range of 0.1 to 1000 a0", punch_of(thickness=0.05)),
-        ("modulus_ratio is 0.8, outside the training range of 0.001 to 0.7", punch_of(ratio=0.8)),
-        (
-            "preload is 100 h0, outside the training range of 0.0073",
-            punch_of(start=vt.AtDepth(100.0)),
-        ),
-        ("for this size and thickness", punch_of(start=vt.AtDepth(100.0))),
-        (
-            "preload_force is 50 sigma0, outside the training range of 0.001",
-            punch_of(start=vt.AtForce(50.0)),
-        ),
-        ("preload is -0.1 h0", punch_of(start=vt.AtDepth(-0.1))),
-        ("the body is Bonded; verified only for Frictionless", glued),
-        ("the solid is RetardationPowerLaw", punch_of(material=power_law)),
+    for name, case in (
+        ("size is 640 a0", punch_of(size=640.0, rate=1e9)),
+        ("modulus_ratio is 0.8", punch_of(ratio=0.8)),
+        ("preload_force is 50 sigma0", punch_of(start=vt.AtForce(50.0))),
+        ("the body is Bonded", glued),
         ("the solid has 2 branches", punch_of(material=branches)),
-        ("the solid is Elastic", punch_of(material=elastic)),
-        ("the traction law is Dugdale", punch_of(traction=dugdale)),
-        ("the test begins with apart 5", punch_of(start=vt.Apart(5.0))),
+        ("the traction law is Dugdale", punch_of(traction=vt.Dugdale(1.0, 1.0))),
         ("the machine moves before", punch_of(moves=(vt.Dwell(1.0),))),
-        ("a stiffness of 2 x sigma0/h0", punch_of(stiffness=2.0)),
-        ("h0/tau0 (1e+03 m/s), outside", replace(PAD, protocol=replace(PAD.protocol, speed=1e3))),
+        ("a stiffness of 2", punch_of(stiffness=2.0)),
     ):
         for budget in (AT_ONCE, SOON):
-            with pytest.raises(vt.OutOfRange) as refused:
+            with pytest.raises(vt.OutOfRange, match=name):
                 vt.predict(case, budget=budget)
-            assert words in str(refused.value), words
-        assert "`viscotack simulate`, or `predict` with --exact, can compute it" in str(
-            refused.value
-        )
-    with pytest.raises(ValueError, match="confidence must be one of"):
-        vt.predict(punch_of(), confidence=0.85)
 
 
 def test_rows_of_a_table_are_those_of_single_predictions():

@@ -113,6 +113,7 @@ def test_a_move_to_a_force_and_a_dwell_scale_with_time():
     )
 
 
+@pytest.mark.slow
 def test_in_si_units_of_stress_length_and_time_do_not_matter():
     case = found(lens())
     by, off = case.elasticities[FORCE], sum(case.errors[FORCE].values())
@@ -126,6 +127,7 @@ def test_in_si_units_of_stress_length_and_time_do_not_matter():
     assert by["protocol.speed"] == pytest.approx(by["material.tau0"], abs=off)
 
 
+@pytest.mark.slow
 def test_the_force_of_an_elastic_contact_is_that_of_jkr():
     # at a Tabor number of 8
     soft = lens(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscotack.bem import Settings, SimulationError
-from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile
+from viscotack.geometry import Cone, FlatPunch, Layer
 from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
@@ -72,7 +72,7 @@ def test_a_start_that_presses_harder_than_the_law_repels_is_told_so(start, words
         solve(soft_law(start))
 
 
-@pytest.mark.parametrize("start", [AtDepth(3.5), AtForce(40.0), AtRadius(5.0)], ids=str)
+@pytest.mark.parametrize("start", [AtDepth(3.5), AtRadius(5.0)], ids=str)
 def test_a_start_that_presses_nearly_as_hard_as_the_law_repels_exists(start):
     # Bradley's force and that of DMT: such a contact is nearly rigid
     found = pull_off_force(solve(soft_law(start), until="pull-off", estimate_error=False))
@@ -273,18 +273,3 @@ def test_the_stated_error_of_the_work_holds_under_a_growing_load():
     assert np.all(np.abs(work - work[-1]) <= error)
     assert np.all(np.abs(depth - depth[-1]) <= shift)
     assert np.all(error < 0.2 * work)
-
-
-def test_progress_never_falls_behind_a_soft_spring():
-    groups = Groups(
-        tabor=2.57,
-        material=ELASTIC,
-        start=Apart(30.0),
-        rate=None,
-        moves=(Approach(3e5, AtDepth(6.0)),),
-        stiffness=0.003,
-        geometry=PowerLawProfile(coefficient=0.5227391531625719, exponent=1.913),
-    )
-    shares = []
-    solve(groups, accuracy=0.01, progress=shares.append, estimate_error=False)
-    assert np.all(np.diff(shares) >= 0) and 0 <= shares[0] and shares[-1] == 1

@@ -104,56 +104,20 @@ def test_maugis_work_gives_the_tabulated_value(lam, work):
     assert found == pytest.approx(work, abs=6e-6)
 
 
-def test_a_scalar_gives_a_float_and_an_array_keeps_its_shape():
-    a = np.full((2, 3), 1e-4)
-    for function in (jkr.force, jkr.depth, dmt.force):
-        assert type(function(1e-4, **CASE)) is float
-        assert function(a, **CASE).shape == (2, 3)
-    assert type(hertz.gap(2e-4, contact_radius=1e-4, radius=1e-3)) is float
-    state = maugis.pull_off(**CASE, strength=1e5)
-    assert [type(x) for x in state] == [float] * 4
-    assert type(jkr.contact_radius_at_depth(0, **CASE)) is float
-
-
 LJ = dict(radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
-DUGDALE = CASE | dict(strength=1e5)
 
 
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: jkr.force([1e-4, -1e-4], **CASE), "contact_radius.*-0.0001 m"),
-        (lambda: jkr.force(np.nan, **CASE), "contact_radius must be finite"),
-        (lambda: jkr.force(1e-4, **CASE | dict(radius=-1)), "radius must be positive.*-1.0 m"),
-        (lambda: jkr.depth(1e-4, **CASE | dict(work_of_adhesion=0)), "work_of_adhesion.*J/m"),
+        (lambda: jkr.force([1e-4, -1e-4], **CASE), "contact_radius"),
+        (lambda: jkr.depth(1e-4, **CASE | dict(work_of_adhesion=0)), "work_of_adhesion"),
         (lambda: jkr.contact_radius_at_depth(-1e-3, **CASE), "depth.*instability"),
-        (lambda: jkr.unstable_contact_radius_at_depth(1e-9, **CASE), "contact_radius_at_depth"),
-        (lambda: jkr.contact_radius_at_force(-1.0, **CASE), "force.*-0.000235619 N.*pull_off"),
-        (lambda: jkr.unstable_contact_radius_at_force(1e-9, **CASE), "contact_radius_at_force"),
-        (lambda: jkr.pressure(1e-4, contact_radius=1e-4, **CASE), "contact edge"),
+        (lambda: jkr.contact_radius_at_force(-1.0, **CASE), "force.*pull_off"),
         (lambda: hertz.contact_radius_at_depth(-1e-9, radius=1e-3), "without adhesion"),
-        (
-            lambda: hertz.contact_radius_at_force(-1e-9, radius=1e-3, contact_modulus=1e6),
-            "carries no tension",
-        ),
         (lambda: dmt.contact_radius_at_force(-1.0, **CASE), "the contact opens"),
         (lambda: bradley.force([0.0, 3e-10], **LJ), "rigid bodies do not overlap"),
-        (lambda: maugis.curve([2.0, 1.0], **DUGDALE), "ratio must be above 1.*1.0"),
-        (lambda: maugis.curve_without_contact(1.0, **DUGDALE), "touching radius"),
-        (lambda: maugis.pull_off(**CASE, strength=1e-9), "theory.dmt"),
         (lambda: maugis.pull_off(**CASE, strength=1e15), "theory.jkr"),
-        (lambda: maugis.parameter_from_tabor(-1.0), "tabor must be positive"),
-        (
-            lambda: maugis.pressure(
-                0.0,
-                contact_radius=2.0,
-                cohesive_radius=1.0,
-                radius=9.0,
-                contact_modulus=1.0,
-                strength=1.0,
-            ),
-            "cohesive_radius must be",
-        ),
     ],
 )
 def test_outside_its_domain_a_formula_raises_an_error_with_a_remedy(call, message):

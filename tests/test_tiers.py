@@ -185,9 +185,9 @@ SLOW = [
     (0.1, 0.1, 0.5, 10.0, 1e-4),
     (0.5, 5e-3, 0.3, 3.0, 1e-9),
     # the surrogate abstains at its limit, and the simulation takes over
-    (4.69, 8.54e-4, 0.731, 202.6, 5e-3),
+    pytest.param(4.69, 8.54e-4, 0.731, 202.6, 5e-3, marks=pytest.mark.slow),
     # by the theory of the crack
-    (20.0, 1e-3, 0.3, 150.0, 1e-5),
+    pytest.param(20.0, 1e-3, 0.3, 150.0, 1e-5, marks=pytest.mark.slow),
 ]
 
 
@@ -336,18 +336,3 @@ def test_a_tabor_number_at_the_end_of_a_range_is_answered_however_it_is_rounded(
     unloading = next(tier for tier in THEORIES if tier.name == "unloading")
     found = unloading.answer(problem).pull_off_force
     assert found == pytest.approx(unloading.answer(in_groups).pull_off_force, rel=1e-9)
-
-
-@pytest.mark.parametrize("kind", [vt.InputError, ValueError])
-def test_a_material_that_refuses_fine_modes_is_the_reason_of_the_theories(kind):
-    class Coarse(vt.StandardSolid):
-        def retardation_modes(self, *, shortest, longest, tolerance):
-            raise kind("no modes as fine as that")
-
-    own = Coarse(**UNIT, glassy_modulus=10.0, tau0=1.0)
-    for case in (groups(3.24, own), groups(50.0, own)):
-        advice = vt.advise(case)
-        assert len(advice.sentences) > 5
-        crack = next(e for e in advice.estimates if e.tier == "crack contact")
-        assert not crack.applies
-    assert "no modes as fine as that" in crack.why
