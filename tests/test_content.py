@@ -131,12 +131,6 @@ def test_creep_beside_its_recovery_in_a_workbook_is_read(file):
     np.testing.assert_allclose(found.compliance, 0.02 * np.arange(1.0, 9.0) / 5.0, rtol=1e-12)
 
 
-def test_creep_above_its_recovery_in_one_sheet_is_read(file):
-    rest = [["Interval 2"], *creep(0.0, lambda i: 16.0 - i)]
-    rows = [["creep test 10 Pa"], *creep(10.0, lambda i: 2.0 * i), [], *rest]
-    assert len(lab.read(file({"Data": rows}, "creep.xlsx"))) == 8
-
-
 def test_the_time_of_the_whole_test_is_not_taken_for_the_time_since_the_step(file):
     first = creep(0.0, lambda i: 0.01 * i)
     second = creep(5.0, lambda i: 2.0 * i)
@@ -209,10 +203,8 @@ def test_a_column_and_its_unit_are_chosen_by_heading_or_number(file):
     ("columns", "words"),
     [
         ("hardness=1", "--columns must be like"),
-        ("storage", "--columns must be like"),
         ("storage=G1 [Pa]", "no column 'G1'"),
         ("storage=G' [kPa]", 'the file states Pa for "G\'", but --columns kPa'),
-        ("storage=9", "no column '9'"),
         ("storage=2; loss=2", '--columns has "G\'" as storage and as loss'),
     ],
 )
@@ -263,12 +255,6 @@ def test_columns_of_a_rig_are_chosen_by_number(file):
     units = {"time_unit": "s", "length_unit": "mm", "force_unit": "mN"}
     (record,) = tack.read(path, **columns, **units)
     assert record.time[-1] == 40 and record.position[0] == 3e-3 and record.force[0] == 0.02
-
-
-def test_headings_of_rheowin_are_read_of_a_rig(file):
-    rows = "\n".join(f"1|{i},{i / 10},{2 - i / 100},{i}" for i in range(1, 41))
-    (record,) = tack.read(file(f"SegIndex,Fn in N,h in mm,t in s\n{rows}\n"))
-    assert record.into == -1 and record.position[0] == 1.99e-3 and record.force[0] == 0.1
 
 
 CHIARO = """Date\t12/05/2025\tTime\t11:20:38\tStatus\tOK

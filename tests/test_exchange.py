@@ -31,12 +31,6 @@ def test_a_series_comes_back_as_it_went(code, units, nu):
     np.testing.assert_allclose(back.branches, solid.branches, rtol=2 * LOST)
 
 
-def test_absolute_moduli_lose_nothing():
-    back = imported(exported(SOLID, "comsol"), "comsol")
-    assert back.rubbery_modulus == SOLID.rubbery_modulus
-    np.testing.assert_allclose(back.branches, SOLID.branches, rtol=4e-16)
-
-
 ONE = Prony(rubbery_modulus=1e6, branches=[(3e6, 0.5)], poisson_ratio=0.25)
 
 
@@ -219,18 +213,12 @@ UNITS, ANSYS, COMSOL = (f"{mark} units: pressure Pa, time s\n" for mark in ("**"
         ("abaqus", "*ELASTIC\n1,0.3\n", "does not state its units"),
         ("abaqus", UNITS + "*ELASTIC\n1,0.3\n*VISCOELASTIC, TIME=PRONY\n.5,0.,1\n",
          "line 5: shear and bulk relax differently"),
-        ("abaqus", UNITS + "*ELASTIC\n1,0.3\n*VISCOELASTIC, TIME=PRONY\n.5,x,1\n",
-         "line 5: a value must be a number, got 'x'"),
         ("abaqus", UNITS + "*ELASTIC\n1,0.3\n*VISCOELASTIC, TIME=PRONY\n1.,1.,1\n",
          "sum to 1; a solid needs a sum below 1"),
-        ("abaqus", UNITS + "*ELASTIC\n1,0.3\n", "no branch"),
         ("abaqus", UNITS + "*VISCOELASTIC, TIME=PRONY\n.5,.5,1\n", r"no \*ELASTIC"),
-        ("ansys", ANSYS + "MP,EX,1,1\nMP,NUXY,1,.3\nTB,PRONY,1,,1,SHEAR\n"
-         "TBDATA,1,.5,1\n", "shear and bulk relax differently"),
         ("ansys", ANSYS + "MP,EX,1,1\nMP,NUXY,1,.5\nTB,PRONY,1,,1,SHEAR\n"
          "TBDATA,1,.5\n", "TB states 1 pairs, but 1 numbers follow"),
         ("comsol", COMSOL + "1 2 3\n", "lacks the long-term"),
-        ("nastran", "", "must be one of abaqus"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_understood_is_refused_with_its_line(code, text, words):

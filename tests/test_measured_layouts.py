@@ -7,8 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import lab_files
-from command_line import exit_status
-from viscotack.lab import read, read_creep, read_dma, read_shifts
+from viscotack.lab import read, read_dma, read_shifts
 from viscotack.lab.quantities import recognise
 
 
@@ -41,12 +40,9 @@ def assert_the_film(sweeps, rtol=1e-10):
 @pytest.mark.parametrize(
     ("text", "quantity", "unit"),
     [
-        ("time_s", "time", "s"),
         ("modulus_Pa", "modulus", "Pa"),
         ("omega_rad_s", "angular_frequency", "rad/s"),
-        ("storage_MPa", "storage", "MPa"),
         ("G_double_prime", "loss", ""),
-        ("Gpp", "loss", ""),
         ("T [oC]", "temperature", "oC"),
         ("δ (°)", "phase", "°"),
         ("E' [Mpa]", "storage", "Mpa"),
@@ -127,13 +123,6 @@ def test_json_in_lists_is_read(file):
     assert test.source.format == "trios-json"
     assert test.modulus.tolist() == [30500, 20250]
     assert test.strain == 0.02
-
-
-def test_columns_side_by_side_are_sweeps(file):
-    for within in (False, True):
-        sweeps = read_dma(file(lab_files.wide(within)))
-        assert_the_film(sweeps)
-        assert sweeps.ids == (0, 1, 2)
 
 
 def test_numbers_without_a_name_above_columns_must_be_identified(file):
@@ -255,12 +244,6 @@ def test_a_name_has_one_temperature(file):
     assert read_dma(file(text, "a 293.15 K.csv"), temperature_in_name=True).temperature[0] == 293.15
 
 
-def test_two_amplitudes_are_no_frequency_sweep(file):
-    two = "f,E',E''\nHz,MPa,MPa\n1,3,0.4\n1,2.9,0.5\n"
-    with pytest.raises(ValueError, match="one temperature and one frequency"):
-        read_dma(file(two))
-
-
 # ---- which test, and the true cause ------------------------------------------------------------
 
 
@@ -306,22 +289,4 @@ def test_the_first_point_of_a_workbook_is_no_row_of_units(tmp_path):
 # ---- the command line --------------------------------------------------------------------------
 
 
-def test_the_command_line_reads_several_files(file, capsys):
-    paths = [file(text, name) for name, text in halves()]
-    command = ["material", "fit", *paths, "--poisson-ratio", "0.5", "--temperature-in-name"]
-    shift = ["--reference-temperature", "-30 degC", "--wlf", "8.86,101.6 K"]
-    assert exit_status([*command, *shift, "--model", "power-law", "--json"]) == 0
-    origin = json.loads(capsys.readouterr().out)["origin"]
-    assert origin["file"] == "film_3_-40C.csv, film_3_-30C.csv, film_3_-20C.csv"
-    assert exit_status([*command, "--test", "creep"]) == 2
-    assert "it contains frequency sweeps, --test dma" in capsys.readouterr().err
-
-
 # ---- sizes -------------------------------------------------------------------------------------
-
-
-def test_a_decimal_comma_may_be_said(file):
-    path = file("t [s];J [1/Pa]\n1,000;3,125\n2,000;4,125\n")
-    with pytest.raises(ValueError, match="set --decimal , or --decimal ."):
-        read_creep(path, kind="G")
-    assert read_creep(path, kind="G", decimal=",").compliance.tolist() == [3.125, 4.125]

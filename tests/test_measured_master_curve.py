@@ -13,7 +13,6 @@ from viscotack.lab import (
     fit_wlf,
     master_curve,
     read_dma,
-    read_shifts,
     shift_factors,
 )
 from viscotack.lab.overlap import Curve, Hold, step_between
@@ -63,18 +62,9 @@ def test_exact_data_give_back_the_shift(by):
     assert found.log10_vertical is None
 
 
-def test_noise_of_one_percent_costs_less_than_a_tenth_of_a_decade():
-    # 14 decades in all, in 12 steps
-    for seed in range(3):
-        found = shift_factors(
-            measured(noise=0.01, seed=seed), reference_temperature=ROOM, vertical="none"
-        )
-        assert_allclose(found.log10_shift, SHIFT.log10_shift(CHAMBER), atol=0.1)
-
-
 @pytest.mark.parametrize(
     ("noise", "draws"),
-    [(0.01, 6), *(pytest.param(noise, 60, marks=pytest.mark.slow) for noise in (0.01, 0.02))],
+    [(0.01, 4), *(pytest.param(noise, 60, marks=pytest.mark.slow) for noise in (0.01, 0.02))],
 )
 def test_the_stated_uncertainty_is_the_scatter_of_repeated_measurements(noise, draws):
     found = [
@@ -175,15 +165,6 @@ def test_the_ramp_of_the_thesis_becomes_the_curve_of_its_material():
     assert "WLF with c1 = 17.44, c2 = 51.6 K at 158.15 K" in curve.source.notes[-1]
 
 
-def test_overlap_gives_the_curve_of_the_material():
-    curve = master_curve(measured(noise=0.01), reference_temperature=ROOM, by="both")
-    exact = PDMS.complex_modulus(curve.angular_frequency)
-    assert_allclose(curve.storage, exact.real, rtol=0.08)
-    assert curve.reference_temperature == ROOM
-    assert curve.sweep is not None
-    assert np.median(np.abs(curve.storage / exact.real - 1)) < 0.02
-
-
 def test_a_table_shifts_the_points_near_its_rows_and_interpolates_between():
     sweeps = measured([275.3, 284.0, 294.8], hertz=[1.0, 10.0])
     rows = np.array([275.0, 280.0, 290.0, 295.0])
@@ -252,24 +233,6 @@ def test_an_independent_code_finds_the_same_shifts_from_the_published_sweeps():
     assert np.max(difference[7:]) < 0.1
     # in the glass storage hardly rises and its first points lag: -50 to -42 C and -5 to 3 C
     assert np.max(difference) < 0.3
-
-
-def test_the_published_shift_factors_do_not_belong_to_the_published_sweeps():
-    """They belong to the published master curve, whose sweeps are not public."""
-    sweeps = read_dma(DMA / "freq_user_raw.csv")
-    table = read_shifts(DMA / "freq_user_master__shift_factors.csv")
-    ours = shift_factors(sweeps, reference_temperature=268.15, by="storage", vertical="none")
-    # no step between neighbours agrees within a tenth of a decade
-    assert np.min(np.abs(np.diff(ours.log10_shift) - np.diff(table.log10_shift))) > 0.1
-
-    def scatter(shift):
-        curve = master_curve(sweeps, reference_temperature=268.15, shift=shift)
-        x, y = np.log10(curve.angular_frequency), np.log10(curve.storage)
-        return np.std(y - np.polynomial.Chebyshev.fit(x, y, 12)(x))
-
-    # decades of storage about a smooth curve
-    assert scatter(ours) < 0.005
-    assert scatter(table) > 0.03
 
 
 # ---- laws from tables --------------------------------------------------------------------------

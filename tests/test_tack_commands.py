@@ -42,17 +42,6 @@ def test_a_test_is_read_and_written_in_every_form(probe, tmp_path, capsys):
     )
 
 
-def test_a_bad_file_is_named_and_the_others_are_read(probe, tmp_path, capsys):
-    bad = tmp_path / "notes.txt"
-    bad.write_text("nothing measured\n")
-    assert exit_status(["test", "read", *probe, bad]) == 0
-    said = capsys.readouterr()
-    assert "1 cycle, 1 refused" in said.out
-    assert f"refused: {bad}: none of the first" in said.err
-    assert exit_status(["test", "read", bad]) == 2
-    assert "no cycle of a tack test could be read" in capsys.readouterr().err
-
-
 def test_compliance_and_signs_are_said_by_flags(probe, capsys):
     plain = ["test", "read", *probe, "--json"]
     depths = []

@@ -40,28 +40,6 @@ def test_a_noiseless_test_reproduces_the_theory():
     assert cycle.dwell_time == pytest.approx(tack_files.DWELL, rel=0.01)
 
 
-FAULTS = {
-    "zero": {"zero": 0.02},
-    "drift": {"drift": 3e-5},
-    "tilt": {"tilt": 4.0},
-    "all": {"zero": -0.01, "drift": -2e-5, "tilt": -6.0},
-}
-
-
-@pytest.mark.parametrize("fault", FAULTS)
-def test_zero_tilt_and_drift_are_taken_off_within_the_uncertainty(fault):
-    true = only(tack_files.made())
-    inside = []
-    for seed in range(8):
-        cycle = only(tack_files.made(noise=5e-5, seed=seed, **FAULTS[fault]))
-        for name in ("pull_off_force", "work_to_pull_off", "preload"):
-            found, value = getattr(cycle, name), getattr(true, name).value
-            inside.append(abs(found.value - value) < 3 * found.uncertainty)
-            # of a flat minimum noise says where it is, and so how far the work goes
-            assert found.value == pytest.approx(value, rel=0.2 if "work" in name else 0.03)
-    assert np.mean(inside) > 0.9
-
-
 def test_a_machine_that_yields_is_taken_off_the_depth():
     true, compliance = only(tack_files.made()), 2e-4
     test = tack_files.made(compliance=compliance)
@@ -198,21 +176,6 @@ def test_single_spikes_are_left_out():
     assert "spikes replaced by the mean of their neighbours: 4" in cycle.source.notes
 
 
-def test_the_depth_begins_at_the_contact_of_a_soft_flank():
-    # Hertz without adhesion rises slowly from a noisy, drifting zero, of which 30 % is free
-    rng = np.random.default_rng(4)
-    for _ in range(5):
-        test, down, deep = tack_files.made(drift=2e-5), 500, tack_files.DEEP
-        way = np.linspace(-deep * 3 / 7, deep, down)
-        hertz = test.force[down] * (np.maximum(way, 0) / deep) ** 1.5
-        force = np.concatenate([hertz, test.force[down:]])
-        force = force + 5e-5 * rng.standard_normal(force.size)
-        drive = np.concatenate([way, test.drive[down:]])
-        cycle = only(replace(test, force=force, drive=drive))
-        found = cycle.preload_depth
-        assert abs(found.value - deep) < 4 * found.uncertainty < 0.4 * deep
-
-
 @pytest.mark.parametrize("jump", [True, False])
 def test_the_smallest_force_is_estimated_without_bias(jump):
     x = np.linspace(-1, 1, 301)
@@ -227,27 +190,6 @@ def test_the_smallest_force_is_estimated_without_bias(jump):
         off = np.array([(one.value - least) / one.uncertainty for one in found])
         assert abs(np.mean([one.value for one in found]) - least) < 0.002
         assert np.max(np.abs(off)) < 4 and 0.5 < np.std(off) < 1.5
-
-
-def with_tail(size, count):
-    """Return a test with a tension that falls linearly to zero after the jump of the force."""
-    test = tack_files.made(noise=0.0)
-    first = int(np.argmin(test.force)) + 1
-    first += int(np.argmax(test.force[first:] > -1e-9))
-    force = test.force.copy()
-    force[first : first + count] = size * test.force.min() * np.linspace(1, 0, count)
-    return test, force
-
-
-@pytest.mark.parametrize(("size", "count"), [(0.15, 80), (0.1, 200), (0.15, 200)])
-def test_a_weak_contact_after_the_pull_off_is_in_the_uncertainty_of_the_zero(size, count):
-    test, force = with_tail(size, count)
-    true = -float(test.force.min())
-    for seed in range(2):
-        noisy = force + 0.014 * true * np.random.default_rng(seed).standard_normal(force.size)
-        (cycle,) = tack.evaluate(tack.TackRecord(test.time, noisy, test.drive, into=1)).cycles
-        found = cycle.pull_off_force
-        assert abs(found.value - true) < 2.5 * found.uncertainty
 
 
 def test_whole_digits_of_a_signal_without_noise_are_in_its_uncertainty():

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-BENCHMARK = Path(__file__).parents[1] / "benchmarks" / "public_tack_files.py"
+BENCHMARK = Path(__file__).parents[1] / "research" / "public_tack_files.py"
 
 
 @pytest.mark.outside

@@ -97,14 +97,11 @@ def test_a_cantilever_that_the_file_names_bends(tmp_path):
 PLAIN = tack_files.plain(WHOLE)
 REFUSED = {
     "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
-    "no unit of length": (PLAIN.replace(b"[um]", b""), "--length-unit"),
     "no time": (PLAIN.replace(b"Time [s]", b"Number"), "--nominal-speed"),
     "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "has the columns of a tack test"),
     "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
-    "no headings": (b"1,2,3\n4,5,6\n", "has the columns of a tack test"),
     "few rows": (b"\r\n".join(PLAIN.split(b"\r\n")[:10]) + b"\r\n", "at least 20 are needed"),
     "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells under"),
-    "a word": (PLAIN.replace(b"-199.5591", b"near"), "line 3: column"),
     "time goes back": (
         b"\r\n".join([PLAIN.split(b"\r\n")[0], *PLAIN.split(b"\r\n")[300:], PLAIN.split(b"\r\n")[9],
                       b""]),
@@ -193,27 +190,13 @@ def test_a_curve_of_afmformats_without_time_needs_the_nominal_speed(tmp_path, mo
         read(tmp_path, content, nominal_speed=1e-5)
 
 
-@pytest.mark.outside
-def test_a_curve_of_afm_workshop_is_read_by_afmformats(tmp_path):
-    pytest.importorskip("afmformats", reason="pip install viscotack[afm]")
-    down, up = slice(0, 500), slice(-500, None)
-    rows = [1e9 * x[part] for part in (down, up) for x in (WHOLE.drive, WHOLE.force)]
-    head = ["Force-Distance Curve", "File Format:\t3", "", "Mode:\tSingle", "Point:\t1", ""]
-    names = [f"{way} {name}(nN)" for way in ("Extend", "Retract") for name in ("Z-Sense", "Force")]
-    content = tack_files.text([name.replace("Sense(nN", "Sense(nm") for name in names], rows, head)
-    (record,) = read(tmp_path, content, nominal_speed=1e-5)
-    assert record.force == pytest.approx(np.r_[WHOLE.force[down], WHOLE.force[up]], rel=1e-6)
-    assert -record.position == pytest.approx(np.r_[WHOLE.drive[down], WHOLE.drive[up]], rel=1e-6)
-    assert record.source.format == "afmformats" and record.into == -1
-
-
 ALL = {
     **{f"{name.replace(' ', '_')}.csv": make(WHOLE) for name, make in tack_files.TEXTS.items()},
     **{name: make(WHOLE) for name, make in tack_files.BINARIES.items()},
 }
 
 
-@pytest.mark.parametrize("tries", [120, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("tries", [60, pytest.param(2000, marks=pytest.mark.slow)])
 def test_every_reader_reads_or_refuses_a_mutated_file(tries, tmp_path):
     rng = np.random.default_rng(11)
     names, answered = list(ALL), 0

