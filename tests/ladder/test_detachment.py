@@ -194,3 +194,12 @@ def test_a_passage_of_a_standard_solid_is_explicit():
     ):
         assert np.exp(found.log_amplification) == pytest.approx(expected, rel=1e-11, abs=0)
         assert curve(times) == pytest.approx(expected, rel=1e-11, abs=0)
+
+
+def test_a_start_of_any_size_has_the_state_that_it_tends_to():
+    law = CrackLaw(theory="persson-brener", material=SOLID, tip_length=TIP)
+    found = detachment.unlimited(1e-3, law, depth=[1e-5, DEPTH], **LENS)
+    assert found.force[1] == pytest.approx(float(at(1e-3).force), rel=1e-12, abs=0)
+    assert found.compliance[0] < found.compliance[1] and found.force[0] > found.force[1]
+    with pytest.raises(ValueError, match="below"):
+        detachment.at_pull_off(1e-3, law, depth=1e-5, **LENS)

@@ -313,3 +313,25 @@ def test_the_elastic_work_goes_from_bradley_to_jkr_and_stays_above_it():
     assert work[0] == pytest.approx(2 * (8 * 2 ** (1 / 3) - 9) / 10.5, rel=1e-4, abs=0)
     assert work[-1] == pytest.approx(jkr_work[-1], rel=1e-5, abs=0)
     assert np.all(work > jkr_work)
+
+
+@given(power, power)
+def test_the_elastic_table_does_not_depend_on_the_units(length, load):
+    L, M = 10**length, 10**load
+    old = dict(radius=2.0, contact_modulus=3.0, work_of_adhesion=5.0, equilibrium_gap=0.7)
+    new = dict(
+        radius=2 * L,
+        contact_modulus=3 * M / L**2,
+        work_of_adhesion=5 * M / L,
+        equilibrium_gap=0.7 * L,
+    )
+    same = dict(rel=1e-9, abs=0)
+    assert lennard_jones.tabor_number(**new) == pytest.approx(
+        lennard_jones.tabor_number(**old), **same
+    )
+    assert lennard_jones.pull_off_force(**new) == pytest.approx(
+        M * lennard_jones.pull_off_force(**old), **same
+    )
+    assert lennard_jones.work_to_pull_off(**new) == pytest.approx(
+        M * L * lennard_jones.work_to_pull_off(**old), **same
+    )

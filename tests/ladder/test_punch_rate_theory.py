@@ -376,3 +376,14 @@ def test_lengths_and_limits_give_the_verified_value(row):
     else:
         found = 2 * np.pi / a0
     assert found == pytest.approx(row["value"], rel=1e-13, abs=0)
+
+
+def test_thin_layer_surface_energy_is_printed_and_exceeds_by_a_third_of_the_thickness():
+    b = 5e-3 * np.array([1e-1, 1e-2, 1e-3])
+    case = dict(half_width=5e-3, ligament=4e-3, contact_modulus=4e6 / 3, base=FREE)
+    thin = curve.thin_layer_surface_energy(3e4, thickness=b, **case)
+    np.testing.assert_allclose(thin, 3e4**2 * b / (2 * 4e6 / 3) * 1.25**2, rtol=1e-14)
+    exact = curve.surface_energy(3e4, thickness=b, **case)
+    excess = thin / exact - 1
+    assert last_slope(b, excess) == pytest.approx(1, abs=2e-3)
+    assert excess[-1] == pytest.approx(2 * 0.177131575829e-3 / 0.8, rel=1e-3, abs=0)

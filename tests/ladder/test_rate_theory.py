@@ -394,3 +394,37 @@ def test_wlf_is_one_at_the_glass_transition_and_ends_at_its_constant():
     )
     with pytest.raises(ValueError, match="has its pole"):
         empirical.wlf_shift(149.0, glass_transition=200.0)
+
+
+def test_the_readings_of_the_rate_agree_where_they_should():
+    mu = 3.24
+    # h0 for this Tabor number
+    h0 = lennard_jones.tabor_number(**LENS, equilibrium_gap=1.0) / mu
+    published = rate.rate_as_published(1e-4 * 0.02 / h0)
+    own = rate.rate_in_contact_heights(1e-4, time_unit=0.02, **LENS)
+    assert own == pytest.approx(published, rel=1e-12, abs=0)
+    height = (np.pi**2 * 0.15**2 * 5e-3 / 2e6**2) ** (1 / 3)
+    printed = rate.rate_in_tip_lengths(1e-4, time_unit=0.02, tip_length=height)
+    assert printed == pytest.approx(own, rel=1e-12, abs=0)
+
+
+@given(power, power, power)
+def test_the_rate_does_not_depend_on_the_units(length, load, time):
+    L, M, T = 10**length, 10**load, 10**time
+    old = dict(radius=2.0, contact_modulus=3.0, work_of_adhesion=5.0)
+    new = dict(radius=2 * L, contact_modulus=3 * M / L**2, work_of_adhesion=5 * M / L)
+    assert rate.rate_in_contact_heights(0.3 * L / T, time_unit=7 * T, **new) == pytest.approx(
+        rate.rate_in_contact_heights(0.3, time_unit=7.0, **old), rel=1e-9, abs=0
+    )
+    assert rate.rate_in_tip_lengths(
+        0.3 * L / T, time_unit=7 * T, tip_length=2 * L
+    ) == pytest.approx(
+        rate.rate_in_tip_lengths(0.3, time_unit=7.0, tip_length=2.0), rel=1e-9, abs=0
+    )
+
+
+def test_gent_schultz_constants_give_the_same_law():
+    c, a, n, v = 30.0, 1e-3, 0.6, 2e-5
+    v0 = empirical.gent_schultz_reference_speed(coefficient=c, shift=a, exponent=n)
+    found = empirical.gent_schultz(v, reference_speed=v0, exponent=n)
+    assert found == pytest.approx(1 + c * (a * v) ** n, rel=1e-13, abs=0)

@@ -23,9 +23,11 @@ from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (
     contact,
+    contact_in_groups,
     curve,
     ends,
     largest_radius,
+    radius_without_adhesion,
     strongest,
 )
 
@@ -128,3 +130,24 @@ def test_the_strongest_contact_is_the_pull_off_or_the_start_itself():
     small = 0.5 * end.contact_radius
     found = strongest(Sphere(5e-3), largest=small, **LENS)
     assert found == pytest.approx((small, jkr.depth(small, **SPHERE), jkr.force(small, **SPHERE)))
+
+
+def test_dimensionless_starts_are_those_of_the_same_test_in_si():
+    h0 = 1e-6
+    mu = (5e-3 * (0.15 / 2e6) ** 2 / h0**3) ** (1 / 3)
+    beta = (5e-3**2 * 0.15 / 2e6) ** (1 / 3)
+    load = 1.5 * np.pi * 5e-3 * 0.15
+    for groups, si in (
+        (AtDepth(20.0), AtDepth(20.0 * h0)),
+        (AtForce(-0.5), AtForce(-0.5 * load)),
+        (AtRadius(2.0), AtRadius(2.0 * np.pi ** (1 / 3) * beta)),
+    ):
+        found, same = contact_in_groups(groups, tabor=mu), contact(si, shape=Sphere(5e-3), **LENS)
+        units = (beta, beta**2 / 5e-3, 5e-3 * 0.15)
+        np.testing.assert_allclose(np.multiply(found, units), same, rtol=1e-12)
+
+
+def test_large_starts_have_the_radius_without_adhesion_at_any_depth():
+    for start in (AtDepth(1e8), AtDepth(1e90), AtDepth(1e250), AtForce(1e8), AtForce(1e250)):
+        found = contact_in_groups(start, tabor=3.0).contact_radius / np.pi ** (1 / 3)
+        assert found == pytest.approx(radius_without_adhesion(start, tabor=3.0), rel=1e-3)
