@@ -1,12 +1,15 @@
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from picture_units import in_si
 from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
 from viscotack.pictures.plot import (
+    axis_unit,
     draw_force,
     draw_radius,
-    draw_rates,
+    log_axis_unit,
+    plain_ticks,
     save_figure,
 )
 
@@ -58,7 +61,12 @@ def test_a_problem_in_si_is_drawn_with_readable_units():
 @pytest.mark.parametrize("speeds", [[1e-9, 1e-7], [1e-6, 1e-3], [1e-6, 1.0], [4e-3, 5e-3]])
 def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
     forces = [5e-6, 2e-2]
-    axes = draw_rates(speeds, forces, elastic_force=3e-6).axes[0]
+    axes = Figure().subplots()
+    (speed, speed_unit), (force, force_unit) = log_axis_unit(speeds, "m/s"), axis_unit(2e-2, "N")
+    axes.semilogx(np.divide(speeds, speed), np.divide(forces, force), label="simulation")
+    plain_ticks(axes.xaxis)
+    axes.set_xlabel(f"speed [{speed_unit}]")
+    axes.set_ylabel(f"force [{force_unit}]")
     assert in_si(axes.xaxis, curve(axes).get_xdata()) == pytest.approx(speeds)
     assert in_si(axes.yaxis, curve(axes).get_ydata()) == pytest.approx(forces)
 

@@ -73,7 +73,6 @@ if TYPE_CHECKING:
     from .pictures.plot import draw_force as draw_force
     from .pictures.plot import draw_overview as draw_overview
     from .pictures.plot import draw_radius as draw_radius
-    from .pictures.plot import draw_rates as draw_rates
     from .pictures.plot import draw_regimes as draw_regimes
     from .pictures.plot import save_figure as save_figure
     from .problem import Groups as Groups
@@ -229,7 +228,6 @@ _NAMES = {
         "draw_force",
         "draw_radius",
         "draw_overview",
-        "draw_rates",
         "draw_regimes",
         "save_figure",
     ),

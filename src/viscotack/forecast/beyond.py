@@ -176,19 +176,19 @@ def slower(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
 
 def _slowed(learned: Surrogate, at_end: Array, ends: _Said, ratio: float) -> _Said:
     """Extrapolate a prediction at the smallest rate to one smaller by a factor."""
-    (said, held), faster = ends, at_end.copy()
+    (said, held), tests, faster = ends, learned.tests(at_end), at_end.copy()
     faster[0, learned.contact.inputs.index("rate")] *= _FASTER
     more = learned.evaluate(faster)
-    excess = 1 - 10 ** float(np.mean(learned.tests(at_end).slow)) / float(said.pull_off_force[0])
+    excess = 1 - 10 ** float(np.mean(tests.slow)) / float(said.pull_off_force[0])
     force = np.log1p(-excess * (1 - ratio))
     rise = np.log(more.pull_off_force[0] / said.pull_off_force[0])
     of_work = np.log(more.work_to_pull_off[0] / said.work_to_pull_off[0])
     work = force * np.clip(of_work / max(rise, 1e-9), 0.0, _MOST_WORK)
     wider = (0.0, _LAGS + _PART * abs(work) / np.log(10))
     said, held = _times(said, held, np.exp([force, work]), wider)
-    least = learned.tests(at_end).least
-    if least is not None:
-        held = replace(held, pull_off_force=np.maximum(held.pull_off_force, 10 ** least[:, None]))
+    if tests.least is not None:
+        least = 10 ** tests.least[:, None]
+        held = replace(held, pull_off_force=np.maximum(held.pull_off_force, least))
     return said, held
 
 

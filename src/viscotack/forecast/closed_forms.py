@@ -45,9 +45,9 @@ _SLOW, _FAST = 0.02, 0.9
 # Retraction in the mean retardation time, in contact heights, up to which the bulk is (nearly)
 # relaxed.
 _RELAXED, _NEARLY = 6.0, 25.0
-# Errors that include nine of ten cases. Their coverage, for 384
-# independent cases: 92 % of 121 (glassy), and at least 90 % of 109 (rate-fit),
-# 263 (detachment) and 101 (unloading) to which each applies.
+# Errors that include nine of ten cases. Their coverage, for 384 independent cases: 92 % of 121
+# (glassy), and at least 90 % of 109 (rate-fit), 263 (detachment) and 101 (unloading) to which each
+# applies.
 _FIT_ERROR = 0.22
 # For `detachment`: Tabor number, start over the radius at pull-off, error.
 _DETACHMENT = ((2.0, 1.5, 0.07), (2.0, 1.2, 0.15), (1.0, 2.0, 0.12))

@@ -118,7 +118,7 @@ def inputs_of_sphere(asked: Question) -> Inputs:
 def power_law_limits(asked: Question) -> str:
     """List the inputs of a power law out of the range of the surrogate, or return ""."""
     out = asked.once(inputs_of_sphere).out
-    further = asked.model is None and out and _further(asked) is not None
+    further = asked.model is None and out and asked.once(_further) is not None
     return "" if further else "; ".join(out)
 
 
@@ -127,7 +127,7 @@ def by_power_laws(asked: Question) -> Prediction:
     learned, inputs = asked.model or _learned(), asked.once(inputs_of_sphere)
     if not inputs.out:
         return within(asked, learned, learned.tests(inputs.rows), SURROGATE, INSIDE)
-    further = _further(asked)
+    further = asked.once(_further)
     assert further is not None, "checked by the limits"
     return further_prediction(asked, further, SURROGATE, "; ".join(inputs.out))
 

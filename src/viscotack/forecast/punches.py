@@ -15,7 +15,7 @@ from viscotack.protocol import AtDepth, AtForce
 from viscotack.traction import LennardJones
 
 from .allow_list import Verified
-from .beyond import slower
+from .beyond import Beyond, slower
 from .learned import INSIDE, further_prediction, within
 from .prediction import Prediction
 from .question import Question
@@ -47,7 +47,7 @@ def punch_limits(asked: Question) -> str:
         row = asked.once(_row)
     except InputError as error:  # no start in the range has this stress
         return str(error)
-    if asked.model is None and slower(learned, row[None], asked.confidence) is not None:
+    if asked.model is None and asked.once(_slower) is not None:
         return ""
     return "; ".join(_out(row, asked.problem, groups, learned))
 
@@ -55,10 +55,15 @@ def punch_limits(asked: Question) -> str:
 def by_punches(asked: Question) -> Prediction:
     """Evaluate the surrogate of punches on a sliding layer, including its slow limit."""
     learned, row = asked.model or _learned(), asked.once(_row)
-    if further := slower(learned, row[None], asked.confidence):
+    if asked.model is None and (further := asked.once(_slower)):
         out = "; ".join(_out(row, asked.problem, asked.groups, learned))
         return further_prediction(asked, further, LEARNED_PUNCH, out)
     return within(asked, learned, learned.tests(row[None]), LEARNED_PUNCH, INSIDE)
+
+
+def _slower(asked: Question) -> Beyond | None:
+    """Return the extrapolation below the smallest rate of the surrogate, or None."""
+    return slower(_learned(), asked.once(_row)[None], asked.confidence)
 
 
 def inputs_of(groups: Groups) -> dict[str, float]:

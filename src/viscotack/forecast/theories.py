@@ -38,10 +38,8 @@ from .two_peaks import two_peaks
 
 _LAWS = (LennardJones, Dugdale, Exponential, Tabulated)
 _RELAXED = (AtDepth, AtForce, AtRadius)
-# Ranges where nine of ten cases are inside the bands of the closed forms
-# ; rate in
-# h0/tau0. Other laws by their effective range and the steepest fall of the tension
-# [strength^2/work].
+# Ranges where nine of ten cases are inside the bands of the closed forms; rate in h0/tau0. Other
+# laws by their effective range and the steepest fall of the tension [strength^2/work].
 CLOSED_FORM = Verified(
     shapes=(Sphere,),
     bodies=(HalfSpace,),

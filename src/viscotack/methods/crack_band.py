@@ -20,8 +20,8 @@ from viscotack.protocol import Approach, Dwell, LoadTo, Retract
 from viscotack.traction import LennardJones, grows
 
 # Contributions to the band: error of the simulations at default accuracy; second-order effect of
-# the range [over effective^2]; influence of the start [over zone lengths]; histories
-# ; and growing interfaces (`tests/ladder/test_growing_crack.py`).
+# the range [over effective^2]; influence of the start [over zone lengths]; histories; and growing
+# interfaces (`tests/ladder/test_growing_crack.py`).
 _GROWING_BAND = 0.02
 _LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.15, 0.012
 # What work, curve and travel to zero force are less certain by than the force, at Tabor numbers of

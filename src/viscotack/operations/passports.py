@@ -31,7 +31,7 @@ _OUTPUT = Output(
     endings=(".toml",),
 )
 # Of input of other programs.
-_CARDS = (".inp", ".txt", ".csv", ".dat", ".mac", ".rad", ".json", ".py")
+_CARDS = (".inp", ".txt", ".csv", ".dat", ".mac")
 
 Temperature = Annotated[
     float | None,

@@ -19,7 +19,7 @@ from viscotack.problem.outputs import Unit
 from viscotack.result import Outcome, Result
 from viscotack.result.cycles import pull_offs
 from viscotack.theory.punch import REGIMES, RegimeMap
-from viscotack.units import prefixed, readable
+from viscotack.units import prefixed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -229,61 +229,6 @@ def draw_energy(result: Result) -> "Figure":
     return figure
 
 
-def draw_rates(
-    speed: npt.ArrayLike,
-    pull_off_force: npt.ArrayLike,
-    *,
-    elastic_force: float,
-    title: str = "",
-    note: str = "",
-) -> "Figure":
-    """Draw the pull-off force against the retraction speed, with the elastic value.
-
-    Parameters
-    ----------
-    speed : array_like, shape (n,)
-        Retraction speeds [m/s].
-    pull_off_force : array_like, shape (n,)
-        Simulated pull-off forces [N].
-    elastic_force : float
-        Pull-off force of the relaxed solid [N], the slow limit, drawn as a line.
-    title, note : str
-        Title of the figure, and a text in its corner.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Examples
-    --------
-    >>> figure = draw_rates([1e-6, 1e-4], [2e-4, 9e-4], elastic_force=1.8e-4)
-    >>> figure.axes[0].get_xlabel()
-    'retraction speed [µm/s]'
-    """
-    speeds, forces = np.asarray(speed, dtype=float), np.asarray(pull_off_force, dtype=float)
-    v, v_unit = log_axis_unit(speeds, "m/s")
-    F, F_unit = axis_unit(float(np.max(forces)), "N")
-    with _style():
-        figure = _figure()
-        axes = figure.subplots()
-        axes.plot(speeds / v, forces / F, "o", mfc="none", color="C0", label="simulation")
-        axes.axhline(
-            elastic_force / F,
-            color="C1",
-            label=f"elastic (slow limit): {readable(elastic_force, 'N', digits=3)}",
-        )
-        axes.set_xscale("log")
-        plain_ticks(axes.xaxis)
-        axes.set_ylim(0, 1.3 * max(forces.max(), elastic_force) / F)
-        axes.set_xlabel(f"retraction speed [{v_unit}]")
-        axes.set_ylabel(f"pull-off force [{F_unit}]")
-        axes.set_title(title)
-        axes.legend(loc="upper left")
-        if note:
-            axes.text(0.03, 0.76, note, transform=axes.transAxes, va="top", size=12)
-    return figure
-
-
 def draw_regimes(found: RegimeMap) -> "Figure":
     """Draw the regime map of a pad: detachment regime over retraction speed and thickness.
 
@@ -367,11 +312,12 @@ def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
     Examples
     --------
     >>> import os, tempfile
-    >>> figure = draw_rates([1e-6, 1e-4], [2e-4, 9e-4], elastic_force=1.8e-4)
+    >>> from matplotlib.figure import Figure
+    >>> figure = Figure()
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     save_figure(figure, os.path.join(folder, "rates.svg"))
+    ...     save_figure(figure, os.path.join(folder, "forces.svg"))
     ...     os.listdir(folder)
-    ['rates.svg']
+    ['forces.svg']
     """
     check_format(path)
     content = io.BytesIO()

@@ -18,6 +18,15 @@ if TYPE_CHECKING:
         | tuple[CreepTest, ...]
     )
 
+Where = Annotated[
+    str | None,
+    Text(
+        "Rows to read, by heading and content of a column.",
+        metavar="COLUMN=VALUE",
+        example="Sample=A",
+    ),
+]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Dma(Part):
@@ -86,14 +95,7 @@ class Dma(Part):
             example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
         ),
     ] = None
-    where: Annotated[
-        str | None,
-        Text(
-            "Rows to read, by heading and content of a column.",
-            metavar="COLUMN=VALUE",
-            example="Sample=A",
-        ),
-    ] = None
+    where: Where = None
     table: Annotated[
         str | None,
         Text("Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"),

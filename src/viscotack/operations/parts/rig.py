@@ -8,6 +8,7 @@ from viscotack.errors import InputError
 
 from ..declare.cards import Choice, File, Number, Place, Switch, Text
 from ..declare.options import Part
+from .dma import Where
 
 if TYPE_CHECKING:
     from viscotack.lab.tack import Survey
@@ -90,14 +91,7 @@ class Rig(Part):
     decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
         None
     )
-    where: Annotated[
-        str | None,
-        Text(
-            "Rows to read, by heading and content of a column.",
-            metavar="COLUMN=VALUE",
-            example="Sample=A",
-        ),
-    ] = None
+    where: Where = None
     nominal_speed: Annotated[
         float | None,
         Number(
