@@ -57,7 +57,7 @@ bench: $(VENV)/.demo
 # The tests of research/, and the thesis's figures and ledger from kept numbers; research/README.md has the rest.
 research: $(VENV)/.installed
 	$(INSTALL) --editable ".[research]"
-	$(BIN)/python -m pytest research tests/test_onnx_export.py -q -m "$(MARK)"
+	$(BIN)/python -m pytest research -q -m "$(MARK)"
 	$(BIN)/python -m research.replication --all
 
 # The release folder out/release of the last commit with its bill of materials (CycloneDX), built twice: fails where
