@@ -89,7 +89,7 @@ class InlineCrew:
         return 2 * self.count + 1 - len(self.waiting)
 
     def hand(self, number, problem):
-        rate = json.loads(problem).get("rate")
+        rate = json.loads(problem)["groups"].get("rate")
         if rate in self.deaths:
             self.deaths.remove(rate)
             self.alone.append(not self.waiting)

@@ -48,10 +48,10 @@ preload_stress = "2 kPa"
 speed = "100 um/s"
 """
 OVER_PAD = {
-    "geometry.half_width": {"log": ["0.1 mm", "10 mm"]},
-    "body.thickness": {"log": ["10 um", 1e-4]},
+    "punch.half_width": {"log": ["0.1 mm", "10 mm"]},
+    "layer.thickness": {"log": ["10 um", 1e-4]},
     "material.poisson_ratio": {"linear": [0.2, 0.49]},
-    "protocol.start.force": {"linear": ["1 kPa", "3 kPa"]},
+    "protocol.preload_stress": {"linear": ["1 kPa", "3 kPa"]},
 }
 
 

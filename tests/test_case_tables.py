@@ -62,7 +62,7 @@ def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):
     assert [bool(row[NUMBERS[0]]) for row in rows] == [True, False, True, False, False, True]
     assert "carried along: lens, note" in said.err
     assert said.out.splitlines()[-1].startswith("5 rows, ") and "2 without answer" in said.out
-    assert "  a, geometry.radius 5 mm, protocol.speed 10 um/s: pull-off force " in said.out
+    assert "  a, sphere.radius 5 mm, protocol.speed 10 um/s: pull-off force " in said.out
 
 
 def test_python_and_files_give_the_same_rows(case, tmp_path, capsys):
@@ -125,7 +125,7 @@ def test_two_headings_of_one_number_are_refused(case):
     problem = vt.read_case(case)
     found = changes_of(problem, ["lens", "RADIUS_mm", "Speed [um/s]"])
     assert found.values({"RADIUS_mm": "2", "Speed [um/s]": 30}) == pytest.approx(
-        {"geometry.radius": 2e-3, "protocol.speed": 3e-5}, rel=1e-12
+        {"sphere.radius": 2e-3, "protocol.speed": 3e-5}, rel=1e-12
     )
     with pytest.raises(vt.InputError, match="radius and sphere.radius state one number"):
         changes_of(problem, ["radius", "sphere.radius"])

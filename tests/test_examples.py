@@ -26,8 +26,8 @@ def test_a_lens_pulls_off_by_its_radius_and_its_work_of_adhesion(tmp_path, capsy
     result = load("what_matters").main(picture, accuracy=5e-3)
     force = result.sensitivities.elasticities["pull_off_force"]
     assert sorted(force, key=lambda name: -force[name])[:2] == [
-        "traction.work_of_adhesion",
-        "geometry.radius",
+        "interface.work_of_adhesion",
+        "sphere.radius",
     ]
     assert picture.stat().st_size > 10_000
     assert "protocol.speed" in capsys.readouterr().out

@@ -88,7 +88,7 @@ NOT_DRAWN = {
     "rough": [{"file": "bumps.toml", "accuracy": 0.02}],
     "design": [{"file": "lift_and_let_go.toml", "confirm": 0}],
     "uncertainty": [
-        {"problem": "lens.toml", "scatter": ["geometry.radius 2 %"], "samples": 16},
+        {"problem": "lens.toml", "scatter": ["sphere.radius 2 %"], "samples": 16},
         {
             "problem": "lens.toml",
             "passport": "pdms-10-1",

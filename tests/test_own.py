@@ -68,7 +68,7 @@ def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
     result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
     assert vt.pull_off_force(result) > 0
     vt.save(result, tmp_path / "run.npz")
-    with pytest.raises(ValueError, match="unknown type 'ColeCole'.*also=.ColeCole,"):
+    with pytest.raises(ValueError, match="'rounded-cone'.*--with FILE.py"):
         vt.load(tmp_path / "run.npz")
     again = vt.load(tmp_path / "run.npz", also=(MORSE, ZENER, SHAPE))
     assert again.problem == problem
@@ -89,7 +89,7 @@ def test_the_command_line_loads_own_parts(case_file, tmp_path):
     )  # fmt: skip
     assert status == 0, err
     answer = json.loads(out)
-    assert answer["problem"]["traction"]["type"] == "Morse"
+    assert answer["problem"]["interface"]["law"] == "morse"
     assert answer["largest_contact_radius_m"] > 0
     status, out, err = call("show", tmp_path / "run.npz")
     assert status == 0 and "largest contact radius" in out, err
@@ -107,15 +107,15 @@ with = [{files}]
 [settings]
 accuracy = 1e-2
 [[grid]]
-traction.steepness = {{linear = [2.0, 3.0], count = 2}}
-geometry.rounding = 20e-6
+interface.steepness = {{linear = [2.0, 3.0], count = 2}}
+rounded-cone.rounding = 20e-6
 """
     )
     done = run(read_plan(plan, own=files_of_own), tmp_path / "study", workers=1)
     assert (done.done, done.failed) == (2, 0)
     rows = Store(tmp_path / "study").results().to_pylist()
     assert all(row["largest_contact_radius_m"] > 0 for row in rows)
-    assert [row["traction.steepness"] for row in rows] == [2.0, 3.0]
+    assert [row["interface.steepness"] for row in rows] == [2.0, 3.0]
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
 
 

@@ -71,7 +71,7 @@ def test_it_is_simulated_saved_and_loaded(problem, result, tmp_path):
     assert abs(force / vt.pull_off_force(stiff) - 1) > 0.02
     path = tmp_path / "run.npz"
     vt.save(result, path)
-    with pytest.raises(vt.InputError, match="unknown type 'Foundation'"):
+    with pytest.raises(vt.InputError, match="'foundation'.*--with FILE.py"):
         vt.load(path)
     again = vt.load(path, also=(FOUNDATION,))
     assert again.problem == problem and vt.pull_off_force(again) == force
@@ -86,7 +86,7 @@ def test_every_door_gives_the_same_answer(tmp_path, monkeypatch):
     question = Question("simulate", given, own=(str(FILE),))
     found = by_python(question)
     assert found.record["pull_off_force"] > 0 and found.record["thickness"] > 0
-    assert found.record["problem"]["body"] == {"type": "Foundation", "thickness": 50e-6}
+    assert found.record["problem"]["foundation"] == {"thickness": 50e-6}
     http = Http(own=(FILE,))
     try:
         assert found == by_command(question) == by_study(question) == by_form(question, http)

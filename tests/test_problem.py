@@ -1,10 +1,11 @@
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from viscotack.errors import InputError
 from viscotack.geometry import Bonded, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import (
     Elastic,
@@ -14,8 +15,8 @@ from viscotack.materials import (
     StandardSolid,
 )
 from viscotack.problem import Groups, Problem, plane, ranges, revolution
-from viscotack.problem.inputs import check_exponent, check_paths, inputs_of, replaced
-from viscotack.problem.record import run_id, to_dict
+from viscotack.problem.inputs import changed, check_exponent, check_paths
+from viscotack.problem.record import run_id
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import LennardJones
 
@@ -104,9 +105,9 @@ def flat(thing):
     if isinstance(thing, dict | list | tuple):
         values = thing.values() if isinstance(thing, dict) else thing
         return [number for value in values for number in flat(value)]
-    if isinstance(thing, str):
+    if thing is None or isinstance(thing, str):
         return []
-    return flat(to_dict(thing)) if hasattr(thing, "__dataclass_fields__") else [thing]
+    return flat(asdict(thing)) if hasattr(thing, "__dataclass_fields__") else [thing]
 
 
 power = st.floats(-6, 6)
@@ -243,43 +244,42 @@ def test_a_range_ends_at_its_ends_within_rounding():
 
 def test_paths_of_numbers_are_checked_with_what_there_is():
     case = lens(geometry=PowerLawProfile(exponent=3.0, coefficient=1e4))
-    check_paths(case, ["material.tau0", "geometry.height", "geometry.at_radius"])
+    check_paths(case, ["material.tau0", "profile.height", "profile.at_radius"])
     for paths, said in (
-        (["geometry.height"], "go together; add geometry.at_radius"),
-        (["geometry.at_radius"], "go together; add geometry.height"),
-        (["geometry.height", "geometry.at_radius", "geometry.coefficient"], "remove one"),
-        (["material.tau"], "no number 'material.tau': at 'tau' there is rubbery_modulus,"),
-        (["material.type"], "material.type is not a number of the problem"),
+        (["profile.height"], "go together; add profile.at_radius"),
+        (["profile.at_radius"], "go together; add profile.height"),
+        (["profile.height", "profile.at_radius", "profile.coefficient"], "remove one"),
+        (["material.tau"], "no number 'material.tau'; it has material.rubbery_modulus,"),
     ):
         with pytest.raises(ValueError, match=said):
             check_paths(case, paths)
-    for paths in (["geometry.exponent", "geometry.height"], ["material.tau0"]):
+    for paths in (["profile.exponent", "profile.height"], ["material.tau0"]):
         check_exponent(case, paths)
     with pytest.raises(ValueError, match="is another shape with every exponent"):
-        check_exponent(case, ["geometry.exponent"])
+        check_exponent(case, ["profile.exponent"])
     series = lens(material=MATERIALS[2])
     check_paths(series, ["material.branches.1.0"])
-    with pytest.raises(ValueError, match="at '2' there is 0, 1$"):
+    with pytest.raises(ValueError, match="no number 'material.branches.2.0'"):
         check_paths(series, ["material.branches.2.0"])
 
 
 def test_a_tip_is_made_by_its_height_at_a_radius_and_reduced_again_in_groups():
     case = lens(geometry=PowerLawProfile(exponent=3.0, coefficient=1e4))
-    tip = {"geometry.height": 1e-5, "geometry.at_radius": 2e-4}
-    found = replaced(to_dict(case), tip, inputs_of(case))["geometry"]
-    assert found["coefficient"] == pytest.approx(1e-5 / 2e-4**3, rel=1e-14)
-    groups = case.groups()
-    found = replaced(to_dict(groups), {"geometry.exponent": 4.0}, inputs_of(groups))["geometry"]
-    assert (found["exponent"], found["coefficient"]) == (4.0, 0.25)
+    tip = {"profile.height": 1e-5, "profile.at_radius": 2e-4}
+    found = changed(case, tip).geometry
+    assert found.coefficient == pytest.approx(1e-5 / 2e-4**3, rel=1e-14)
+    found = changed(case, tip | {"profile.exponent": 2.5}).geometry
+    assert found.coefficient == pytest.approx(1e-5 / 2e-4**2.5, rel=1e-14)
+    found = changed(case.groups(), {"profile.exponent": 4.0}).geometry
+    assert (found.exponent, found.coefficient) == (4.0, 0.25)
 
 
 def test_the_ratio_of_a_bonded_layer_is_that_of_its_material():
     bonded = Layer(1e-3, Bonded(poisson_ratio=0.4))
     case = lens(material=MATERIALS[2], body=bonded)
-    made = replaced(to_dict(case), {"material.poisson_ratio": 0.3}, inputs_of(case))
-    assert made["body"]["base"]["poisson_ratio"] == 0.3
-    own = {"material.poisson_ratio": 0.3, "body.base.poisson_ratio": 0.2}
-    assert replaced(to_dict(case), own, inputs_of(case))["body"]["base"]["poisson_ratio"] == 0.2
+    assert changed(case, {"material.poisson_ratio": 0.3}).body.base.poisson_ratio == 0.3
+    with pytest.raises(InputError, match="the Poisson ratio of its material"):
+        changed(case, {"material.poisson_ratio": 0.3, "layer.poisson_ratio": 0.2})
 
 
 def test_scales_of_a_punch_follow_their_definitions():

@@ -238,7 +238,11 @@ def test_moves_on_the_command_line():
     )  # fmt: skip
     assert done.exit_code == 0, done.output
     record = json.loads(done.stdout)["problem"]
-    assert record["start"] == {"type": "Apart", "gap": 15.0}
-    assert [move["type"] for move in record["moves"]] == ["Approach", "Dwell"]
-    assert record["stiffness"] == 5.0
-    assert record["traction"]["decay"] == 0.4
+    assert record["groups"] == {
+        "tabor": 1.0,
+        "apart": 15.0,
+        "moves": ["approach 10.0 to depth 2.0", "hold drive 1.0"],
+        "rate": 1.0,
+        "stiffness": 5.0,
+    }
+    assert record["interface"] == {"law": "exponential", "decay": 0.4}

@@ -56,7 +56,7 @@ def test_inputs_have_the_paths_of_campaigns():
 def test_inputs_of_a_user_defined_law_can_change():
     (morse,) = own_nouns([Path(__file__).parents[1] / "examples" / "own" / "morse.py"])
     law = morse(**{name: 1.0 for name in cards(morse)})
-    assert any(name.startswith("traction.") for name in changed_inputs(replace(PULL, traction=law)))
+    assert any(name.startswith("interface.") for name in changed_inputs(replace(PULL, traction=law)))
 
 
 def test_an_input_is_changed_to_both_sides_within_its_range():
@@ -76,14 +76,14 @@ def test_only_the_product_of_rate_and_times_matters(pulled, output):
     assert sum(by[name] for name in times) == pytest.approx(by["rate"], abs=error)
 
 
-@pytest.mark.parametrize("name", ["tabor", "material.branches.0.0", "rate", "start.depth"])
+@pytest.mark.parametrize("name", ["tabor", "material.branches.0.0", "rate", "preload"])
 def test_elasticities_are_slopes_through_finer_simulations(pulled, name):
     steps = np.array([-0.03, -0.015, 0.015, 0.03])
     value = vt.campaign.inputs_of(PULL)[name].value
     outputs = []
     for step in steps:
         other = value * np.exp(step)
-        if name == "start.depth":
+        if name == "preload":
             case = replace(PULL, start=vt.AtDepth(other))
         elif name == "material.branches.0.0":
             arms = [(other, 0.03), (5.0, 1.0)]
@@ -119,10 +119,10 @@ def test_in_si_units_of_stress_length_and_time_do_not_matter():
     by, off = case.elasticities[FORCE], sum(case.errors[FORCE].values())
     assert off < 0.02
     stresses = by["material.rubbery_modulus"] + by["material.glassy_modulus"]
-    work, load = by["traction.work_of_adhesion"], by["protocol.start.force"]
+    work, load = by["interface.work_of_adhesion"], by["protocol.preload_force"]
     # of force = stress times length squared, work of adhesion = stress times length
     assert stresses + work + load == pytest.approx(1.0, abs=off)
-    lengths = by["traction.equilibrium_gap"] + by["geometry.radius"] + by["protocol.speed"]
+    lengths = by["interface.equilibrium_gap"] + by["sphere.radius"] + by["protocol.speed"]
     assert lengths + work + 2 * load == pytest.approx(2.0, abs=off)
     assert by["protocol.speed"] == pytest.approx(by["material.tau0"], abs=off)
 
@@ -137,8 +137,8 @@ def test_the_force_of_an_elastic_contact_is_that_of_jkr():
         protocol=vt.Retraction(start=vt.AtForce(1e-4), speed=3e-5),
     )
     jkr = {
-        "geometry.radius": 1.0,
-        "traction.work_of_adhesion": 1.0,
+        "sphere.radius": 1.0,
+        "interface.work_of_adhesion": 1.0,
         "material.rubbery_modulus": 0.0,
     }
     by = found(soft, jkr, accuracy=3e-3).elasticities[FORCE]
@@ -195,9 +195,9 @@ def test_an_elasticity_below_the_numerical_error_is_refused():
 def test_growing_interfaces_and_punches_have_elasticities():
     growing = Eyring.of(vt.LennardJones(1.0, 1.0), reference_speed=1.0, sensitivity=0.1)
     aged = replace(PULL, traction=growing)
-    by = found(aged, ["traction.sensitivity", "traction.reference_speed", "rate"], accuracy=5e-3)
+    by = found(aged, ["interface.sensitivity", "interface.reference_speed", "rate"], accuracy=5e-3)
     by = by.elasticities[FORCE]
-    assert by["traction.sensitivity"] > 0 > by["traction.reference_speed"]
+    assert by["interface.sensitivity"] > 0 > by["interface.reference_speed"]
     punch = vt.Groups(
         tabor=None,
         cohesion=0.05,

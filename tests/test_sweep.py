@@ -12,9 +12,9 @@ from viscotack.operations import ask
 from viscotack.problem.case_file import read_case
 
 ROWS = [
-    {"geometry.radius": 1e-3, "protocol.speed": 1e-5},
-    {"geometry.radius": 2e-3, "protocol.speed": 1e-5},
-    {"geometry.radius": 1e-3, "protocol.speed": -1.0},
+    {"sphere.radius": 1e-3, "protocol.speed": 1e-5},
+    {"sphere.radius": 2e-3, "protocol.speed": 1e-5},
+    {"sphere.radius": 1e-3, "protocol.speed": -1.0},
 ]
 REDUCED = Groups(
     tabor=1.0,
@@ -66,7 +66,7 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
     assert bad["outputs"] is None and "speed" in bad["reason"]
     with (tmp_path / "rows.csv").open(newline="") as stream:
         written = list(csv.DictReader(stream))
-    assert [float(row["geometry.radius"]) for row in written] == [1e-3, 2e-3, 1e-3]
+    assert [float(row["sphere.radius"]) for row in written] == [1e-3, 2e-3, 1e-3]
     assert [row["pull_off_force_N"] for row in written] == [*map(str, forces), ""]
 
 
@@ -76,7 +76,7 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
         ([], "cases"),
         ([{"rate": 1.0}, {"tabor": 1.0}], "the same numbers"),
         ([{"rate": 1.0, "material.speed": 1.0}], "material.speed"),
-        ([{"Rate": 1.0, "Start.depth [h0]": 1.0}], "unit"),
+        ([{"Rate": 1.0, "Preload [h0]": 1.0}], "unit"),
     ],
 )
 def test_cases_that_say_nothing_are_refused(cases, words):
@@ -119,7 +119,7 @@ def test_a_workbook_has_units_in_headings_or_cells_names_and_empty_rows(case, qu
     plain.write_text(
         "Lens;Radius [mm];speed_um_per_s;Preload depth\na;1,0;10;1 um\n;;;\nb;2000;20;500 nm\n"
     )
-    given = ["geometry.radius", "protocol.speed", "protocol.start.depth"]
+    given = ["sphere.radius", "protocol.speed", "protocol.preload_depth"]
     expected = [dict(zip(given, (1e-3, 1e-5, 1e-6), strict=True)), None]
     expected += [dict(zip(given, (2.0, 2e-5, 5e-7), strict=True))]
     for table in (plain, tmp_path / "cases.xlsx"):

@@ -15,7 +15,7 @@ from viscotack.forecast.uncertainty import TIER
 
 LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
 CASE = vt.read_case(LENS)
-RADIUS, WORK, SPEED = "geometry.radius", "traction.work_of_adhesion", "protocol.speed"
+RADIUS, WORK, SPEED = "sphere.radius", "interface.work_of_adhesion", "protocol.speed"
 
 
 @pytest.fixture(scope="module")

@@ -153,16 +153,24 @@ class Quantity:
         """Whether the card has a lower or an upper bound."""
         return not (self.above is None and self.least is None and self.most is None)
 
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        """Read a number of a table: text with its unit, or where the reader says so a number."""
+        from pydantic_core import core_schema
+
+        return core_schema.with_info_plain_validator_function(
+            lambda value, info: info.context.number(self, value)
+        )
+
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """Add unit, description and range of the card to the JSON schema of the number."""
-        schema = handler(core)
-        schema |= {"description": self.words, "unit": self.unit, "symbol": self.symbol}
+        """Return the JSON schema of the number: unit, description and range."""
         bounds = {
             "exclusiveMinimum": self.above,
             "minimum": self.least,
             "maximum": self.most,
         }
-        schema |= {name: bound for name, bound in bounds.items() if bound is not None}
+        number = {"type": "number"} | {k: x for k, x in bounds.items() if x is not None}
+        schema = number if self.unit == "1" else {"anyOf": [number, {"type": "string"}]}
+        schema |= {"description": self.words, "unit": self.unit, "symbol": self.symbol}
         return schema | ({"examples": [self.example]} if self.example else {})
 
 
@@ -183,9 +191,21 @@ class Pairs:
     words: str
     example: str = ""
 
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        """Read the pairs of a table."""
+        from pydantic_core import core_schema
+
+        return core_schema.with_info_plain_validator_function(
+            lambda value, info: info.context.pairs(self, value)
+        )
+
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """Add units and description of the card to the JSON schema of the list."""
-        return handler(core) | {
+        """Return the JSON schema of the list: units and description."""
+        number = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+        pair = {"type": "array", "items": number, "minItems": 2, "maxItems": 2}
+        return {
+            "type": "array",
+            "items": pair,
             "description": self.words,
             "units": list(self.units),
             "symbol": self.symbol,

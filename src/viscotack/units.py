@@ -21,6 +21,9 @@ _UNIT_MARKS = re.compile(r"[A-Za-zµμ°Ω%0-9 .·⋅*/^()⁻¹²³-]*")
 # Powers of numbers are rejected because 9^9^9^9 would never finish; so are very long units.
 _POWER_OF_NUMBER = re.compile(r"[\d¹²³]\s*(\^|\*\*|⁻)|\d\s*[¹²³]")
 _LONGEST = 60
+# Units of the field with their prefixes, read without the unit library: mN, um/s, mJ/m^2.
+_PLAIN = re.compile(r"([GMkmunpµμ]?)(Pa|Hz|[msNJ])(?:/([GMkmunpµμ]?)([msN])(?:\^?([2]))?)?")
+_POWERS = {"G": 9, "M": 6, "k": 3, "": 0, "m": -3, "u": -6, "µ": -6, "μ": -6, "n": -9, "p": -12}
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ])\^?(-?\d+)")
 
 # Largest first; "u" is what keyboards have for micro.
@@ -109,11 +112,25 @@ def parse(value: str | float, unit: str) -> float:
     number, words = float(match[1]), match[2]
     if words == "" and unit != "1":
         raise InputError(f"{value!r} has no unit; write it behind the number, as in '1 {unit}'")
-    if words != "":
-        number = _converted(value, number, words, unit)
+    if words not in ("", unit):
+        power = _power_of_ten(words, unit)
+        if power is None:
+            number = _converted(value, number, words, unit)
+        else:
+            digits, _, exponent = match[1].lower().partition("e")
+            number = float(f"{digits}e{int(exponent or 0) + power}")
     if unit == "K" and number < 0:
         raise InputError(f"{value!r} lies below absolute zero")
     return finite(repr(value), number, unit)
+
+
+def _power_of_ten(words: str, unit: str) -> int | None:
+    """Return the power of ten between two units that differ in their prefixes; None for others."""
+    found, wanted = _PLAIN.fullmatch(words), _PLAIN.fullmatch(unit)
+    if not found or not wanted or found.group(2, 4, 5) != wanted.group(2, 4, 5):
+        return None
+    above, below = (_POWERS[found[at] or ""] - _POWERS[wanted[at] or ""] for at in (1, 3))
+    return above - below * int(found[5] or 1)
 
 
 # cached because the page parses the same text at every move of a slider, 1 ms each time

@@ -7,6 +7,7 @@ trajectory, about a thousandth of the size of a result.
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any, cast
 
@@ -159,7 +160,7 @@ def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
     began = perf_counter()
     row, failure, reason = None, "", ""
     try:
-        row = work(from_dict(json.loads(problem), settings.nouns()), settings)
+        row = work(from_dict(json.loads(problem), settings.nouns(), beside=Path), settings)
     except MemoryError as error:
         failure, reason = "memory limit", f"the machine has no more memory: {error}"
     except Unsolved as error:

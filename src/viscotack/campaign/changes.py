@@ -1,7 +1,7 @@
 """Tables of changes: each row replaces numbers of one problem; other columns are carried along.
 
 A column is named by a key of the problem file (``radius``, ``sphere.radius``) or by the path of the
-number in the record (``geometry.radius``), with its unit in the heading (``radius [mm]``,
+number (``sphere.radius``), with its unit in the heading (``radius [mm]``,
 ``radius_mm``) or in the cells (``5.19 mm``).
 """
 
@@ -26,10 +26,6 @@ from .columns import INPUTS, Kind, kind_of_problem
 from .listed import plain_heading
 
 _IN_BRACKETS = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]+?)\s*[\])]")
-# Paths of the start and their keys in problem files, and in tables without dimensions.
-_START_KEYS = {f"protocol.start.{by}": f"preload_{by}" for by in ("depth", "force", "radius")}
-_START_KEYS |= {f"start.{by}": f"preload_{by}" for by in ("force", "radius")}
-_START_KEYS |= {"start.depth": "preload"}
 # Keys of problem files that no table of changes may vary, beside the numbers of all classes.
 _WORDS = (
     "base cycles history law model moves passport preload_depth preload_force preload_radius "
@@ -177,7 +173,7 @@ def changes_of(problem: Any, headings: Iterable[str]) -> Changes:
     ... )
     >>> found = changes_of(lens, ["sample", "Radius [mm]", "speed"])
     >>> found.values({"sample": "a", "Radius [mm]": "2", "speed": "30 um/s"})
-    {'geometry.radius': 0.002, 'protocol.speed': 3e-05}
+    {'sphere.radius': 0.002, 'protocol.speed': 3e-05}
     >>> found.carried
     ('sample',)
     """
@@ -227,17 +223,9 @@ def _column(heading: str, number: Input, unit: str, *, in_si: bool) -> Column:
 
 def _names(problem: Any) -> dict[str, set[str]]:
     """Return the names of the numbers of a problem, in plain spelling -> paths."""
-    parts = ("geometry", "body")
-    tables = {part: getattr(getattr(problem, part, None), "word", part) for part in parts}
-    tables |= {"material": "material", "traction": "interface", "protocol": "protocol"}
     found: dict[str, set[str]] = {}
-    for path, number in inputs_of(problem).items():
-        first, _, rest = path.partition(".")
-        key = _START_KEYS.get(path, rest)
-        key = "preload_stress" if (key, number.unit) == ("preload_force", "Pa") else key
-        names = [path, key] if rest else [path]
-        names += [f"{tables[first]}.{key}"] if first in tables and rest else []
-        for name in names:
+    for path in inputs_of(problem):
+        for name in {path, path.partition(".")[2] or path}:
             found.setdefault(plain_heading(name), set()).add(path)
     return found
 

@@ -18,8 +18,7 @@ from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
 from viscotack.methods import has_start
 from viscotack.problem import Groups, Problem, RoughCase, plane, revolution
-from viscotack.problem.inputs import Input, check_paths, inputs_of, made
-from viscotack.problem.record import to_dict
+from viscotack.problem.inputs import Input, changed, check_paths, inputs_of
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.units import positive
 
@@ -220,7 +219,7 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
     base : Problem, Groups or RoughCase
         The problem that the other numbers come from.
     names : set of str
-        Paths of the numbers in ``to_dict(base)``, such as ``protocol.speed``; in SI.
+        Paths of the numbers in the file, such as ``protocol.speed``; in SI.
     also : iterable of classes
         The user's own that the problem is made of.
 
@@ -231,7 +230,7 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
     ... )
     >>> base = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
-    >>> kind_of_problem(base, {"start.depth"}).problem({"start.depth": 20.0}).start
+    >>> kind_of_problem(base, {"preload"}).problem({"preload": 20.0}).start
     AtDepth(depth=20.0)
     """
     check_paths(base, names)
@@ -239,7 +238,7 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
     return Kind(
         name="problem",
         columns=tuple(sorted(names)),
-        problem=partial(made, to_dict(base), known, tuple(also)),
+        problem=partial(changed, base),
         inputs=known,
         in_si=isinstance(base, Problem | RoughCase),
     )

@@ -12,7 +12,6 @@ from viscotack.errors import InputError
 from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml, read_toml
 from viscotack.problem.case_file import read_case
-from viscotack.problem.case_table import refuse_maps
 from viscotack.problem.inputs import check_exponent
 from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
@@ -143,7 +142,6 @@ def _from_csv(path: Path, source: str) -> _Read:
 
 def _from_toml(path: Path, source: str) -> _Read:
     tables = parse_toml(source, path)
-    refuse_maps(f"{path}", tables)
     unknown = tables.keys() - set(_KEYS)
     if unknown:
         raise InputError(
@@ -172,7 +170,7 @@ def space_filling(
     problem : Problem or Groups
         Shape, body, solid, law and history that all cases have; the numbers that are not varied.
     over : mapping
-        Ranges by the paths of numbers, as in a file: ``{"geometry.radius": {"log": ["1 mm", "1
+        Ranges by the paths of numbers, as in a file: ``{"sphere.radius": {"log": ["1 mm", "1
         cm"]}}``; `inputs_of` returns the paths. Text with units where the problem is in SI.
     cases, method, seed
         As in a ``[[fill]]`` of a file.
@@ -202,7 +200,7 @@ def space_filling(
     >>> plan = space_filling(
     ...     base,
     ...     {
-    ...         "geometry.slope": {"log": [0.05, 0.2]},
+    ...         "cone.slope": {"log": [0.05, 0.2]},
     ...         "protocol.moves.0.duration": {"log": ["1 s", "1 h"]},
     ...     },
     ...     cases=8,
@@ -244,7 +242,7 @@ def every_combination(
     >>> from viscotack import AtDepth, Elastic, Groups
     >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
     >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
-    >>> len(every_combination(base, {"tabor": [1, 2], "start.depth": [1, 2, 3]}).cases)
+    >>> len(every_combination(base, {"tabor": [1, 2], "preload": [1, 2, 3]}).cases)
     6
     """
     return _of_problem(problem, "grid", dict(over), settings)
@@ -264,7 +262,7 @@ def _of_problem(
 def _check_own(problem: Any, settings: CaseSettings) -> None:
     """Refuse a problem of user-defined classes without the files that define them."""
     try:
-        from_dict(to_dict(problem), settings.nouns())
+        from_dict(to_dict(problem), settings.nouns(), beside=Path)
     except InputError as error:
         parts = (type(part) for part in vars(problem).values())
         own = [
@@ -309,7 +307,7 @@ def restored_kind(
 ) -> Kind:
     """Return the kind of a stored plan, whose problem uses these user-defined classes."""
     if base is not None:
-        return kind_of_problem(from_dict(base, also), set(columns), also)
+        return kind_of_problem(from_dict(base, also, beside=Path), set(columns), also)
     if name not in KINDS:
         raise InputError(f"unknown kind of case {name!r}; a newer version may know it")
     return KINDS[name]

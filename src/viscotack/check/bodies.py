@@ -57,7 +57,7 @@ def check_body(body: Any, *, size: float = 1e-4, thorough: bool = True) -> Repor
     >>> check_body(HalfSpace(), thorough=False).passed
     True
     """
-    checks = (_symmetries, _compliance, _units, _theory, _transfer, _record, _case_file, _tiers)
+    checks = (_symmetries, _compliance, _units, _theory, _transfer, _case_file, _tiers)
     more = (_campaign, _contact) if thorough else ()
     return report(body, checks + more, size, room="bodies")
 
@@ -139,11 +139,6 @@ def _transfer(body: Any, size: float) -> Iterator[Finding]:
     yield rises("transfer rises with the thickness where the layer is thin", kappa[t < 0.5])
 
 
-def _record(body: Any, size: float) -> Iterator[Finding]:
-    """Check the round trip through a record."""
-    return round_trips.through_record(body)
-
-
 def _tables(body: Any, size: float) -> dict[str, Any]:
     numbers = round_trips.numbers_of(body)
     material: dict[str, Any] = {"model": "elastic", "rubbery_modulus": "1 MPa"}
@@ -158,7 +153,7 @@ def _tables(body: Any, size: float) -> dict[str, Any]:
 
 def _case_file(body: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    yield round_trips.through_case_file(body, "body", _tables(body, size))
+    yield from round_trips.through_case_file(body, "body", _tables(body, size))
 
 
 def _tiers(body: Any, size: float) -> Iterator[Finding]:

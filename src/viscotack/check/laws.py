@@ -58,7 +58,6 @@ def check_law(law: Any, *, thorough: bool = True) -> Report:
         _far,
         _peak,
         _units,
-        round_trips.through_record,
         _case_file,
         _flag,
     )
@@ -173,7 +172,7 @@ def _tables(law: Any) -> dict[str, Any]:
 def _case_file(law: Any) -> Iterator[Finding]:
     """Check the round trip through a case file."""
     if not isinstance(at_rest(law), Tabulated):  # a table of points is a file of its own
-        yield round_trips.through_case_file(law, "traction", _tables(law))
+        yield from round_trips.through_case_file(law, "traction", _tables(law))
 
 
 def _campaign(law: Any) -> Iterator[Finding]:

@@ -61,7 +61,7 @@ def check_material(material: Any, *, thorough: bool = True) -> Report:
     """
     checks = (
         _constants, _limits, _elastic_limit, _shapes_of_answers, _in_time, _in_frequency, _modes,
-        _finest_modes, _transforms, _reduced, _units, round_trips.through_record, _case_file,
+        _finest_modes, _transforms, _reduced, _units, _case_file,
         _flags, _campaign, _passport,
     )  # fmt: skip
     checks += (_contacts, _theories) if thorough else ()
@@ -221,7 +221,7 @@ def _tables(m: Any) -> dict[str, Any]:
 
 def _case_file(m: Any) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    yield round_trips.through_case_file(m, "material", _tables(m))
+    yield from round_trips.through_case_file(m, "material", _tables(m))
 
 
 def _campaign(m: Any) -> Iterator[Finding]:

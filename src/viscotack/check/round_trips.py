@@ -34,17 +34,9 @@ _TABLES: Mapping[str, Mapping[str, Any]] = {
 
 def classes_of(noun: Any) -> tuple[type, ...]:
     """Return the class of a noun for ``also=`` if it is user-defined, else ()."""
-    kind = type(noun)
-    return () if known().types.get(kind.__name__) is kind else (kind,)
-
-
-def through_record(noun: Any) -> Iterator[Finding]:
-    """Check that a noun is unchanged after conversion to a dictionary and back."""
-    text = json.dumps(to_dict(noun))
-    back = from_dict(json.loads(text), also=classes_of(noun))
-    yield holds(
-        "record: from_dict(to_dict(noun)) is the noun", back == noun, repr(noun), repr(back)
-    )
+    kind, nouns = type(noun), known()
+    families = (nouns.laws, nouns.materials, nouns.shapes, nouns.bodies)
+    return () if any(kind in family.values() for family in families) else (kind,)
 
 
 def numbers_of(noun: Any) -> dict[str, Any]:
@@ -72,15 +64,22 @@ def case_text(**tables: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def through_case_file(noun: Any, part: str, tables: Mapping[str, Mapping[str, Any]]) -> Finding:
-    """Write a noun to a case file, read it back and compare."""
+def through_case_file(
+    noun: Any, part: str, tables: Mapping[str, Mapping[str, Any]]
+) -> Iterator[Finding]:
+    """Write a noun to a case file and its problem to JSON, read them back and compare."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "case.toml"
         write_whole(path, case_text(**tables).encode())
-        back = getattr(read_case(path, also=classes_of(noun)), part)
+        problem = read_case(path, also=classes_of(noun))
+    back = getattr(problem, part)
     # a power-law profile is given by a height, which rounds its coefficient
     name = "case file: reading returns the noun"
-    return holds(name, back == noun or _near(back, noun), repr(noun), repr(back))
+    yield holds(name, back == noun or _near(back, noun), repr(noun), repr(back))
+    again = from_dict(json.loads(json.dumps(to_dict(problem))), also=classes_of(noun))
+    yield holds(
+        "JSON: from_dict(to_dict(problem)) is the problem", again == problem, problem, again
+    )
 
 
 def _near(one: Any, other: Any) -> bool:

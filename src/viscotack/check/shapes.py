@@ -41,7 +41,7 @@ def check_shape(shape: Any, *, size: float = 1e-4, thorough: bool = True) -> Rep
     >>> check_shape(Sphere(1e-3), thorough=False).passed
     True
     """
-    checks = (_profile, _units, _theory, _record, _case_file)
+    checks = (_profile, _units, _theory, _case_file)
     more = (_campaign, _contact) if thorough else ()
     return report(shape, checks + more, size, room="shapes")
 
@@ -106,11 +106,6 @@ def _theory(shape: Any, size: float) -> Iterator[Finding]:
     )
 
 
-def _record(shape: Any, size: float) -> Iterator[Finding]:
-    """Check the round trip through a record."""
-    return round_trips.through_record(shape)
-
-
 def _tables(shape: Any, size: float) -> dict[str, Any]:
     numbers = round_trips.numbers_of(shape)
     if isinstance(shape, PowerLawProfile):
@@ -125,7 +120,7 @@ def _tables(shape: Any, size: float) -> dict[str, Any]:
 
 def _case_file(shape: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a case file."""
-    yield round_trips.through_case_file(shape, "geometry", _tables(shape, size))
+    yield from round_trips.through_case_file(shape, "geometry", _tables(shape, size))
 
 
 def _campaign(shape: Any, size: float) -> Iterator[Finding]:

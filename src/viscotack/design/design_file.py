@@ -8,21 +8,21 @@ speeds and temperatures at which all targets count, and [scatter] tolerances wit
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
 
+from viscotack.cards import Quantity
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
-from viscotack.geometry import Bonded, Frictionless
+from viscotack.geometry import Bonded
 from viscotack.materials import Material
-from viscotack.materials.library import MATERIALS, passport_of
 from viscotack.materials.passport import Passport
 from viscotack.problem.case_file import case_of_tables, passport_of_tables
-from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
-from viscotack.units import parse
+from viscotack.problem.nouns import known
+from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
 
 from .space import (
-    EXPONENT,
     HOLD_SPEED,
     INTERFACE,
     PADS,
@@ -35,32 +35,52 @@ from .space import (
 )
 
 _TABLES = ("targets", "bounds", "conditions", "scatter", "material", "materials", "interface")
-_TARGETS = {
-    "hold": ("N", '"5 mN"'),
-    "release": ("N", '"1 mN"'),
-    "ratio": ("1", "4"),
-    "work": ("J", '"20 nJ"'),
-    "dead_load": ("N", '"2 mN"'),
-    "preload": ("N", '"10 mN"'),
-    "holding_time": ("s", '"60 s"'),
-}
-_EXAMPLES = {
-    "radius": '"1 mm..10 mm"',
-    "preload": '"1 mN..20 mN"',
-    "pads": '"1..12"',
-    "hold_speed": '"100 um/s..10 mm/s"',
-    "release_speed": '"0.1 um/s..10 um/s"',
-    "modulus": '"0.5 MPa..5 MPa"',
-    "thickness": '"100 um..2 mm"',
-    "exponent": '"2..4"',
-    "backing": '"100 N/m..10 kN/m"',
-    "temperature": '"10 degC..30 degC"',
-}
-_NEEDED = ("radius", "preload")
 # Names of what is not computed.
 _ALONG = ("shear", "peel", "tilt")
 _TO = ".."
 _MOST_MATERIALS = 10
+
+
+def _bounds(value: Any, reading: Reading, unit: str, example: str) -> Bounds:
+    """Return the bounds of a variable: a quantity, or a range "1 mm..10 mm"."""
+    ends = value.split(_TO, 1) if isinstance(value, str) else [value]
+    pure = "1" if unit == "1" else unit
+    numbers = (reading.parsed(x.strip() if isinstance(x, str) else x, pure, example) for x in ends)
+    return Bounds(*numbers)
+
+
+def _of(unit: str, example: str) -> Read:
+    return Read(partial(_bounds, unit=unit, example=example))
+
+
+@dataclass(frozen=True)
+class _BoundsTable:
+    """The table [bounds]: the variables of a design, and what limits the pads."""
+
+    radius: Annotated[Bounds, _of("m", "1 mm..10 mm")]
+    preload: Annotated[Bounds, _of("N", "1 mN..20 mN")]
+    pads: Annotated[Bounds | None, _of("1", "1..12")] = None
+    hold_speed: Annotated[Bounds | None, _of("m/s", "100 um/s..10 mm/s")] = None
+    release_speed: Annotated[Bounds | None, _of("m/s", "0.1 um/s..10 um/s")] = None
+    modulus: Annotated[Bounds | None, _of("Pa", "0.5 MPa..5 MPa")] = None
+    thickness: Annotated[Bounds | None, _of("m", "100 um..2 mm")] = None
+    exponent: Annotated[Bounds | None, _of("1", "2..4")] = None
+    backing: Annotated[Bounds | None, _of("N/m", "100 N/m..10 kN/m")] = None
+    area: (
+        Annotated[float, Quantity("m^2", "A", "largest area", above=0, example="4 cm^2")] | None
+    ) = None
+    base: Literal["frictionless", "bonded"] | None = None
+
+
+@dataclass(frozen=True)
+class _ConditionsTable:
+    """The table [conditions]: speeds and temperatures at which all targets count."""
+
+    hold_speed: Annotated[Bounds | None, _of("m/s", "100 um/s..10 mm/s")] = None
+    release_speed: Annotated[Bounds | None, _of("m/s", "0.1 um/s..10 um/s")] = None
+    temperature: Annotated[Bounds | None, _of("K", "10 degC..30 degC")] = None
+
+
 # Indenter and test used in place of those of a design while material and interface are read.
 _POSED = {
     "sphere": {"radius": "1 m"},
@@ -120,94 +140,77 @@ def read_design(
     """
     path = Path(path)
     tables = read_toml(path)
-    refuse_named(path, tables, _ALONG, "pads are pulled along their axis from a rigid plate")
+    refuse_named(f"{path}", tables, _ALONG, "pads are pulled along their axis from a rigid plate")
     refuse_unknown(f"{path}", tables, _TABLES, "table")
-    beside = beside or path.parent.joinpath
+    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
+    materials = _materials(path, tables)
     problems = {
         name: case_of_tables(
-            {"material": table, "interface": tables.get("interface", {}), **_POSED},
+            {"material": table, "interface": tables.get("interface"), **_POSED},
             where=f"{path}, material {name!r}",
             also=also,
-            beside=beside,
+            beside=reading.beside,
         )
-        for name, table in _materials(path, tables).items()
+        for name, table in materials.items()
     }
     passports = {
-        name: passport_of_tables({"material": table}, where=path, also=also, beside=beside)[0]
-        for name, table in _materials(path, tables).items()
+        name: passport_of_tables({"material": each}, where=path, also=also, beside=reading.beside)[
+            0
+        ]
+        for name, each in materials.items()
     }
-    first = next(iter(problems.values()))
-    given = Table(path, "conditions", tables) if "conditions" in tables else None
-    windows = {} if given is None else _windows(given)
+    given = read_as(_ConditionsTable, tables.get("conditions", {}), reading, "conditions")
+    speeds = {HOLD_SPEED: given.hold_speed, RELEASE_SPEED: given.release_speed}
+    windows = {name: each for name, each in speeds.items() if each is not None}
     shifts: dict[str, tuple[float, float]] = {}
-    if given is not None and "temperature" in given.values:
-        ends = _bounds(given, "temperature", "K")
+    if given.temperature is not None:
         shifts = {
-            name: _shifts(table, name, ends, path, also, beside)
-            for name, table in _materials(path, tables).items()
+            name: _shifts(passports[name], name, given.temperature, path) for name in materials
         }
-    if given is not None:
-        given.finish()
-    deviations, share = _scatter(path, tables)
+    deviations, share = _scatter(tables, reading)
     window = {f"{name.removesuffix('_speed')}_window": x.top / x.low for name, x in windows.items()}
+    try:
+        conditions = Conditions(**window, shifts=shifts, deviations=deviations, share=share)
+    except InputError as error:
+        raise InputError(f"{path}, [scatter] {error}") from None
     return DesignFile(
         {name: each.material for name, each in problems.items()},
-        first.traction,
-        _space(Table(path, "bounds", tables), windows),
-        _targets(Table(path, "targets", tables)),
-        Conditions(**window, shifts=shifts, deviations=deviations, share=share),
+        next(iter(problems.values())).traction,
+        _space(tables, windows, reading),
+        read_as(Targets, tables.get("targets"), reading, "targets"),
+        conditions,
         {name: each for name, each in passports.items() if each is not None},
     )
 
 
-def _windows(table: Table) -> dict[str, Bounds]:
-    """Return the speeds at which targets must be met, all of them."""
-    names = [name for name in (HOLD_SPEED, RELEASE_SPEED) if name in table.values]
-    table.known |= {HOLD_SPEED, RELEASE_SPEED, "temperature"}
-    return {name: _bounds(table, name) for name in names}
-
-
-def _shifts(
-    material: Any,
-    name: str,
-    ends: Bounds,
-    path: Path,
-    also: Iterable[Any],
-    beside: Callable[[str], Path],
-) -> tuple[float, float]:
+def _shifts(passport: Passport | None, name: str, ends: Bounds, path: Path) -> tuple[float, float]:
     """Return the least and largest factor on the times of a material over the temperatures."""
-    if "passport" not in material:
+    if passport is None:
         raise InputError(
             f"{path}, material {name!r}: temperatures need a passport, which has the shift of "
             "the times"
         )
-    table = Table(path, "material", {"material": material}, beside)
-    given = material["passport"]
-    file = given if given in MATERIALS else str(table.beside("passport", '"pdms.toml"'))
-    passport = passport_of(file, also=also)
-    stated = passport.temperature
-    if "temperature" in material:
-        stated = table.quantity("temperature", "K", '"20 degC"')
-    if stated is None:
+    if passport.temperature is None:
         raise InputError(f"{path}, material {name!r}: the temperature of the passport is unknown")
-    own = passport.shift_factor(stated)
+    own = passport.shift_factor(passport.temperature)
     found = [passport.shift_factor(T) / own for T in (ends.low, ends.top)]
     return min(found), max(found)
 
 
-def _scatter(path: Path, tables: Mapping[str, Any]) -> tuple[dict[str, float], float]:
+def _scatter(tables: Mapping[str, Any], reading: Reading) -> tuple[dict[str, float], float]:
     """Return the tolerances and the least share of parts that meet the targets."""
-    if "scatter" not in tables:
-        return {}, 0.0
-    table = Table(path, "scatter", tables)
-    names = [name for name in (*UNITS, *INTERFACE) if name != PADS]
-    table.known |= {*names, "yield"}
-    found = {
-        name: table.quantity(name, "1", '"3 %"')
-        for name in (*names, "yield")
-        if name in table.values
-    }
-    table.finish()
+    given = tables.get("scatter", {})
+    where = f"{reading.where}, [scatter]"
+    if not isinstance(given, Mapping):
+        raise InputError(f"{where} must be a table")
+    names = [name for name in (*UNITS, *INTERFACE, "yield") if name != PADS]
+    refuse_unknown(where, given, names, "key")
+    found = {}
+    for name, value in given.items():
+        try:
+            found[name] = reading.parsed(value, "1", "3 %")
+        except InputError as error:
+            raise InputError(f"{where} {name}: {error}") from None
     return {name: x for name, x in found.items() if name != "yield"}, found.get("yield", 0.0)
 
 
@@ -234,50 +237,19 @@ def _materials(path: Path, tables: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _targets(table: Table) -> Targets:
-    table.known |= _TARGETS.keys()
-    found = {
-        name: table.quantity(name, unit, example)
-        for name, (unit, example) in _TARGETS.items()
-        if name in table.values
-    }
-    table.finish()
-    return table.make(Targets, **found)
-
-
-def _space(table: Table, windows: Mapping[str, Bounds]) -> DesignSpace:
-    table.known |= {*UNITS, "area", "base"}
-    if twice := [name for name in windows if name in table.values]:
+def _space(
+    tables: Mapping[str, Any], windows: Mapping[str, Bounds], reading: Reading
+) -> DesignSpace:
+    table = read_as(_BoundsTable, tables.get("bounds"), reading, "bounds")
+    where = f"{reading.where}, [bounds]"
+    if twice := [name for name in windows if getattr(table, name) is not None]:
         raise InputError(
-            f"{table.name} {twice[0]}: all speeds in [conditions] count; remove it from [bounds]"
+            f"{where} {twice[0]}: all speeds in [conditions] count; remove it from [bounds]"
         )
-    found: dict[str, Any] = {
-        name: _bounds(table, name) for name in UNITS if name in (*table.values, *_NEEDED)
-    }
+    found: dict[str, Any] = {name: x for name in UNITS if (x := getattr(table, name)) is not None}
     for name, each in windows.items():
         found[name] = Bounds(each.low if name == HOLD_SPEED else each.top)
-    if "area" in table.values:
-        found["area"] = table.quantity("area", "m^2", '"4 cm^2"')
-    if "base" in table.values:
-        found["bonded"] = table.word("base", (Frictionless.word, Bonded.word)) == Bonded.word
-    table.finish()
-    return table.make(DesignSpace, **found)
-
-
-def _bounds(table: Table, name: str, unit: str = "") -> Bounds:
-    """Return the bounds of a variable: a quantity, or a range "1 mm..10 mm"."""
-    unit = unit or UNITS[name]
-    given = table.get(name, _EXAMPLES[name])
-    ends = given.split(_TO, 1) if isinstance(given, str) else [given]
-    if name not in (PADS, EXPONENT) and not isinstance(given, str):
-        raise InputError(
-            f"{table.name} {name} must be text with a unit, got {given!r:.60}; write for example "
-            f"{name} = {_EXAMPLES[name]}"
-        )
     try:
-        numbers = [float(parse(end.strip() if isinstance(end, str) else end, unit)) for end in ends]
-    except ValueError as error:
-        raise InputError(
-            f"{table.name} {name}: {error}; for example {name} = {_EXAMPLES[name]}"
-        ) from None
-    return table.make(Bounds, *numbers)
+        return DesignSpace(**found, area=table.area, bonded=table.base == Bonded.word)
+    except InputError as error:
+        raise InputError(f"{where} {error}") from None

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from math import exp, inf, log
+from typing import Annotated
 
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 
 HOLD, RELEASE, RATIO, WORK, LOAD = "hold", "release", "ratio", "work", "dead_load"
@@ -61,22 +63,38 @@ class Targets:
     5.0
     """
 
-    hold: float | None = None
-    release: float | None = None
-    ratio: float | None = None
-    work: float | None = None
-    dead_load: float | None = None
-    preload: float | None = None
-    holding_time: float | None = None
+    hold: (
+        Annotated[float, Quantity("N", "F", "least pull-off force", above=0, example="5 mN")] | None
+    ) = None
+    release: (
+        Annotated[float, Quantity("N", "F", "largest pull-off force", above=0, example="1 mN")]
+        | None
+    ) = None
+    ratio: (
+        Annotated[float, Quantity("1", "q", "least ratio of both forces", above=0, example="4")]
+        | None
+    ) = None
+    work: (
+        Annotated[float, Quantity("J", "W", "least work to pull-off", above=0, example="20 nJ")]
+        | None
+    ) = None
+    dead_load: (
+        Annotated[float, Quantity("N", "G", "weight that hangs", above=0, example="2 mN")] | None
+    ) = None
+    preload: (
+        Annotated[float, Quantity("N", "P", "largest preload", above=0, example="10 mN")] | None
+    ) = None
+    holding_time: (
+        Annotated[float, Quantity("s", "t", "time of the dead load", above=0, example="60 s")]
+        | None
+    ) = None
 
     def __post_init__(self) -> None:
+        conform(self)
         if not self.stated.keys() - {PRELOAD}:
             raise InputError("a design needs a target: hold, release, ratio, work or dead_load")
         if (self.dead_load is None) != (self.holding_time is None):
             raise InputError("a dead_load needs its holding_time, and the other way round")
-        for name, value in (*self.stated.items(), ("holding_time", self.holding_time)):
-            if value is not None and not 0 < value < inf:
-                raise InputError(f"the target {name} must be positive, got {value!r}")
 
     @property
     def stated(self) -> dict[str, float]:

@@ -121,7 +121,7 @@ def uncertainty(
         The problem at the stated inputs.
     deviations : mapping of str to float
         Relative standard deviations, independent, by the path of the input as in campaigns
-        ("geometry.radius", "material.tau0"); above 0 and at most 0.5.
+        ("sphere.radius", "material.tau0"); above 0 and at most 0.5.
     sampled : mapping of str to sequence
         Equally likely values of "material" (:attr:`viscotack.materials.Passport.allowed`) or
         "traction", in place of the stated one; up to 64 of them are used.
@@ -252,7 +252,7 @@ def _check(
 ) -> None:
     """Raise an error for deviations, samples of parts, confidence or samples that cannot be."""
     if not (deviations or times or sampled):
-        raise InputError('give the deviation of an input, for example {"geometry.radius": 0.02}')
+        raise InputError('give the deviation of an input, for example {"sphere.radius": 0.02}')
     for name, value in deviations.items():
         if not 0 < value <= _LARGEST:
             raise InputError(

@@ -11,10 +11,8 @@ the slope between the points if that is larger, because two slopes may agree by 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass
+from collections.abc import Callable, Iterable, Mapping
 from math import exp
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,9 +21,7 @@ from viscotack.bem.estimate import COARSER
 from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.problem import Case
-from viscotack.problem.inputs import inputs_of, made
-from viscotack.problem.nouns import known as known_nouns
-from viscotack.problem.record import to_dict
+from viscotack.problem.inputs import changed, inputs_of
 from viscotack.result import Result
 from viscotack.result.observables import number_of, peaks, pull_off
 from viscotack.result.result import Sensitivities
@@ -59,15 +55,13 @@ def changed_inputs(problem: Case, names: Iterable[str] | None = None) -> dict[st
     InputError
         If there is no input of a given name, or it cannot change alone.
     """
-    entries, record, own = inputs_of(problem), to_dict(problem), tuple(set(_own(problem)))
+    entries = inputs_of(problem)
     able: dict[str, Changed] = {}
     for name, entry in entries.items():
         for way in ((-_STEP, _STEP), (-2 * _STEP, -_STEP), (_STEP, 2 * _STEP)):
             if entry.value and name not in able:
                 try:
-                    able[name] = {
-                        u: made(record, entries, own, {name: entry.value * exp(u)}) for u in way
-                    }
+                    able[name] = {u: changed(problem, {name: entry.value * exp(u)}) for u in way}
                 except InputError:  # out of range
                     continue
     if names is None:
@@ -165,15 +159,3 @@ def _parabola(u: list[float], values: list[npt.NDArray]) -> npt.NDArray:
     y = np.where(positive, np.log(np.where(positive, y, 1.0)), y / np.abs(y[0]))
     bend, slope = np.linalg.solve(np.vander(u, 3), y)[:2]
     return np.array([slope, bend * np.ptp(u)])
-
-
-def _own(thing: Any) -> Iterator[type]:
-    """Yield the user-defined classes of a problem and its parts."""
-    if is_dataclass(thing):
-        if known_nouns().types.get(type(thing).__name__) is not type(thing):
-            yield type(thing)
-        for field in fields(thing):
-            yield from _own(getattr(thing, field.name))
-    elif isinstance(thing, tuple):
-        for entry in thing:
-            yield from _own(entry)

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 
 def deviation_of(text: str) -> tuple[str, float]:
-    """Return the path and the relative standard deviation of a text, "geometry.radius 2 %"."""
+    """Return the path and the relative standard deviation of a text, "sphere.radius 2 %"."""
     name, _, rest = text.strip().partition(" ")
     rest = rest.strip()
     number = rest.removesuffix("%").strip()
     if not is_number(number):
         raise InputError(
-            f'expected a number of the problem and its deviation, "geometry.radius 2 %", got '
+            f'expected a number of the problem and its deviation, "sphere.radius 2 %", got '
             f"{text!r:.60}"
         )
     return name, float(number) / (100 if rest.endswith("%") else 1)
@@ -53,8 +53,8 @@ class OfUncertainty(Operation):
     interface. The best tier within the budget predicts drawn problems, and its own error counts
     too.
 
-    Example: viscotack uncertainty lens.toml --scatter "geometry.radius 2 %"
-    --scatter "traction.work_of_adhesion 15 %"
+    Example: viscotack uncertainty lens.toml --scatter "sphere.radius 2 %"
+    --scatter "interface.work_of_adhesion 15 %"
     """
 
     word: ClassVar = "uncertainty"
@@ -135,7 +135,7 @@ class OfUncertainty(Operation):
         problem, sampled, times = self._known(caller)
         if not (deviations or sampled or times):
             raise InputError(
-                'give --scatter, such as "geometry.radius 2 %", or what a passport or a study knows'
+                'give --scatter, such as "sphere.radius 2 %", or what a passport or a study knows'
             )
         found = uncertainty(
             problem,

@@ -9,35 +9,99 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
+from viscotack.problem.nouns import known
+from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
+from viscotack.protocol.moves import Speed
 
 from .payload import Hold
 from .pulling import MOST_PADS, Backing, PadArray, grid
 from .scatter import Scatter, check_draws
 
 _TABLES = ("pad", "array", "backing", "pull", "hold")
-_OF_BACKING = {
-    "stiffness": ("N/m", '"2 kN/m"'),
-    "pad_stiffness": ("N/m", '"300 N/m"'),
-    "base_modulus": ("Pa", '"2 MPa"'),
-    "tilt": ("rad", '"0.2 degree"'),
-    "tilt_direction": ("rad", '"90 degree"'),
-    "curvature": ("1/m", '"0.1 1/m"'),
-}
-_OF_HOLD = {
-    "mass": ("kg", '"2 g"'),
-    "acceleration": ("m/s^2", '"10 m/s^2"'),
-    "safety_factor": ("1", "2"),
-}
-_DRAWS = 300
 # Names of what is not computed, and of a viscoelastic base.
 _ALONG = ("shear", "peel")
 _VISCOELASTIC = ("base_material", "base_glassy", "base_tau", "base_exponent", "base_rubbery")
+
+
+@dataclass(frozen=True)
+class _Pull:
+    """The table [pull]."""
+
+    speed: Speed
+    preload: Annotated[float, Quantity("N", "P", "preload of all pads", example="20 mN")]
+    hold_time: Annotated[float, Quantity("s", "t", "time held", example="10 s")] | None = None
+
+
+def _lengths(value: Any, reading: Reading) -> tuple[float, ...]:
+    return _numbers(value, reading, "m")
+
+
+def _shares(value: Any, reading: Reading) -> tuple[float, ...]:
+    return _numbers(value, reading, "1")
+
+
+def _numbers(value: Any, reading: Reading, unit: str) -> tuple[float, ...]:
+    if not isinstance(value, list):
+        raise InputError(f"must be a list, one entry for each pad, got {value!r:.60}")
+    return tuple(reading.parsed(each, unit) for each in value)
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """The table [array]: rows, columns and spacing, or positions; heights, works and scatter."""
+
+    positions: (
+        Annotated[
+            tuple[tuple[float, float], ...],
+            Pairs(("m", "m"), "x, y", "x and y", example='[["0 mm", "0 mm"], ["4 mm", "0 mm"]]'),
+        ]
+        | None
+    ) = None
+    rows: int | None = None
+    columns: int | None = None
+    spacing: (
+        Annotated[float, Quantity("m", "d", "distance of the pads", above=0, example="4 mm")] | None
+    ) = None
+    heights: Annotated[tuple[float, ...], Read(_lengths)] = ()
+    works: Annotated[tuple[float, ...], Read(_shares)] = ()
+    height_scatter: Annotated[float, cards(Scatter)["height"].card] | None = None
+    work_scatter: Annotated[float, cards(Scatter)["work"].card] | None = None
+    seed: int = 0
+    draws: int = 300
+
+    def __post_init__(self) -> None:
+        if self.seed < 0 or self.draws < 0:
+            raise InputError("seed and draws must be whole numbers that are not negative")
+        if self.positions is None and None in (self.rows, self.columns, self.spacing):
+            raise InputError(
+                "an array needs rows, columns and spacing, or positions; write for example "
+                'rows = 3, columns = 3, spacing = "4 mm"'
+            )
+        for name in ("rows", "columns"):
+            if not 0 < (getattr(self, name) or 1) <= MOST_PADS:
+                raise InputError(f"{name} must be a number from 1 to {MOST_PADS:,}")
+        if (self.rows or 1) * (self.columns or 1) > MOST_PADS:
+            raise InputError(f"an array has 1 to {MOST_PADS:,} pads")
+
+    @property
+    def places(self) -> tuple[tuple[float, float], ...]:
+        """Places of the pads [m]."""
+        if self.positions is not None:
+            return self.positions
+        return grid(self.rows or 1, self.columns or 1, self.spacing or 0.0)
+
+    @property
+    def scatter(self) -> Scatter | None:
+        """Scatter of heights and works; None if neither is stated."""
+        if self.height_scatter is self.work_scatter is None:
+            return None
+        return Scatter(self.height_scatter or 0.0, self.work_scatter or 0.0, self.seed)
 
 
 @dataclass(frozen=True)
@@ -94,115 +158,41 @@ def read_array(
     path = Path(path)
     tables = read_toml(path)
     refuse_named(
-        path, tables, _ALONG, "the plate is pulled along its normal, without shear and peeling"
+        f"{path}", tables, _ALONG, "the plate is pulled along its normal, without shear and peeling"
     )
     refuse_named(
-        path,
+        f"{path}",
         tables.get("backing", {}) if isinstance(tables.get("backing"), Mapping) else {},
         _VISCOELASTIC,
         "the common base is elastic, because point loads have no memory here; base_modulus may be "
         "the relaxed modulus for a slow pull, or the glassy one for a fast pull",
     )
     refuse_unknown(f"{path}", tables, _TABLES, "table")
-    pull, where = Table(path, "pull", tables), f"{path}, [pad]"
-    speed = pull.quantity("speed", "m/s", '"1 mm/s"')
-    preload = pull.quantity("preload", "N", '"20 mN"')
-    pull.known.add("hold_time")
-    waits = "hold_time" in pull.values
-    hold_time = pull.quantity("hold_time", "s", '"10 s"') if waits else None
-    pull.finish()
+    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
+    pull = read_as(_Pull, tables.get("pull"), reading, "pull")
     pad = tables.get("pad")
     if not isinstance(pad, Mapping):
         raise InputError(f"{path}: the table [pad] is missing; write [pad.material] and others")
     if "protocol" in pad:
         raise InputError(f"{path}: [pad.protocol] is stated by [pull]; remove it")
     # speed and preload of the pull replace these
-    protocol = {"preload_force": f"{preload!r} N", "speed": f"{speed!r} m/s"}
+    protocol = {"preload_force": f"{pull.preload!r} N", "speed": f"{pull.speed!r} m/s"}
     problem = case_of_tables(
-        {**pad, "protocol": protocol}, where=where, also=also, beside=beside or path.parent.joinpath
+        {**pad, "protocol": protocol}, where=f"{path}, [pad]", also=also, beside=reading.beside
     )
-    layout = Table(path, "array", tables)
-    places = _places(layout)
-    scatter, draws = _scatter(layout)
-    check_draws(draws, len(places))
-    array = layout.make(
-        PadArray,
-        problem,
-        places,
-        heights=_numbers(layout, "heights", "m"),
-        works=_numbers(layout, "works", "1"),
-        backing=_optional(path, tables, "backing", Backing, _OF_BACKING) or Backing(),
-    )
-    layout.finish()
-    hold = _optional(path, tables, "hold", Hold, _OF_HOLD)
-    return ArrayFile(array, speed, preload, scatter, draws, hold, hold_time)
-
-
-def _places(table: Table) -> tuple[tuple[float, float], ...]:
-    """Return the places of the pads [m]."""
-    if "positions" in table.values:
-        given = table.get("positions", '[["0 mm", "0 mm"], ["4 mm", "0 mm"]]')
-        if not isinstance(given, list) or not all(
-            isinstance(p, list) and len(p) == 2 for p in given
-        ):
-            raise InputError(f"{table.name} positions must be a list of pairs of lengths")
-        return tuple(
-            (table.parsed("positions", x, "m"), table.parsed("positions", y, "m")) for x, y in given
+    layout = read_as(_Layout, tables.get("array"), reading, "array")
+    try:
+        places, scatter = layout.places, layout.scatter
+        check_draws(layout.draws, len(places))
+        array = PadArray(
+            problem,
+            places,
+            heights=layout.heights,
+            works=layout.works,
+            backing=read_as(Backing, tables.get("backing", {}), reading, "backing"),
         )
-    rows, columns = (_count(table, key) for key in ("rows", "columns"))
-    if rows * columns > MOST_PADS:
-        raise InputError(f"{table.name}: an array has 1 to {MOST_PADS:,} pads")
-    return grid(rows, columns, table.quantity("spacing", "m", '"4 mm"'))
-
-
-def _count(table: Table, key: str) -> int:
-    number = table.get(key, "3")
-    if not isinstance(number, int) or isinstance(number, bool) or not 0 < number <= MOST_PADS:
-        raise InputError(f"{table.name} {key} must be a number from 1 to {MOST_PADS:,}")
-    return number
-
-
-def _scatter(table: Table) -> tuple[Scatter | None, int]:
-    """Return the scatter of heights and works, and the number of draws."""
-    table.known |= {"height_scatter", "work_scatter", "seed", "draws"}
-    given = table.values
-    if not {"height_scatter", "work_scatter"} & given.keys():
-        return None, _DRAWS
-    height = table.parsed("height_scatter", given.get("height_scatter", 0.0), "m")
-    work = table.quantity("work_scatter", "1") if "work_scatter" in given else 0.0
-    seed, draws = given.get("seed", 0), given.get("draws", _DRAWS)
-    if any(not isinstance(x, int) or isinstance(x, bool) or x < 0 for x in (seed, draws)):
-        raise InputError(f"{table.name} seed and draws must be whole numbers")
-    return table.make(Scatter, height=height, work=work, seed=seed), draws
-
-
-def _numbers(table: Table, key: str, unit: str) -> tuple[float, ...]:
-    """Return the numbers of an optional list."""
-    table.known.add(key)
-    given = table.values.get(key, [])
-    if not isinstance(given, list):
-        raise InputError(f"{table.name} {key} must be a list, one entry for each pad")
-    return tuple(table.parsed(key, each, unit) for each in given)
-
-
-def _optional(
-    path: Path,
-    tables: Mapping[str, Any],
-    name: str,
-    kind: Any,
-    numbers: Mapping[str, tuple[str, str]],
-) -> Any:
-    """Return the object of a table of numbers; None without the table."""
-    if name not in tables:
-        return None
-    table = Table(path, name, tables)
-    table.known |= numbers.keys()
-    if kind is Hold:
-        table.get("mass", numbers["mass"][1])
-    found = {
-        key: table.quantity(key, unit, example)
-        for key, (unit, example) in numbers.items()
-        if key in table.values
-    }
-    table.finish()
-    return table.make(kind, **found)
+    except InputError as error:
+        already = str(error).startswith(f"{path}")
+        raise InputError(str(error) if already else f"{path}, [array] {error}") from None
+    hold = read_as(Hold, tables["hold"], reading, "hold") if "hold" in tables else None
+    return ArrayFile(array, pull.speed, pull.preload, scatter, layout.draws, hold, pull.hold_time)

@@ -11,10 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf, nan
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
+from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Elastic
 from viscotack.methods import crack_contact, solve
@@ -54,17 +55,16 @@ class Hold:
     '39.6 mN'
     """
 
-    mass: float
-    acceleration: float = 0.0
-    safety_factor: float = 1.0
+    mass: Annotated[float, Quantity("kg", "m", "mass", above=0, example="2 g")]
+    acceleration: Annotated[
+        float, Quantity("m/s^2", "a", "acceleration besides gravity", least=0, example="10 m/s^2")
+    ] = 0.0
+    safety_factor: Annotated[
+        float, Quantity("1", "S", "factor on the force", least=1, example="2")
+    ] = 1.0
 
     def __post_init__(self) -> None:
-        if not 0 < self.mass < inf or not self.acceleration >= 0 or not self.safety_factor >= 1:
-            raise InputError(
-                "a load has a positive mass, an acceleration of at least 0 and a safety factor of "
-                f"at least 1, got {self.mass:.4g} kg, {self.acceleration:.4g} m/s^2 and "
-                f"{self.safety_factor:.4g}"
-            )
+        conform(self)
 
     @property
     def force(self) -> float:

@@ -25,14 +25,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import cos, inf, pi, sin, tan
-from numbers import Real
-from typing import Any
+from math import cos, pi, sin, tan
+from typing import Annotated, Any
 
 import numpy as np
 import scipy
 
 from viscotack.arrays import Array
+from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
@@ -81,22 +81,27 @@ class Backing:
     True
     """
 
-    stiffness: float | None = None
-    pad_stiffness: float | None = None
-    base_modulus: float | None = None
-    tilt: float = 0.0
-    tilt_direction: float = 0.0
-    curvature: float = 0.0
+    stiffness: (
+        Annotated[float, Quantity("N/m", "K", "spring of the machine", above=0, example="2 kN/m")]
+        | None
+    ) = None
+    pad_stiffness: (
+        Annotated[float, Quantity("N/m", "k", "spring of a pad", above=0, example="300 N/m")] | None
+    ) = None
+    base_modulus: (
+        Annotated[float, Quantity("Pa", "E*", "modulus of the base", above=0, example="2 MPa")]
+        | None
+    ) = None
+    tilt: Annotated[float, Quantity("rad", "theta", "tilt", example="0.2 degree")] = 0.0
+    tilt_direction: Annotated[
+        float, Quantity("rad", "phi", "direction of the tilt", example="90 degree")
+    ] = 0.0
+    curvature: Annotated[
+        float, Quantity("1/m", "kappa", "curvature of the plate", example="0.1 1/m")
+    ] = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("stiffness", "pad_stiffness", "base_modulus"):
-            value = getattr(self, name)
-            if value is not None and not isinstance(value, Real):
-                raise InputError(
-                    f"{name} must be a number, got {value!r:.60}; backing and base are elastic"
-                )
-            if value is not None and not 0 < float(value) < inf:
-                raise InputError(f"{name} must be positive, got {value:.4g}; None is rigid")
+        conform(self)
         if not abs(self.tilt) < pi / 18:
             raise InputError(
                 f"the tilt must be below 10 degrees, got {np.degrees(self.tilt):.4g} degrees"

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import sqrt
+from typing import Annotated
 
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.cards import Quantity
 from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 
@@ -47,8 +49,12 @@ class Scatter:
     ['0.35 um', '0.82 um', '0.33 um']
     """
 
-    height: float = 0.0
-    work: float = 0.0
+    height: Annotated[
+        float, Quantity("m", "s", "standard deviation of the heights", example="1 um")
+    ] = 0.0
+    work: Annotated[
+        float, Quantity("1", "s_w", "relative standard deviation of the works", example="0.1")
+    ] = 0.0
     seed: int = 0
 
     def __post_init__(self) -> None:

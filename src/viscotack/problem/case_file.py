@@ -1,44 +1,61 @@
-"""Read a problem from a case file: TOML in SI, quantities as text with units.
+"""A problem as tables: the TOML file of a case, JSON, and the body of a request.
 
-docs/input.md describes the format; the keys of a table follow from the cards of its class.
+docs/input.md describes the format; the keys of a table follow from the cards of its class. Tables
+in SI are [material], [interface], one for the shape, perhaps one for the body, and [protocol]; a
+dimensionless problem has [groups] in place of [protocol], and numbers without units. A rough
+surface has [surface] in place of the shape.
 """
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from viscotack.cards import cards
+from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.files.toml import read_toml
 from viscotack.geometry import (
     Bonded,
     Cone,
+    FlatPunch,
     Frictionless,
     HalfSpace,
     Layer,
     MeasuredProfile,
     PowerLawProfile,
+    Sphere,
 )
 from viscotack.materials import Elastic, Material, Prony
 from viscotack.materials.checks import rests
+from viscotack.materials.constants import ModulusRatio
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.scaling import scaled
-from viscotack.materials.words import FITS_ONLY
+from viscotack.materials.words import FITS_ONLY, word_of
 from viscotack.problem import plane, revolution
-from viscotack.problem.case_table import OWN, Table, refuse_maps, refuse_unknown
-from viscotack.problem.law_table import law_from_table
-from viscotack.problem.nouns import Nouns, known
-from viscotack.problem.problem import Problem
+from viscotack.problem.law_table import law_from_table, table_of_law
+from viscotack.problem.nouns import known
+from viscotack.problem.problem import Groups, Problem
 from viscotack.problem.prony_file import read_prony
-from viscotack.problem.protocol_table import protocol_from_table
+from viscotack.problem.protocol_table import (
+    protocol_from_table,
+    table_of_groups,
+    table_of_protocol,
+    test_in_groups,
+)
+from viscotack.problem.rough_case import RoughCase, StatedSurface, hash_of
+from viscotack.problem.tables import OWN, Reading, UnknownNoun, read_as, refuse_unknown, stated
 from viscotack.units import parse, readable
 
-_COMMON = ("material", "interface", "protocol")
+Tables = Mapping[str, Any]
+# Tables of files with several contacts, and the commands that read them.
+_OF_SEVERAL = {
+    "stamp": "window", "donor": "window", "receiver": "window", "pad": "array", "array": "array",
+    "targets": "design", "bounds": "design",
+}  # fmt: skip
 
 
 def read_case(
@@ -104,8 +121,13 @@ def read_case(
     Sphere(radius=0.001)
     """
     path = Path(path)
-    beside = beside or path.parent.joinpath
-    return _stated(path, read_toml(path), known(also), temperature, beside)
+    return case_of_tables(
+        read_toml(path),
+        where=str(path),
+        also=also,
+        beside=beside or path.parent.joinpath,
+        temperature=temperature,
+    )
 
 
 def case_of_tables(
@@ -155,125 +177,181 @@ def case_of_tables(
     >>> problem.geometry
     Sphere(radius=0.001)
     """
-    return _stated(where, tables, known(also), temperature, beside)
+    problem = problem_of(tables, Reading(where, known(also), beside), temperature)
+    if not isinstance(problem, Problem):
+        raise InputError(f"{where} must state a problem in SI with a shape, not a {type(problem)}")
+    return problem
 
 
-def _stated(
-    path: Path | str,
-    tables: Mapping[str, Any],
-    nouns: Nouns,
-    temperature: float | None,
-    beside: Callable[[str], Path] | None = None,
-) -> Problem:
-    """Return the problem of tables from a file or a request."""
-    shape = _shape_table(path, tables, nouns)
-    plain = nouns.shapes[shape].symmetry == "plane"
+def problem_of(
+    tables: Tables, reading: Reading, temperature: float | None = None
+) -> Problem | Groups | RoughCase:
+    """Return the problem of tables: in SI, dimensionless with [groups], rough with [surface].
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables as in :func:`read_case`.
+    reading : Reading
+        How their values are read.
+    temperature : float, optional
+        As for :func:`read_case`.
+    """
+    where, nouns = reading.where, reading.nouns
+    if not isinstance(tables, Mapping):
+        raise InputError(f"{where} must be tables with keys, got {tables!r:.60}")
+    if several := tables.keys() & _OF_SEVERAL.keys():
+        name = min(several)
+        raise InputError(
+            f"{where}: [{name}] belongs to a file of `viscotack {_OF_SEVERAL[name]}`, which has "
+            "several contacts; cases and campaigns have one"
+        )
+    test = "groups" if "groups" in tables else "protocol"
+    shape = "surface" if "surface" in tables else _one(tables, nouns.shapes, where, "indenter")
+    plain = shape != "surface" and nouns.shapes[shape].symmetry == "plane"
     bodies = [name for name in tables if name in nouns.bodies] or ([Layer.word] if plain else [])
     if len(bodies) > 1:
-        raise InputError(f"{path}: only one body is allowed, got [{'] and ['.join(bodies)}]")
-    names = (*_COMMON, shape, *bodies)
+        raise InputError(f"{where}: only one body is allowed, got [{'] and ['.join(bodies)}]")
+    names = ("material", "interface", test, shape, *bodies)
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
-    refuse_maps(f"{path}", tables)
-    refuse_unknown(f"{path}", tables, names, "table", more)
+    try:
+        refuse_unknown(where, tables, names, "table", more)
+    except InputError as error:
+        raise UnknownNoun(str(error)) from None
+    if test == "groups":
+        tables = {"interface": {"law": "lennard-jones"}, shape: {}, **tables}
+        reading = replace(reading, pure=True)
     if len(missing := [f"[{name}]" for name in names if name not in tables]) > 1:
         raise InputError(
-            f"{path}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
+            f"{where}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
             "docs/input.md"
         )
-    units = (plane if plain else revolution).SI
-    table = Table(path, shape, tables, beside)
-    geometry = _shape(table, nouns.shapes[shape])
-    parts = _parts(path, tables, nouns, bodies, units, beside, temperature)
-    table.finish()
+    reading = replace(reading, units=(plane if plain else revolution).SI)
+    material = _material(tables.get("material"), reading, temperature)
+    law = law_from_table(tables.get("interface"), reading)
+    body = _body(tables.get(bodies[0]), bodies[0], reading, material) if bodies else HalfSpace()
+    parts: dict[str, Any] = {"material": material, "traction": law, "body": body}
     try:
-        return Problem(geometry=geometry, **parts)
+        if test == "groups":
+            geometry = _shape(tables[shape], shape, reading)
+            return Groups(geometry=geometry, **parts, **test_in_groups(tables["groups"], reading))
+        parts["protocol"] = protocol_from_table(
+            tables.get("protocol"), reading, law.equilibrium_gap
+        )
+        if shape == "surface":
+            return RoughCase(surface=_surface(tables["surface"], reading), **parts)
+        return Problem(geometry=_shape(tables.get(shape), shape, reading), **parts)
     except ValueError as error:
-        raise InputError(f"{path}: {error}") from None
+        already = str(error).startswith(where)
+        raise InputError(str(error) if already else f"{where}: {error}") from None
 
 
-def parts_of_tables(
-    path: Path | str,
-    tables: Mapping[str, Any],
-    *,
-    also: Iterable[Any] = (),
-    beside: Callable[[str], Path] | None = None,
-) -> dict[str, Any]:
-    """Return material, traction law, protocol and body, a half-space or a layer, of tables.
-
-    The parameters are those of :func:`case_of_tables`; forces of the protocol are in N.
-    """
-    bodies = [Layer.word] if Layer.word in tables else []
-    return _parts(path, tables, known(also), bodies, revolution.SI, beside, None)
-
-
-def _parts(
-    path: Path | str,
-    tables: Mapping[str, Any],
-    nouns: Nouns,
-    bodies: list[str],
-    units: Mapping[str, str],
-    beside: Callable[[str], Path] | None,
-    temperature: float | None,
-) -> dict[str, Any]:
-    """Return the parts of a problem but its shape, by the names of the attributes."""
-    found = {name: Table(path, name, tables, beside) for name in (*_COMMON, *bodies)}
-    material = _material(found["material"], nouns, temperature)
-    law = law_from_table(found["interface"], nouns.laws)
-    body = HalfSpace()
-    if bodies:
-        body = _body(found[bodies[0]], nouns.bodies[bodies[0]], material)
-    protocol = protocol_from_table(found["protocol"], units, law.equilibrium_gap)
-    for table in found.values():
-        table.finish()
-    return {"material": material, "traction": law, "body": body, "protocol": protocol}
+def tables_of(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
+    """Return the tables that state a problem, with numbers in SI; :func:`problem_of` reads them."""
+    pure = isinstance(problem, Groups)
+    material = stated(problem.material)
+    found: dict[str, Any] = {
+        "material": {"model": word_of(problem.material), **material},
+        "interface": table_of_law(problem.traction, pure=pure),
+    }
+    if isinstance(problem, RoughCase):
+        found["surface"] = stated(problem.surface)
+    else:
+        found[problem.geometry.word] = stated(problem.geometry)
+    if isinstance(problem.body, Layer):
+        base = problem.body.base
+        found[Layer.word] = {"thickness": problem.body.thickness, "base": base.word, **stated(base)}
+    elif problem.body != HalfSpace():
+        found[problem.body.word] = stated(problem.body)
+    if isinstance(problem, Groups):
+        return found | {"groups": table_of_groups(problem)}
+    return found | {"protocol": table_of_protocol(problem.protocol, problem.units)}
 
 
-def _shape_table(path: Path | str, tables: Mapping[str, Any], nouns: Nouns) -> str:
+def _one(tables: Tables, known: Mapping[str, Any], where: str, what: str) -> str:
     """Return the name of the table that states the indenter."""
-    given = [name for name in tables if name in nouns.shapes]
+    given = [name for name in tables if name in known]
     if len(given) > 1:
-        raise InputError(f"{path}: only one indenter is allowed, got [{'] and ['.join(given)}]")
-    if given:
-        return given[0]
-    return "punch" if "layer" in tables else "sphere"
+        raise InputError(f"{where}: only one {what} is allowed, got [{'] and ['.join(given)}]")
+    return given[0] if given else FlatPunch.word if Layer.word in tables else Sphere.word
 
 
-def _shape(table: Table, kind: Any) -> Any:
-    """Return the indenter stated by a table, by the cards of its class.
+@dataclass(frozen=True)
+class _ProfilePoint:
+    """A power-law profile by its exponent and one point of its flank."""
+
+    exponent: Annotated[float, cards(PowerLawProfile)["exponent"].card]
+    height: Annotated[
+        float, Quantity("m", "z", "height of the profile there", above=0, example="10 um")
+    ]
+    at_radius: Annotated[
+        float, Quantity("m", "r", "radius at which it has its height", above=0, example="0.2 mm")
+    ]
+
+
+def _shape(given: Any, name: str, reading: Reading) -> Any:
+    """Return the indenter stated by a table.
 
     A [profile] is a measured one by its file, a cone by its slope, or the exponent q and one point
-    of z = A r^q, its height at a radius, instead of a coefficient in m^(1-q).
+    of z = A r^q, its height at a radius, or its coefficient A in m^(1-q).
     """
-    if "file" in table.values and kind in (PowerLawProfile, MeasuredProfile):
-        return _measured(table)
-    if kind is not PowerLawProfile:
-        return table.make(kind, **table.numbers(kind))
-    if "slope" in table.values:
-        return table.make(Cone, **table.numbers(Cone))
-    exponent = table.number(cards(PowerLawProfile)["exponent"])
-    height = table.quantity("height", "m", '"10 um"')
-    radius = table.quantity("at_radius", "m", '"200 um"')
-    if not (height > 0 and radius > 0):
-        raise InputError(
-            f"{table.name} height and at_radius must be positive, got {height} m and {radius} m"
+    kind = reading.nouns.shapes[name]
+    table = given if isinstance(given, Mapping) else {}
+    if kind in (PowerLawProfile, MeasuredProfile) and "file" in table:
+        file = reading.file(name, "file", table["file"])
+        columns = read_quantities(file, {"radius": "m", "height": "m"})
+        try:
+            return MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
+        except ValueError as error:
+            raise InputError(f"{reading.where}, [{name}] {error}") from None
+    if reading.pure and kind is Sphere:
+        return read_as(kind, {"radius": 1.0} | dict(table), reading, name)
+    if kind is not PowerLawProfile or "coefficient" in table:
+        return read_as(
+            kind, given, replace(reading, bare=True) if "coefficient" in table else reading, name
         )
-    return table.make(PowerLawProfile, coefficient=height / radius**exponent, exponent=exponent)
+    if "slope" in table:
+        return read_as(Cone, given, reading, name)
+    if reading.pure:
+        q = table.get("exponent")
+        return read_as(kind, {"coefficient": 1 / q, **table} if q else given, reading, name)
+    point = read_as(_ProfilePoint, given, reading, name)
+    return PowerLawProfile(point.height / point.at_radius**point.exponent, point.exponent)
 
 
-def _measured(table: Table) -> MeasuredProfile:
-    """Return the profile of a CSV file with the columns radius and height."""
-    columns = read_quantities(table.beside("file", '"tip.csv"'), {"radius": "m", "height": "m"})
-    points = tuple(zip(columns["radius"], columns["height"], strict=True))
-    return table.make(MeasuredProfile, points)
+@dataclass(frozen=True)
+class _LayerTable:
+    """A layer and the word of its base; bonded, it has the Poisson ratio of the material."""
+
+    thickness: Annotated[float, cards(Layer)["thickness"].card]
+    base: str | None = None
+    poisson_ratio: Annotated[float, cards(Bonded)["poisson_ratio"].card] | None = None
 
 
-def _body(table: Table, kind: Any, material: Material) -> Any:
-    """Return the body stated by a table; a bonded layer takes the Poisson ratio of its material."""
+def _body(entries: Any, name: str, reading: Reading, material: Material) -> Any:
+    """Return the body entries by a table."""
+    kind = reading.nouns.bodies[name]
     if kind is not Layer:
-        return table.make(kind, **table.numbers(kind))
-    bonded = table.word("base", (Frictionless.word, Bonded.word)) == Bonded.word
-    base = Bonded(poisson_ratio=material.poisson_ratio) if bonded else Frictionless()
-    return table.make(Layer, **table.numbers(Layer), base=base)
+        return read_as(kind, entries, reading, name)
+    table = read_as(_LayerTable, entries, reading, name)
+    bases = {base.word: base for base in (Frictionless, Bonded)}
+    given = {"base": table.base or (Frictionless.word if reading.pure else None)}
+    base = reading.choice(given, name, "base", bases)
+    if base is Frictionless:
+        return Layer(table.thickness)
+    nu = material.poisson_ratio if table.poisson_ratio is None else table.poisson_ratio
+    return Layer(table.thickness, Bonded(poisson_ratio=nu))
+
+
+def _surface(given: Any, reading: Reading) -> StatedSurface:
+    """Return the surface stated by the table [surface]; a file is known by its hash."""
+    table = dict(given) if isinstance(given, Mapping) else {}
+    if isinstance(table.get("kind"), str):
+        table["kind"] = [table["kind"]]
+    if "file" in table:
+        file = reading.file("surface", "file", table["file"]).resolve()
+        table = {"sha256": hash_of(file), **table, "file": str(file)}
+    return read_as(StatedSurface, table, reading, "surface")
 
 
 def passport_of_tables(
@@ -295,10 +373,10 @@ def passport_of_tables(
     deviation : float
         Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
     """
-    table = Table(where, "material", tables, beside)
-    if "passport" not in table.values:
+    if "passport" not in tables["material"]:
         return None, 0.0
-    return moved(*_passport(table, known(also), temperature))
+    reading = Reading(str(where), known(also), beside)
+    return moved(*_passport(tables["material"], reading, temperature))
 
 
 def moved(passport: Passport, temperature: float | None) -> tuple[Passport, float]:
@@ -308,39 +386,63 @@ def moved(passport: Passport, temperature: float | None) -> tuple[Passport, floa
     return passport.moved_to(temperature), passport.shift_deviation(temperature)
 
 
-def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material:
-    if "passport" in table.values:
-        passport, stated = _passport(table, nouns, temperature)
-        return passport.material if stated is None else table.make(passport.at_temperature, stated)
+@dataclass(frozen=True)
+class _PassportTable:
+    """A passport by its file or published name, at a temperature, perhaps scaled to a modulus."""
+
+    passport: str
+    temperature: Annotated[float, Quantity("K", "T", "temperature", example="20 degC")] | None = (
+        None
+    )
+    rubbery_modulus: Annotated[float, cards(Elastic)["rubbery_modulus"].card] | None = None
+
+
+def _material(given: Any, reading: Reading, temperature: float | None) -> Material:
+    where = f"{reading.where}, [material]"
+    if not isinstance(given, Mapping):
+        raise InputError(f"{reading.where}: the table [material] is missing; see docs/input.md")
+    if "passport" in given:
+        passport, stated_temperature = _passport(given, reading, temperature)
+        try:
+            return (
+                passport.at_temperature(stated_temperature)
+                if stated_temperature
+                else passport.material
+            )
+        except ValueError as error:
+            raise InputError(f"{where} {error}") from None
     if temperature is not None:
         raise InputError(
-            f"{table.path}: a temperature of {temperature:g} K needs a material from a passport, "
-            'which contains the shift of its times; [material] passport = "pdms.toml"'
+            f"{reading.where}: a temperature of {temperature:g} K needs a material from a "
+            'passport, which contains the shift of its times; [material] passport = "pdms.toml"'
         )
-    rests(FITS_ONLY.get(str(table.values.get("model"))))
-    kind = nouns.materials[table.word("model", nouns.materials, OWN)]
-    if kind is Prony and "file" in table.values:
-        return _prony(table)
-    return table.make(kind, **table.numbers(kind))
+    rests(FITS_ONLY.get(str(given.get("model"))))
+    kind = reading.choice(given, "material", "model", reading.nouns.materials, OWN)
+    table = {key: value for key, value in given.items() if key != "model"}
+    if kind is Prony and "file" in table:
+        return _prony(table, reading)
+    if reading.pure:
+        implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
+        table = {k: v for k, v in implied.items() if k in cards(kind)} | table
+        if "modulus_ratio" in table:
+            ratio = reading.number(card_of(ModulusRatio), table.pop("modulus_ratio"))
+            table["glassy_modulus"] = 1 / ratio
+    return read_as(kind, table, reading, "material")
 
 
 def _passport(
-    table: Table, nouns: Nouns, temperature: float | None
+    given: Any, reading: Reading, temperature: float | None
 ) -> tuple[Passport, float | None]:
-    """Return the passport next to the file, and the requested temperature [K]."""
-    own = nouns.materials.values()
-    name = table.get("passport", '"pdms.toml"')
-    passport = (
-        published(name)
-        if isinstance(name, str) and name in MATERIALS
-        else read_passport(table.beside("passport", '"pdms.toml"'), also=own)
-    )
-    if "rubbery_modulus" in table.values:
-        passport = _scaled(passport, table.number(cards(Elastic)["rubbery_modulus"]))
-    stated = None
-    if "temperature" in table.values:
-        stated = table.quantity("temperature", "K", '"20 degC"')
-    return passport, stated if temperature is None else temperature
+    """Return the passport beside the file, and the requested temperature [K]."""
+    table = read_as(_PassportTable, given, reading, "material")
+    if table.passport in MATERIALS:
+        passport = published(table.passport)
+    else:
+        file = reading.file("material", "passport", table.passport)
+        passport = read_passport(file, also=reading.nouns.materials.values())
+    if table.rubbery_modulus is not None:
+        passport = _scaled(passport, table.rubbery_modulus)
+    return passport, table.temperature if temperature is None else temperature
 
 
 def _scaled(passport: Passport, modulus: float) -> Passport:
@@ -351,15 +453,15 @@ def _scaled(passport: Passport, modulus: float) -> Passport:
     return replace(passport, name=words, material=solid, evidence=None, allowed=())
 
 
-def _prony(table: Table) -> Prony:
+def _prony(table: dict[str, Any], reading: Reading) -> Prony:
     """Return a Prony series with branches from a file, as moduli over the rubbery modulus."""
-    ratios, unit = read_prony(table.beside("file", '"prony.csv"'))
-    if unit == "1":
+    ratios, unit = read_prony(reading.file("material", "file", table.pop("file")))
+    if unit == "1" and not reading.pure:
         raise InputError(
-            f"{table.name} file: the times have no unit; name the column relaxation_time_s"
+            f"{reading.where}, [material] file: the times have no unit; name the column "
+            "relaxation_time_s"
         )
-    second = parse(f"1 {unit}", "s")
-    plain = {name: table.number(field) for name, field in cards(Prony).items()}
-    E0 = plain["rubbery_modulus"]
+    plain = read_as(Elastic, table, reading, "material")
+    second, E0 = parse(f"1 {unit}", "s"), plain.rubbery_modulus
     branches = tuple((ratio * E0, time * second) for ratio, time in ratios)
-    return table.make(Prony, **plain, branches=branches)
+    return Prony(rubbery_modulus=E0, poisson_ratio=plain.poisson_ratio, branches=branches)

@@ -1,29 +1,33 @@
-"""The numbers of a problem, each named by its path in the record: inputs of plans and derivatives.
+"""The numbers of a problem, each named by its path in the file: inputs of plans and derivatives.
 
-What a number is, what it is measured in and where it ends is said by its card; what the machine
-does has the unit of the geometry's outputs, a force in N or a stress in Pa.
+``sphere.radius`` is the number radius of the table [sphere]; the numbers of the table [groups] are
+named by their keys alone, ``tabor``. What a number is, what it is measured
+in and where it ends is said by its card; what the machine does has the unit of the geometry's
+outputs, a force in N or a stress in Pa.
 """
 
-import copy
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 from viscotack.cards import Pairs, Quantity, cards, unusual
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, PowerLawProfile
+from viscotack.geometry import Bonded, Layer, PowerLawProfile
 from viscotack.problem.problem import Groups, Problem
-from viscotack.problem.record import from_dict, to_dict
+from viscotack.problem.protocol_table import STARTS, STARTS_IN_GROUPS
 from viscotack.problem.rough_case import RoughCase
+from viscotack.protocol import Apart
 
 # A tip z = A r^q by the height that it has at a radius: the unit of A depends on q.
-_HEIGHT, _AT_RADIUS = "geometry.height", "geometry.at_radius"
-_EXPONENT, _COEFFICIENT = "geometry.exponent", "geometry.coefficient"
+_HEIGHT, _AT_RADIUS = "profile.height", "profile.at_radius"
+_EXPONENT, _COEFFICIENT = "profile.exponent", "profile.coefficient"
 _TIP = {
     _HEIGHT: Quantity("m", "z", "height of the profile there", above=0, example="10 um"),
     _AT_RADIUS: Quantity("m", "r", "radius at which it has its height", above=0, example="0.2 mm"),
 }
-_NU, _NU_OF_BASE = "material.poisson_ratio", "body.base.poisson_ratio"
+_NU, _NU_OF_BASE = "material.poisson_ratio", "layer.poisson_ratio"
+
+Steps = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)
@@ -33,19 +37,22 @@ class Input:
     Attributes
     ----------
     path : str
-        Path in the record, ``protocol.moves.0.duration``.
+        Table and key in the file, ``sphere.radius``; with an index ``protocol.moves.0.duration``.
     value : float or None
         Current value; None if not set.
     unit : str
         Unit of the value.
     card : Quantity
         Description and range.
+    steps : tuple
+        Attributes and indices that lead to it in the problem.
     """
 
     path: str
     value: float | None
     unit: str
     card: Quantity
+    steps: Steps = ()
 
 
 def inputs_of(problem: Any) -> dict[str, Input]:
@@ -68,20 +75,20 @@ def inputs_of(problem: Any) -> dict[str, Input]:
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
     ... )
     >>> case = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
-    >>> inputs_of(case)["start.depth"].unit
+    >>> inputs_of(case)["preload"].unit
     'h0'
     """
-    found = {entry.path: entry for entry in _numbers(problem, problem.units, "")}
+    in_groups = isinstance(problem, Groups)
+    own = set(problem.units.values())
+    found: dict[str, Input] = {}
+    for steps, value, unit, card in _numbers(problem, problem.units, ()):
+        # the parts of a dimensionless problem have the cards of those in SI
+        unit = "1" if in_groups and unit not in own else unit
+        path = _path(problem, steps)
+        found[path] = Input(path, value, unit, card, steps)
     if isinstance(problem, RoughCase):
         return {path: entry for path, entry in found.items() if path not in problem.unused}
-    if not isinstance(problem, Problem):
-        # the parts of a dimensionless problem have the cards of those in SI
-        own = set(problem.units.values())
-        found = {
-            path: entry if entry.unit in own else replace(entry, unit="1")
-            for path, entry in found.items()
-        }
-    elif isinstance(problem.geometry, PowerLawProfile):
+    if isinstance(problem, Problem) and isinstance(problem.geometry, PowerLawProfile):
         found |= {path: Input(path, None, card.unit, card) for path, card in _TIP.items()}
     return found
 
@@ -107,45 +114,49 @@ def improbable(problem: Any) -> tuple[str, ...]:
     return tuple(words for one in numbers if (words := unusual(one.path, one.value, one.unit)))
 
 
-def _numbers(thing: Any, units: Mapping[str, str], prefix: str) -> Iterator[Input]:
-    known, pairs = cards(type(thing)), cards(type(thing), Pairs)
-    for field in fields(thing):
-        value, path = getattr(thing, field.name), f"{prefix}{field.name}"
-        if field.name in known:
-            card = known[field.name].card
-            yield Input(path, value, units.get(card.measure, card.unit), card)
-        elif field.name in pairs:
-            card = pairs[field.name].card
-            for i, pair in enumerate(value):
-                for j, unit in enumerate(card.units):
-                    of_pair = Quantity(unit, card.symbol, card.words, above=0)
-                    yield Input(f"{path}.{i}.{j}", pair[j], unit, of_pair)
-        else:
-            yield from _parts(value, units, path)
+def changed(problem: Any, values: Mapping[str, float]) -> Any:
+    """Return a problem with numbers at these paths in place of its own.
 
-
-def _parts(value: Any, units: Mapping[str, str], path: str) -> Iterator[Input]:
-    if is_dataclass(value):
-        yield from _numbers(value, units, f"{path}.")
-    elif isinstance(value, tuple):
-        for i, entry in enumerate(value):
-            yield from _parts(entry, units, f"{path}.{i}")
-
-
-def check_paths(problem: Any, paths: Iterable[str]) -> None:
-    """Raise InputError for paths that are not numbers of a problem, or that contradict others.
+    A bonded layer keeps the Poisson ratio of its material. For a tip with a height at a radius the
+    coefficient is recomputed, and a reduced tip with another exponent is reduced again.
 
     Raises
     ------
-    ValueError
-        With the numbers that there are at the place where a path goes wrong.
+    InputError
+        If a path is not a number of the problem, or a value is out of range.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> case = Groups(tabor=2, material=solid, start=AtDepth(20), rate=1)
+    >>> changed(case, {"tabor": 3.0}).tabor
+    3.0
     """
-    record = to_dict(problem)
-    paths = set(paths)
-    replaced(record, dict.fromkeys(paths, 1.0), inputs_of(problem))
-    if _is_tip(record) and len(missing := {_HEIGHT, _AT_RADIUS} - paths) == 1:
+    known = inputs_of(problem)
+    values = {path: float(value) for path, value in values.items()}
+    shape = problem.geometry if isinstance(problem, Problem) else None
+    if isinstance(shape, PowerLawProfile) and {_HEIGHT, _AT_RADIUS} <= values.keys():
+        height, radius = (card.checked(path, values.pop(path)) for path, card in _TIP.items())
+        exponent = values.get(_EXPONENT, shape.exponent)
+        values[_COEFFICIENT] = height / radius**exponent
+    if isinstance(problem, Groups) and _EXPONENT in values and _COEFFICIENT not in values:
+        q = cards(PowerLawProfile)["exponent"].card.checked(_EXPONENT, values[_EXPONENT])
+        values[_COEFFICIENT] = 1 / q
+    body = getattr(problem, "body", None)
+    if _NU in values and isinstance(body, Layer) and isinstance(body.base, Bonded):
+        values = {_NU_OF_BASE: values[_NU]} | values
+    return _replaced(problem, {_known(path, known).steps: x for path, x in values.items()})
+
+
+def check_paths(problem: Any, paths: Iterable[str]) -> None:
+    """Raise InputError for paths that are not numbers of a problem, or that contradict others."""
+    paths, known = set(paths), inputs_of(problem)
+    for path in paths:
+        _known(path, known)
+    if _HEIGHT in known and len(missing := {_HEIGHT, _AT_RADIUS} - paths) == 1:
         raise InputError(f"{_HEIGHT} and {_AT_RADIUS} go together; add {missing.pop()}")
-    if _is_tip(record) and _HEIGHT in paths and _COEFFICIENT in paths:
+    if _HEIGHT in paths and _COEFFICIENT in paths:
         raise InputError(f"{_COEFFICIENT} and {_HEIGHT} define the same; remove one")
 
 
@@ -159,67 +170,66 @@ def check_exponent(problem: Any, paths: Iterable[str]) -> None:
         )
 
 
-def replaced(
-    record: Mapping[str, Any], values: Mapping[str, float], known: Mapping[str, Input]
-) -> dict[str, Any]:
-    """Return a record with numbers at these paths in place of its own.
-
-    A bonded layer keeps the Poisson ratio of its material. For a tip with a height at a radius the
-    coefficient is recomputed, and a reduced tip with another exponent is reduced again.
-    """
-    changed = copy.deepcopy(dict(record))
-    values = {path: float(value) for path, value in values.items()}
-    for path, value in values.items():
-        if path not in _TIP or not _is_tip(record):
-            _put(changed, path, value, known)
-    shape = changed.get("geometry", {})
-    if _is_tip(record) and {_HEIGHT, _AT_RADIUS} <= values.keys():
-        height, radius = (card.checked(path, values[path]) for path, card in _TIP.items())
-        shape["coefficient"] = height / radius ** shape["exponent"]
-    if record["type"] == Groups.__name__ and _EXPONENT in values and _COEFFICIENT not in values:
-        shape["coefficient"] = 1 / cards(PowerLawProfile)["exponent"].card.checked(
-            _EXPONENT, shape["exponent"]
-        )
-    base = changed.get("body", {}).get("base", {})
-    if _NU in values and _NU_OF_BASE not in values and base.get("type") == Bonded.__name__:
-        base["poisson_ratio"] = values[_NU]
-    return changed
+def _known(path: str, known: Mapping[str, Input]) -> Input:
+    if path not in known:
+        table = path.partition(".")[0]
+        near = [name for name in known if name.partition(".")[0] == table] or known
+        raise InputError(f"the problem has no number {path!r}; it has {', '.join(near)}")
+    return known[path]
 
 
-def made(
-    record: Mapping[str, Any],
-    known: Mapping[str, Input],
-    also: tuple[Any, ...],
-    values: Mapping[str, float],
-) -> Any:
-    """Return the problem of a record with numbers at these paths."""
-    return from_dict(replaced(record, values, known), also)
+def _numbers(
+    thing: Any, units: Mapping[str, str], steps: Steps
+) -> Iterator[tuple[Steps, float | None, str, Quantity]]:
+    """Yield the numbers of a noun and of the nouns in it: steps, value, unit and card."""
+    known, pairs = cards(type(thing)), cards(type(thing), Pairs)
+    for field in fields(thing):
+        value, here = getattr(thing, field.name), (*steps, field.name)
+        if field.name in known:
+            card = known[field.name].card
+            if steps[-1:] == ("base",) and field.name in ("work_of_adhesion", "equilibrium_gap"):
+                continue  # those of a law at rest are 1
+            yield here, value, units.get(card.measure, card.unit), card
+        elif field.name in pairs:
+            card = pairs[field.name].card
+            for i, pair in enumerate(value):
+                for j, unit in enumerate(card.units):
+                    of_pair = Quantity(unit, card.symbol, card.words, above=0)
+                    yield (*here, i, j), pair[j], unit, of_pair
+        elif is_dataclass(value):
+            yield from _numbers(value, units, here)
+        elif isinstance(value, tuple):
+            for i, entry in enumerate(value):
+                if is_dataclass(entry):
+                    yield from _numbers(entry, units, (*here, i))
 
 
-def _is_tip(record: Mapping[str, Any]) -> bool:
-    shape = record.get("geometry", {})
-    return record["type"] == Problem.__name__ and shape.get("type") == PowerLawProfile.__name__
+def _path(problem: Any, steps: Steps) -> str:
+    """Return table and key of a number, by its attributes."""
+    first, *rest = steps
+    tables = {"traction": "interface", "material": "material", "surface": "surface"}
+    if first in tables:
+        return ".".join(map(str, (tables[str(first)], *(s for s in rest if s != "base"))))
+    if first in ("geometry", "body"):
+        word = getattr(problem, str(first)).word
+        return ".".join(map(str, (word, *(s for s in rest if s != "base"))))
+    in_groups = isinstance(problem, Groups)
+    keys = list(steps if in_groups else rest)
+    if keys[0] == "start":
+        start = problem.start if in_groups else problem.protocol.start
+        starts = STARTS_IN_GROUPS if in_groups else STARTS[problem.units["force"]]
+        keys = [{kind: key for key, kind in starts.items()}.get(type(start), Apart.word)]
+    return ".".join(map(str, keys if in_groups else ("protocol", *keys)))
 
 
-def _put(record: Any, path: str, value: float, known: Mapping[str, Input]) -> None:
-    """Replace the number at a path such as ``material.branches.0.1`` in a record."""
-    *way, last = path.split(".")
-    at = record
-    for step in way:
-        at = _entry(at, step, path)
-    if not (isinstance(at, dict) and path in known):  # what is left out may be given
-        old = _entry(at, last, path)
-        if isinstance(old, bool) or not isinstance(old, int | float):
-            raise InputError(f"{path} is not a number of the problem but {old!r:.60}")
-    at[int(last) if isinstance(at, list) else last] = value
-
-
-def _entry(at: Any, step: str, path: str) -> Any:
-    if isinstance(at, dict) and step in at:
-        return at[step]
-    if isinstance(at, list) and step.isdigit() and int(step) < len(at):
-        return at[int(step)]
-    known = [k for k in at if k != "type"] if isinstance(at, dict) else range(len(at or []))
-    raise InputError(
-        f"the problem has no number {path!r}: at {step!r} there is {', '.join(map(str, known))}"
-    )
+def _replaced(thing: Any, values: Mapping[Steps, float]) -> Any:
+    """Return a noun, a tuple or a number with numbers at these steps replaced."""
+    if () in values:
+        return values[()]
+    inner: dict[str | int, dict[Steps, float]] = {}
+    for (first, *rest), value in values.items():
+        inner.setdefault(first, {})[tuple(rest)] = value
+    if isinstance(thing, tuple):
+        return tuple(_replaced(x, inner[i]) if i in inner else x for i, x in enumerate(thing))
+    new = {str(name): _replaced(getattr(thing, str(name)), each) for name, each in inner.items()}
+    return replace(thing, **new)

@@ -1,59 +1,79 @@
-"""Traction law from the table [interface] of a case file, or from an option."""
+"""Traction laws as tables, [interface], and as words of an option."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from viscotack.cards import Field, cards
+from viscotack.cards import Field, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
-from viscotack.problem.case_table import OWN, Table
+from viscotack.problem.tables import OWN, Reading, UnknownNoun, read_as, stated
 from viscotack.traction import LAWS, LennardJones, Tabulated, Traction, has_rest
-from viscotack.units import finite, positive
+from viscotack.units import finite
+
+STRENGTH = Quantity("Pa", "sigma0", "largest tension of the law", above=0, example="100 kPa")
+_SCALES = ("work_of_adhesion", "equilibrium_gap")
 
 
-def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
-    """Return the law of the table [interface]; its range is equilibrium_gap or strength.
+def law_from_table(given: Any, reading: Reading) -> Traction:
+    """Return the law of the table [interface].
 
-    A law that grows or ages has its law at rest in the table ``base``.
+    Its range is equilibrium_gap or strength. A law that grows or ages has the word of its law at
+    rest as ``base``, and the constants of both.
     """
-    kind: Any = laws[table.word("law", laws, OWN)]
+    if not isinstance(given, Mapping):
+        raise InputError(f"{reading.where}: the table [interface] is missing; see docs/input.md")
+    kind = reading.choice(given, "interface", "law", reading.nouns.laws, OWN)
+    table: dict[str, Any] = {key: value for key, value in given.items() if key != "law"}
+    if reading.pure:
+        table = dict.fromkeys(_SCALES, 1.0) | table
     if not has_rest(kind):
-        return _of_gap(table, kind)
-    rest = [word for word, law in laws.items() if not has_rest(law)]
-    base = laws[table.word("base", rest, OWN) if "base" in table.values else LennardJones.word]
-    growth = _constants(kind)
-    table.require(growth)
-    constants = {field.name: table.number(field) for field in growth}
-    return table.make(kind.of, _of_gap(table, base), **constants)
-
-
-def _of_gap(table: Table, kind: Any) -> Traction:
-    if kind is Tabulated:
-        return _tabulated(table.beside("file", '"table.csv"'))
-    scales = cards(kind)
-    table.require(
-        field
-        for name, field in scales.items()
-        if field.needed and not (name == "equilibrium_gap" and "strength" in table.values)
+        return _of_gap(kind, table, reading)
+    rest = {word: law for word, law in reading.nouns.laws.items() if not has_rest(law)}
+    table = {"base": LennardJones.word} | table
+    base = reading.choice(table, "interface", "base", rest, OWN)
+    growth = {field.name for field in _constants(kind)}
+    own = cards(base).keys() | {"strength", "file", "points"}
+    law: Any = _of_gap(
+        base, {k: v for k, v in table.items() if k in own and k not in growth}, reading
     )
-    constants = {
-        field.name: table.number(field)
-        for field in _constants(kind)
-        if field.needed or field.name in table.values
-    }
-    work = table.number(scales["work_of_adhesion"])
-    if "strength" not in table.values:
-        gap = table.number(scales["equilibrium_gap"])
-    elif "equilibrium_gap" in table.values:
+    scales = {name: getattr(law, name) for name in _SCALES}
+    constants = {k: v for k, v in table.items() if k != "base" and (k in growth or k not in own)}
+    said = {name: f"{x!r} {reading.unit(cards(kind)[name].card)}" for name, x in scales.items()}
+    return read_as(kind, {**said, **constants, "base": law.reduced()}, reading, "interface")
+
+
+def _of_gap(kind: Any, table: Mapping[str, Any], reading: Reading) -> Traction:
+    """Return a law of the gap alone."""
+    if kind is Tabulated and "file" in table:
+        return _tabulated(reading.file("interface", "file", table["file"]))
+    if "strength" not in table:
+        return read_as(kind, table, reading, "interface")
+    if "equilibrium_gap" in table:
         raise InputError(
-            f"{table.name} strength and equilibrium_gap determine each other; give only one"
+            f"{reading.where}, [interface] strength and equilibrium_gap determine each other; "
+            "give only one"
         )
-    else:
-        strength = table.quantity("strength", "Pa", '"100 kPa"')
-        strength = table.make(positive, "strength", strength, "Pa")
-        gap = table.make(kind, 1.0, 1.0, **constants).strength * work / strength
-    return table.make(kind, work_of_adhesion=work, equilibrium_gap=gap, **constants)
+    table = dict(table)
+    try:
+        strength = reading.number(STRENGTH, table.pop("strength"))
+    except InputError as error:
+        raise InputError(f"{reading.where}, [interface] strength: {str(error).strip()}") from None
+    law: Any = read_as(kind, table | {"equilibrium_gap": "1 m"}, reading, "interface")
+    gap = kind(**{**vars(law), "work_of_adhesion": 1.0, "equilibrium_gap": 1.0}).strength
+    return kind(**{**vars(law), "equilibrium_gap": gap * law.work_of_adhesion / strength})
+
+
+def table_of_law(law: Any, *, pure: bool = False) -> dict[str, Any]:
+    """Return the table [interface] of a law, with numbers in SI."""
+    found = stated(law)
+    base = found.pop("base", None)
+    table = {"law": law.word}
+    if base is not None:
+        own = {k: v for k, v in stated(base).items() if k not in _SCALES}
+        table |= {"base": base.word, **own}
+    table |= found
+    return {k: v for k, v in table.items() if not (pure and k in _SCALES)}
 
 
 def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
@@ -74,7 +94,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     """
     name, _, rest = words.partition(":")
     if name not in laws:
-        raise InputError(f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}")
+        raise UnknownNoun(f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}")
     kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:
@@ -100,12 +120,8 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
 
 
 def _constants(kind: Any) -> list[Field]:
-    """Return the cards of a law except work and gap; all are dimensionless."""
-    return [
-        field
-        for name, field in cards(kind).items()
-        if name not in ("work_of_adhesion", "equilibrium_gap")
-    ]
+    """Return the cards of a law except work and gap."""
+    return [field for name, field in cards(kind).items() if name not in _SCALES]
 
 
 def _tabulated(path: str | Path) -> Tabulated:

@@ -13,7 +13,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from viscotack import geometry, materials, problem, protocol
 from viscotack.cards import check_carded
 from viscotack.errors import InputError
 from viscotack.files.bounded import LARGEST_TEXT, read_bytes
@@ -52,7 +51,6 @@ MEMBERS = {
     "bodies": ("symmetries", "influence", "decay_length", "reduced"),
 }
 _SINGULAR = {"laws": "law", "materials": "material", "shapes": "shape", "bodies": "body"}
-_ROOMS = (materials, geometry, protocol, problem)
 
 
 @dataclass(frozen=True)
@@ -63,8 +61,6 @@ class Nouns:
     ----------
     laws, materials, shapes, bodies : mapping
         Word in files and options -> class.
-    types : mapping
-        Name -> class, for everything that a record may contain.
     observables : tuple
         User-defined numbers of results.
     """
@@ -73,7 +69,6 @@ class Nouns:
     materials: Mapping[str, Any]
     shapes: Mapping[str, Any]
     bodies: Mapping[str, Any]
-    types: Mapping[str, Any]
     observables: tuple[Any, ...] = ()
 
 
@@ -89,7 +84,6 @@ def known(also: Iterable[Any] = ()) -> Nouns:
     also = tuple(also)
     nouns = {"laws": LAWS, "materials": MODELS, "shapes": SHAPES, "bodies": BODIES}
     own = {room: dict(classes) for room, classes in nouns.items()}
-    types = dict(_types())
     observables = []
     for noun in also:
         if hasattr(noun, "function") and not isinstance(noun, type):
@@ -99,13 +93,12 @@ def known(also: Iterable[Any] = ()) -> Nouns:
             continue
         room = _room(noun)
         check_carded(noun)
-        if noun.word in own[room] or noun.__name__ in types:
+        if any(noun.word in classes for classes in own.values()):
             raise InputError(
-                f"{noun.__name__} ({noun.word!r}) has a name or a word that is already used; "
-                "choose others"
+                f"{noun.__name__} has the word {noun.word!r}, which is already used; choose another"
             )
-        own[room][noun.word] = types[noun.__name__] = noun
-    return Nouns(**own, types=types, observables=tuple(observables))
+        own[room][noun.word] = noun
+    return Nouns(**own, observables=tuple(observables))
 
 
 def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
@@ -175,15 +168,3 @@ def _room(noun: Any) -> str:
             "docs/own.md describes each"
         )
     return room
-
-
-@lru_cache(maxsize=1)
-def _types() -> dict[str, Any]:
-    """Return the dataclasses of the rooms by name."""
-    found = {
-        name: thing
-        for room in _ROOMS
-        for name, thing in vars(room).items()
-        if isinstance(thing, type) and is_dataclass(thing)
-    }
-    return found | {law.__name__: law for law in LAWS.values()}

@@ -115,6 +115,9 @@ class StatedSurface:
             raise InputError("a surface has either a kind, which is generated, or a file")
         if missing := [name for name in self.needed if getattr(self, name) is None]:
             raise InputError(f"the surface needs {' and '.join(missing)}")
+        if extra := [name for name in self.unused if getattr(self, name) is not None]:
+            of = f"of kind {', '.join(self.kind)}" if self.kind else "from a file"
+            raise InputError(f"a surface {of} has no {min(extra)}; leave it out")
         if self.periodic is not None and self.kind and "self-affine" not in self.kind:
             raise InputError("periodic belongs to self-affine maps and to files; leave it out")
 

@@ -1,51 +1,82 @@
-"""JSON schema of a problem, and tables of its parameters; both are generated from the cards.
+"""JSON schema of a problem, and tables of its parameters; both are generated from the cards."""
 
-The schema describes the dictionaries of :func:`viscotack.to_dict`, as stored by results and
-campaigns and accepted from other programs.
-"""
-
-import types
-from collections.abc import Iterable
-from dataclasses import MISSING, fields
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING
+from typing import Any
 
 from viscotack.cards import Field, Pairs, Quantity, cards
-from viscotack.geometry import Body, Bonded, FlatPunch, Shape
-from viscotack.materials import Material
+from viscotack.geometry import Bonded
 from viscotack.problem import plane
-from viscotack.problem.nouns import Nouns, known
-from viscotack.problem.problem import Groups, Problem
+from viscotack.problem.nouns import known
+from viscotack.problem.problem import Groups
+from viscotack.problem.protocol_table import GroupsTable, ProtocolTable
+from viscotack.problem.rough_case import StatedSurface
+from viscotack.problem.tables import adapter
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
-from viscotack.traction import Traction, has_rest
-
-_PROBLEMS = (Problem, Groups)
 
 
 def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
-    """Return the JSON schema of a problem, in SI or dimensionless.
+    """Return the JSON schema of the tables of a problem, in SI or dimensionless.
 
     Parameters
     ----------
     also : iterable of classes
-        User-defined laws, materials and shapes to include.
+        User-defined laws, materials, shapes and bodies to include.
 
     Examples
     --------
-    >>> found = schema()["$defs"]["Sphere"]["properties"]["radius"]
-    >>> found["unit"], found["exclusiveMinimum"]
+    >>> found = schema()["$defs"]["sphere"]["properties"]["radius"]
+    >>> found["unit"], found["anyOf"][0]["exclusiveMinimum"]
     ('m', 0)
     """
-    from pydantic import TypeAdapter
+    nouns = known(also)
+    shapes = {**nouns.shapes, "surface": StatedSurface}
+    bodies = {word: kind for word, kind in nouns.bodies.items() if word != "half-space"}
+    tests = {"protocol": ProtocolTable, "groups": GroupsTable}
+    defined = {word: _object(kind) for word, kind in {**shapes, **bodies, **tests}.items()}
+    families = {"material": ("model", nouns.materials), "interface": ("law", nouns.laws)}
+    for key, kinds in families.values():
+        defined |= {word: _object(kind, key) for word, kind in kinds.items()}
+    properties: dict[str, Any] = {
+        name: {"anyOf": [{"$ref": f"#/$defs/{word}"} for word in kinds]}
+        for name, (_, kinds) in families.items()
+    }
+    properties |= {word: {"$ref": f"#/$defs/{word}"} for word in (*shapes, *bodies, *tests)}
+    return {
+        "title": "A problem of viscotack",
+        "type": "object",
+        "properties": properties,
+        "required": ["material"],
+        "additionalProperties": False,
+        "$defs": defined,
+    }
 
-    models = _Models(known(also))
-    problems: Any = Union[tuple(models.of(kind) for kind in _PROBLEMS)]  # noqa: UP007
-    return TypeAdapter(problems).json_schema() | {"title": "A problem of viscotack"}
+
+def _object(kind: Any, key: str = "") -> dict[str, Any]:
+    """Return the schema of a table: the fields of a class, with its word under a key."""
+    from pydantic.json_schema import GenerateJsonSchema
+
+    class Tables(GenerateJsonSchema):
+        """A noun inside a noun is stated by its word."""
+
+        def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> dict[str, Any]:
+            return {"type": "string"}
+
+    found = adapter(kind).json_schema(schema_generator=Tables)
+    found.pop("$defs", None)
+    base = found["properties"].get("base")
+    if base is not None:
+        found["properties"]["base"] = {"type": "string"}
+    if key:
+        found["properties"] = {key: {"const": kind.word}} | found["properties"]
+        found["required"] = [key, *found.get("required", [])]
+    return found
 
 
 def words(also: Iterable[Any] = ()) -> str:
     """Return Markdown tables of the parameters: word, symbol, unit and meaning."""
     nouns = known(also)
-    rooms = {
+    rooms: Mapping[str, Any] = {
         "Materials": nouns.materials.values(),
         "Traction laws": nouns.laws.values(),
         "Shapes and bodies": (*nouns.shapes.values(), *nouns.bodies.values(), Bonded),
@@ -84,52 +115,3 @@ def _row(field: Field) -> tuple[str, ...]:
     unit = card.unit if isinstance(card, Quantity) else ", ".join(card.units)
     limits = f"; must {card.range}" if getattr(card, "bounded", False) else ""
     return f"`{field.name}`", card.symbol, unit, f"{card.words}{limits}"
-
-
-class _Models:
-    """Pydantic models from which the schema is generated, one for each class of a problem.
-
-    A model has the fields of its class, described by their cards, and a field ``type``.
-    """
-
-    def __init__(self, nouns: Nouns) -> None:
-        self._nouns = nouns
-        self._made: dict[Any, Any] = {}
-
-    def of(self, kind: Any) -> Any:
-        """Return the model of a class, which its records name as their type."""
-        from pydantic import ConfigDict, Field, create_model
-
-        if kind not in self._made:
-            hints = get_type_hints(kind, include_extras=True)
-            told: dict[str, Any] = {"type": (Literal[kind.__name__], ...)}
-            for field in fields(kind):
-                # records omit default values, so the schema needs only their existence
-                given = ... if field.default is MISSING else Field(default_factory=dict)
-                told[field.name] = (self._told(hints[field.name], has_rest(kind)), given)
-            forbid = ConfigDict(extra="forbid")
-            self._made[kind] = create_model(kind.__name__, __config__=forbid, **told)
-        return self._made[kind]
-
-    def _told(self, hint: Any, at_rest: bool) -> Any:
-        """Return the type of a field, with the known classes in place of their protocol.
-
-        The base of a growing law must be a law at rest.
-        """
-        laws = self._nouns.laws
-        kinds = {
-            Material: self._nouns.materials,
-            Traction: {w: k for w, k in laws.items() if not (at_rest and has_rest(k))},
-            Shape: {w: k for w, k in self._nouns.shapes.items() if k is not FlatPunch},
-            Body: self._nouns.bodies,
-        }
-        if hint in kinds:
-            return Union[tuple(self.of(kind) for kind in kinds[hint].values())]  # noqa: UP007
-        origin, inner = get_origin(hint), get_args(hint)
-        if origin is Annotated:
-            return Annotated[self._told(inner[0], at_rest), *hint.__metadata__]
-        if origin in (Union, types.UnionType):
-            return Union[tuple(self._told(part, at_rest) for part in inner)]  # noqa: UP007
-        if origin is tuple:
-            return list[self._told(inner[0], at_rest)] if inner[-1] is ... else hint
-        return self.of(hint) if hasattr(hint, "__dataclass_fields__") else hint

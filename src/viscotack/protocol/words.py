@@ -102,6 +102,33 @@ def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) ->
         raise InputError(f"{words!r}: {error}") from None
 
 
+def words_of_move(move: Move, units: Mapping[str, str]) -> str:
+    """Return the text of a move, with all digits; :func:`move_from_words` reads it.
+
+    Examples
+    --------
+    >>> words_of_move(Approach(speed=1e-5, to=AtForce(force=0.0015)), SPHERE_UNITS)
+    'approach 1e-05 m/s to force 0.0015 N'
+    """
+
+    def quantity(value: float, measure: str) -> str:
+        unit = units[measure]
+        return f"{value!r}" if unit == "1" else f"{value!r} {unit}"
+
+    match move:
+        case Approach() | Retract():
+            (value,) = vars(move.to).values()
+            kind = "approach" if isinstance(move, Approach) else "retract"
+            end = f"{move.to.word} {quantity(value, move.to.word)}"
+            return f"{kind} {quantity(move.speed, 'speed')} to {end}"
+        case MoveTo():
+            return f"move to {quantity(move.depth, 'depth')} in {quantity(move.duration, 'time')}"
+        case LoadTo():
+            return f"load to {quantity(move.force, 'force')} in {quantity(move.duration, 'time')}"
+        case Dwell():
+            return f"hold {move.hold} {quantity(move.duration, 'time')}"
+
+
 def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
     """Parse the state at rest at the beginning of a test: "apart 20 um", "force 1.5 mN".
 

@@ -32,7 +32,8 @@ from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import open_regular
 from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchScales, Scales
-from viscotack.problem.record import UnknownNoun, from_dict, to_dict
+from viscotack.problem.record import from_dict, to_dict
+from viscotack.problem.tables import UnknownNoun
 from viscotack.result.energies import Energies
 from viscotack.units import finite
 
@@ -137,7 +138,7 @@ class Sensitivities:
     Attributes
     ----------
     inputs : mapping
-        Value of each input, by name: ``material.tau0``, ``protocol.start.force``; in the unit of
+        Value of each input, by name: ``material.tau0``, ``protocol.preload_force``; in the unit of
         the problem.
     derivatives : mapping
         For each output, its derivative by each input; in SI where the problem is, else in the

@@ -28,7 +28,6 @@ from viscotack.bem.verdict import status_of
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.problem.record import to_dict
 from viscotack.protocol import Move
 from viscotack.result import Event, Outcome
 from viscotack.version import __version__
@@ -200,8 +199,8 @@ def _run(
 
 def _key(problem: RoughProblem, settings: Settings, maps: int) -> str:
     """Return an identifier of what the digits of a run depend on."""
-    surface, nouns = problem.surface, ("material", "traction", "protocol", "body")
-    parts = [to_dict(getattr(problem, name)) for name in nouns]
+    surface = problem.surface
+    parts = repr([problem.material, problem.traction, problem.protocol, problem.body])
     about = [parts, surface.pixel, surface.periodic, surface.beyond, surface.heights.shape]
     versions = [__version__, np.__version__, scipy.__version__]
     text = json.dumps([about, asdict(settings), maps, versions], sort_keys=True)

@@ -20,10 +20,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from math import exp, inf, sqrt
 from statistics import NormalDist
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
+from viscotack.cards import Quantity
 from viscotack.errors import InputError
 from viscotack.methods.in_series import Opening, opening_by_cracks
 from viscotack.problem import Problem
@@ -138,6 +139,9 @@ def opening_chance(first: Problem, second: Problem, scatter: ContactScatter) -> 
     return OpeningChance(chance, (low, high), exp(center))
 
 
+_Share = Annotated[float, Quantity("1", "s", "relative standard deviation", least=0, example="0.1")]
+
+
 @dataclass(frozen=True)
 class WindowScatter:
     """Relative standard deviations of the works of stamp, donor and receiver, and of the preload.
@@ -148,10 +152,10 @@ class WindowScatter:
     ContactScatter(first=0.0, second=0.1, preload=0.0)
     """
 
-    stamp: float = 0.0
-    donor: float = 0.0
-    receiver: float = 0.0
-    preload: float = 0.0
+    stamp: _Share = 0.0
+    donor: _Share = 0.0
+    receiver: _Share = 0.0
+    preload: _Share = 0.0
 
     def of(self, base: str) -> ContactScatter:
         """Return the scatter of the pair of a base, "donor" or "receiver", and the stamp."""

@@ -9,20 +9,21 @@ perhaps temperatures and dwells, [scatter] the scatter of works and preload.
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
-from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.materials import Elastic
 from viscotack.problem import Problem
 from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.case_table import Table, refuse_named, refuse_unknown
-from viscotack.protocol import Retraction
+from viscotack.problem.nouns import known
+from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
+from viscotack.protocol.moves import Stiffness
 from viscotack.traction import ages
 
 from .chances import WindowScatter
@@ -34,6 +35,35 @@ _TO = ".."
 _PER_DECADE, _MOST = 3, 1000
 # Tables of what is not computed.
 _ALONG = ("shear", "peel", "tilt")
+
+
+def _numbers(value: Any, reading: Reading, unit: str) -> tuple[float, ...]:
+    """Return a quantity, a list of them, or the numbers of a range "1 um/s..1 mm/s"."""
+    if isinstance(value, str) and _TO in value:
+        low, high = (reading.parsed(end.strip(), unit) for end in value.split(_TO, 1))
+        if not 0 < low < high:
+            raise InputError(f"a range begins above 0, got {value!r:.60}")
+        count = min(1 + round(_PER_DECADE * np.log10(high / low)), _MOST)
+        return tuple(float(x) for x in np.geomspace(low, high, max(count, 2)))
+    several = value if isinstance(value, list) else [value]
+    if not several:
+        raise InputError("must not be empty")
+    return tuple(reading.parsed(each, unit) for each in several)
+
+
+def _of(unit: str) -> Read:
+    return Read(partial(_numbers, unit=unit))
+
+
+@dataclass(frozen=True)
+class _Pull:
+    """The table [pull]: speeds, preloads, the machine, and what more maps are drawn for."""
+
+    speeds: Annotated[tuple[float, ...], _of("m/s")]
+    preloads: Annotated[tuple[float, ...], _of("N")]
+    stiffness: Stiffness | None = None
+    temperatures: Annotated[tuple[float | None, ...], _of("K")] = (None,)
+    dwells: Annotated[tuple[float | None, ...], _of("s")] = (None,)
 
 
 @dataclass(frozen=True)
@@ -89,24 +119,19 @@ def read_window(
     path = Path(path)
     tables = read_toml(path)
     refuse_named(
-        path,
+        f"{path}",
         tables,
         _ALONG,
         "both contacts of a window are pulled along their axis, without shear, peeling and tilt",
     )
     refuse_unknown(f"{path}", tables, (STAMP, DONOR, RECEIVER, PULL, SCATTER), "table")
-    pull = Table(path, PULL, tables)
-    speeds = _numbers(pull, "speeds", "m/s", '"1 um/s..10 mm/s"')
-    preloads = _numbers(pull, "preloads", "N", '["1 mN", "5 mN"]')
-    pull.known.add("stiffness")
-    is_soft = "stiffness" in pull.values
-    stiffness = pull.number(cards(Retraction)["stiffness"]) if is_soft else None
-    temperatures = _several(pull, "temperatures", "K", '["0 degC", "20 degC"]')
-    dwells = _several(pull, "dwells", "s", '["1 s", "100 s"]')
-    pull.finish()
-    scatter = _scatter(path, tables)
+    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
+    pull = read_as(_Pull, tables.get(PULL), reading, PULL)
+    scatter = (
+        read_as(WindowScatter, tables[SCATTER], reading, SCATTER) if SCATTER in tables else None
+    )
     # speed and preload of the map replace these
-    protocol = {"preload_force": f"{preloads[0]!r} N", "speed": f"{speeds[0]!r} m/s"}
+    protocol = {"preload_force": f"{pull.preloads[0]!r} N", "speed": f"{pull.speeds[0]!r} m/s"}
 
     def contact(name: str, temperature: float | None) -> Problem:
         if not isinstance(tables[name], Mapping):
@@ -117,34 +142,36 @@ def read_window(
             {**tables[name], "protocol": protocol},
             where=f"{path}, [{name}]",
             also=also,
-            beside=beside or path.parent.joinpath,
+            beside=reading.beside,
             temperature=temperature if _has_passport(tables[name]) else None,
         )
 
     if STAMP not in tables or not {DONOR, RECEIVER} & tables.keys():
         raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
     names = [name for name in (STAMP, DONOR, RECEIVER) if name in tables]
-    if temperatures != (None,):
+    for base in {DONOR, RECEIVER} & tables.keys():
+        if scatter is not None:
+            try:
+                scatter.of(base)
+            except InputError as error:
+                raise InputError(f"{path}, [{SCATTER}] {error}") from None
+    if pull.temperatures != (None,):
         _check_shifted(path, tables, names)
     variants = []
-    for temperature, dwell in product(temperatures, dwells):
-        known = {name: contact(name, temperature) for name in names}
+    for temperature, dwell in product(pull.temperatures, pull.dwells):
+        contacts = {name: contact(name, temperature) for name in names}
         if dwell is not None:
-            _check_aged(path, known.values())
-            known = {name: aged(each, dwell) for name, each in known.items()}
-        bases = known.get(DONOR), known.get(RECEIVER)
-        file = WindowFile(known[STAMP], *bases, speeds, preloads, stiffness, scatter)
+            _check_aged(path, contacts.values())
+            contacts = {name: aged(each, dwell) for name, each in contacts.items()}
+        bases = contacts.get(DONOR), contacts.get(RECEIVER)
+        file = WindowFile(
+            contacts[STAMP], *bases, pull.speeds, pull.preloads, pull.stiffness, scatter
+        )
         variants.append((temperature, dwell, file))
     first = variants[0][-1]
-    if temperatures == (None,) == dwells:
+    if pull.temperatures == (None,) == pull.dwells:
         return first
     return replace(first, variants=tuple(variants))
-
-
-def _several(table: Table, key: str, unit: str, example: str) -> tuple[float | None, ...]:
-    """Return the numbers of an optional key; one None without it."""
-    table.known.add(key)
-    return _numbers(table, key, unit, example) if key in table.values else (None,)
 
 
 def _check_aged(path: Path, contacts: Iterable[Problem]) -> None:
@@ -171,32 +198,3 @@ def _check_shifted(path: Path, tables: Mapping[str, Any], names: list[str]) -> N
                 f"{path}: temperatures need the shift of the times of [{name}.material]; state it "
                 'by a passport, passport = "pdms.toml"'
             )
-
-
-def _scatter(path: Path, tables: Mapping[str, Any]) -> WindowScatter | None:
-    """Return the relative standard deviations of a table [scatter]."""
-    if SCATTER not in tables:
-        return None
-    table = Table(path, SCATTER, tables)
-    names = (STAMP, DONOR, RECEIVER, "preload")
-    table.known |= set(names)
-    found = {name: table.quantity(name, "1", "0.1") for name in names if name in table.values}
-    table.finish()
-    for base in {DONOR, RECEIVER} & tables.keys():
-        table.make(WindowScatter(**found).of, base)
-    return WindowScatter(**found)
-
-
-def _numbers(table: Table, key: str, unit: str, example: str) -> tuple[float, ...]:
-    """Return a quantity, a list of them, or the numbers of a range "1 um/s..1 mm/s"."""
-    given = table.get(key, example)
-    if isinstance(given, str) and _TO in given:
-        low, high = (table.parsed(key, end.strip(), unit) for end in given.split(_TO, 1))
-        if not 0 < low < high:
-            raise InputError(f"{table.name} {key}: a range begins above 0, got {given!r:.60}")
-        count = min(1 + round(_PER_DECADE * np.log10(high / low)), _MOST)
-        return tuple(float(x) for x in np.geomspace(low, high, max(count, 2)))
-    several = given if isinstance(given, list) else [given]
-    if not several:
-        raise InputError(f"{table.name} {key} is empty; write for example {key} = {example}")
-    return tuple(table.parsed(key, each, unit) for each in several)

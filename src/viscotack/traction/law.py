@@ -1,7 +1,7 @@
 """Protocol of traction laws, and measures of their range."""
 
 from functools import lru_cache
-from typing import Annotated, Protocol
+from typing import Annotated, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,7 @@ _STRENGTH = 16 / (9 * 3**0.5)
 _SMALL_FALL, _HALVINGS = 0.02, 20
 
 
+@runtime_checkable
 class Traction(Protocol):
     """Protocol of a traction law for type checkers; a dataclass with these names is a law.
 

@@ -182,7 +182,7 @@ export class Fields {
     for (const field of fields) {
       if (field.key in known) found[field.key] = known[field.key];
       else if (field.or && field.or.key in known) found[field.or.key] = known[field.or.key];
-      else if (!field.optional) found[field.key] = field.kind === "pairs" ? JSON.parse(field.example) : plain(field.example);
+      else if (!field.optional) found[field.key] = field.kind === "pairs" ? JSON.parse(field.example) : field.example;
     }
     return found;
   }
@@ -221,7 +221,7 @@ export class Fields {
       slider.value = scale.of(quantity.number);
       ends.forEach((end, i) => { end.textContent = said(scale.ends[i], quantity.unit, 2); });
     };
-    input.addEventListener("change", () => this.store.set(table, card.key, input.value.trim() === "" ? null : plain(input.value.trim())));
+    input.addEventListener("change", () => this.store.set(table, card.key, input.value.trim() === "" ? null : input.value.trim()));
     slider.addEventListener("input", (event) => {
       dragging = true;
       this.store.set(table, card.key, written({ ...quantity, number: scale.at(Number(slider.value)) }), { began: event.timeStamp });
@@ -241,7 +241,7 @@ export class Fields {
     button.addEventListener("click", () => {
       const tables = structuredClone(this.store.tables);
       delete tables[table][card.key];
-      tables[table][card.or.key] = plain(card.or.example);
+      tables[table][card.or.key] = card.or.example;
       this.store.take(tables);
     });
     return button;
@@ -308,9 +308,4 @@ export function selection(label, options, value) {
     select.append(option);
   }
   return select;
-}
-
-// A pure number is one; everything else stays text.
-export function plain(text) {
-  return /^[+-]?(0|[1-9]\d*)(\.\d+)?(e[+-]?\d+)?$/i.test(text) ? Number(text) : text;
 }

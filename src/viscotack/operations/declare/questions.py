@@ -37,10 +37,10 @@ from viscotack.materials.passport import Passport
 from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, plane, revolution
 from viscotack.problem.case_file import moved
-from viscotack.problem.case_table import OWN
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.prony_file import read_prony
+from viscotack.problem.tables import OWN
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start, check_number_of_moves
 from viscotack.protocol.words import PURE_NUMBERS, move_from_words
 from viscotack.theory.elastic.relaxed import radius_without_adhesion

@@ -1,7 +1,7 @@
 """Problems as options: defined by numbers, a case file, its tables, or a Python object."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -71,9 +71,10 @@ class Statement:
 
 @dataclass(frozen=True)
 class Stated(Card):
-    """A problem: an object, a case file, its tables, a record, or numbers.
+    """A problem: an object, a case file, its tables, or numbers.
 
-    Numbers are a mapping with the word of an indenter and its answers: ``{"indenter": "sphere",
+    Tables may have numbers without units, in SI. Numbers are a mapping with the word of an
+    indenter and its answers: ``{"indenter": "sphere",
     "tabor": 3.24, "modulus_ratio": 0.1, ...}``; ``{"case": FILE, "temperature": "0 degC"}`` moves
     the material of a case.
 
@@ -116,19 +117,15 @@ class Stated(Card):
             return self._of_case(value, place)
         if _INDENTER in value:
             return self._of_numbers(value, place)
-        if "type" in value:
-            from viscotack.problem.record import from_dict
+        from viscotack.problem.case_file import passport_of_tables
+        from viscotack.problem.record import from_dict
 
-            return Statement(
-                _placed(self._checked(from_dict(value, place.also)), place), given=value
-            )
-        from .state import State
-
-        state = State(value, place.also)
-        return Statement(state.problem, given=value, passport=state.passport)
+        problem = self._checked(from_dict(value, place.also, beside=place.file))
+        passport, deviation = passport_of_tables(value, also=place.also, beside=place.file)
+        return Statement(problem, deviation, value, passport)
 
     def written(self, value: Statement) -> Any:
-        """Return the input of the user, or the record of the problem."""
+        """Return the input of the user, or the tables of the problem."""
         if isinstance(value.given, Mapping):
             said = {name: entry for name, entry in value.given.items() if entry is not None}
             return {
@@ -151,7 +148,7 @@ class Stated(Card):
 
     @property
     def schema(self) -> dict[str, Any]:
-        """The tables of a case, a record, or the numbers of an indenter."""
+        """The tables of a case, or the numbers of an indenter."""
         return {"$ref": "#/components/schemas/Stated"}
 
     def _checked(self, problem: Any) -> Any:
@@ -235,14 +232,6 @@ def indenter_of(problem: Any) -> str:
 
     is_profile = isinstance(problem.geometry, Cone | MeasuredProfile)
     return "profile" if is_profile else problem.geometry.word
-
-
-def _placed(problem: Any, place: Place) -> Any:
-    """Return a problem of a record, whose map must be a file that the request may read."""
-    surface = getattr(problem, "surface", None)
-    if surface is None or not surface.file:
-        return problem
-    return replace(problem, surface=replace(surface, file=str(place.file(surface.file))))
 
 
 def _answered(question: "Question", answer: Any) -> Any:
