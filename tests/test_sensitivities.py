@@ -56,7 +56,8 @@ def test_inputs_have_the_paths_of_campaigns():
 def test_inputs_of_a_user_defined_law_can_change():
     (morse,) = own_nouns([Path(__file__).parents[1] / "examples" / "own" / "morse.py"])
     law = morse(**{name: 1.0 for name in cards(morse)})
-    assert any(name.startswith("interface.") for name in changed_inputs(replace(PULL, traction=law)))
+    names = changed_inputs(replace(PULL, traction=law))
+    assert any(name.startswith("interface.") for name in names)
 
 
 def test_an_input_is_changed_to_both_sides_within_its_range():
