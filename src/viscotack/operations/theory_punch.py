@@ -179,15 +179,17 @@ class OfPad(Operation):
     def _of_case(self, case: Placed) -> Any:
         """Return the problem of a case file."""
         from viscotack.geometry import FlatPunch
+        from viscotack.problem import Groups
         from viscotack.problem.case_file import read_case
 
         if self._given:
             flags = ", ".join(f"--{flag}" for flag in self._given)
             raise InputError(f"{case.path} defines the whole problem; remove {flags}")
         problem = read_case(case.path, beside=case.inside.file)
-        if not isinstance(problem.geometry, FlatPunch):
+        if not isinstance(problem.geometry, FlatPunch) or isinstance(problem, Groups):
             raise InputError(
-                f"{case.path} states a {problem.geometry.word}; this command needs a flat punch"
+                f"{case.path} states a {problem.geometry.word} or no units; this command needs a "
+                "flat punch in SI"
             )
         return problem
 

@@ -38,7 +38,7 @@ from viscotack.materials.words import FITS_ONLY, word_of
 from viscotack.problem import plane, revolution
 from viscotack.problem.law_table import law_from_table, table_of_law
 from viscotack.problem.nouns import known
-from viscotack.problem.problem import Groups, Problem
+from viscotack.problem.problem import Case, Groups, Problem
 from viscotack.problem.prony_file import read_prony
 from viscotack.problem.protocol_table import (
     protocol_from_table,
@@ -64,8 +64,8 @@ def read_case(
     also: Iterable[Any] = (),
     temperature: float | None = None,
     beside: Callable[[str], Path] | None = None,
-) -> Problem:
-    """Read a problem in SI from a TOML file.
+) -> Case:
+    """Read a problem from a TOML file, in SI or with the table [groups] dimensionless.
 
     Parameters
     ----------
@@ -83,8 +83,8 @@ def read_case(
 
     Returns
     -------
-    Problem
-        The problem in SI.
+    Problem or Groups
+        The problem, in SI or dimensionless.
 
     Raises
     ------
@@ -121,13 +121,11 @@ def read_case(
     Sphere(radius=0.001)
     """
     path = Path(path)
-    return case_of_tables(
-        read_toml(path),
-        where=str(path),
-        also=also,
-        beside=beside or path.parent.joinpath,
-        temperature=temperature,
-    )
+    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
+    problem = problem_of(read_toml(path), reading, temperature)
+    if isinstance(problem, RoughCase):
+        raise InputError(f"{path} states a map of heights; read it with viscotack.rough.read_rough")
+    return problem
 
 
 def case_of_tables(
@@ -179,7 +177,7 @@ def case_of_tables(
     """
     problem = problem_of(tables, Reading(where, known(also), beside), temperature)
     if not isinstance(problem, Problem):
-        raise InputError(f"{where} must state a problem in SI with a shape, not a {type(problem)}")
+        raise InputError(f"{where} must state a shape and a test in SI, [protocol]")
     return problem
 
 
@@ -425,7 +423,8 @@ def _material(given: Any, reading: Reading, temperature: float | None) -> Materi
         implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
         table = {k: v for k, v in implied.items() if k in cards(kind)} | table
         if "modulus_ratio" in table:
-            ratio = reading.number(card_of(ModulusRatio), table.pop("modulus_ratio"))
+            given, name = table.pop("modulus_ratio"), "modulus_ratio"
+            ratio = reading.key("material", name, card_of(ModulusRatio), given)
             table["glassy_modulus"] = 1 / ratio
     return read_as(kind, table, reading, "material")
 

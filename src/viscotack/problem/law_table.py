@@ -55,10 +55,7 @@ def _of_gap(kind: Any, table: Mapping[str, Any], reading: Reading) -> Traction:
             "give only one"
         )
     table = dict(table)
-    try:
-        strength = reading.number(STRENGTH, table.pop("strength"))
-    except InputError as error:
-        raise InputError(f"{reading.where}, [interface] strength: {str(error).strip()}") from None
+    strength = reading.key("interface", "strength", STRENGTH, table.pop("strength"))
     law: Any = read_as(kind, table | {"equilibrium_gap": "1 m"}, reading, "interface")
     gap = kind(**{**vars(law), "work_of_adhesion": 1.0, "equilibrium_gap": 1.0}).strength
     return kind(**{**vars(law), "equilibrium_gap": gap * law.work_of_adhesion / strength})

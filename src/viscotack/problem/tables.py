@@ -24,6 +24,8 @@ T = TypeVar("T")
 
 # Hint for unknown laws, materials and shapes.
 OWN = "; give a user-defined one with --with FILE.py, in Python with also="
+# Beginnings of a message that follow the name of a key without a colon.
+_DIRECT = ("must ", "has no unit")
 # Tables of one kind of file: the command that reads it, and what it has.
 _ELSEWHERE = {
     "surface": ("rough", "a map of heights"),
@@ -88,6 +90,15 @@ class Reading:
             (self.parsed(x, units[0], card.example), self.parsed(y, units[1], card.example))
             for x, y in value
         )
+
+    def key(self, table: str, key: str, card: Quantity, value: Any) -> float:
+        """Return the number of a key that is no field of the table's class."""
+        try:
+            return self.number(card, value)
+        except InputError as error:
+            words = str(error).strip()
+            joint = " " if words.startswith(_DIRECT) else ": "
+            raise InputError(f"{self.where}, [{table}] {key}{joint}{words}") from None
 
     def parsed(self, value: Any, unit: str, example: str = "") -> float:
         """Return a number in a unit."""
@@ -203,7 +214,7 @@ def _words(kind: Any, error: "ValidationError", reading: Reading) -> str:
     words = str(first.get("ctx", {}).get("error", first["msg"])).strip()
     if not key:
         return words
-    joint = " " if words.startswith(("must ", "has no unit")) else ": "
+    joint = " " if words.startswith(_DIRECT) else ": "
     return f"{key}{joint}{words}"
 
 

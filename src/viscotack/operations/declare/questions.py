@@ -173,6 +173,7 @@ class Indenter:
             *([Question("bonded", _GLUED)] if "thickness" in numbers else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
             Question("temperature", f"{_TEMPERATURE} {_ALONE}", text=True),
+            _SET,
             Question("modulus-ratio", question_of(card_of(ModulusRatio))),
             Question("exponent", question_of(_SOLID["exponent"].card)),
         ]
@@ -251,7 +252,14 @@ DISC = Indenter(
 )
 PUNCH = Indenter("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
 # Of a problem that a file states whole.
-OF_FILE = (Question("temperature", _TEMPERATURE, text=True),)
+_SET = Question(
+    "set",
+    'Replace a number of CASE.toml, sphere.radius="6 mm"; `viscotack campaign inputs CASE.toml` '
+    "lists the names. Repeatable.",
+    text=True,
+    many=True,
+)
+OF_FILE = (Question("temperature", _TEMPERATURE, text=True), _SET)
 
 
 def stated(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 # Words of what can be stated by numbers.
 INDENTERS = ("sphere", "punch", "profile", "disc")
 # Keys of a statement by numbers, and of one by a file.
-_INDENTER, _CASE, _TEMPERATURE = "indenter", "case", "temperature"
+_INDENTER, _CASE, _TEMPERATURE, _SET = "indenter", "case", "temperature", "set"
 # Answers that may name a file.
 _NAMING = {
     "material": Spelled("", before=("prony:",), endings=(".toml",), objects=(Passport,)),
@@ -157,48 +157,50 @@ class Stated(Card):
         if not isinstance(problem, (Problem, Groups, *((RoughCase,) if self.rough else ()))):
             raise InputError(
                 "problem must be a Problem or Groups, a case file or its tables, got a "
-                f"{type(problem).__name__}"
+                f"{type(problem).__name__}; `viscotack rough` reads a map of heights"
             )
         return problem
 
     def _of_case(self, value: Mapping[str, Any], place: Place) -> Statement:
         from viscotack.files.toml import read_toml
-        from viscotack.problem.case_file import case_of_tables, passport_of_tables
-        from viscotack.rough import read_rough_case
+        from viscotack.problem.case_file import passport_of_tables, problem_of
+        from viscotack.problem.nouns import known
+        from viscotack.problem.tables import Reading
 
         from .questions import given_of, temperature_of
 
         case = place.file(str(value[_CASE]))
         given = given_of(value)
-        flags = [flag(name) for name in given if name not in (_CASE, _TEMPERATURE, _INDENTER)]
+        flags = [flag(name) for name in given if name not in (_CASE, _TEMPERATURE, _SET, _INDENTER)]
         if flags:
             raise InputError(f"{case} defines the whole problem; remove {', '.join(flags)}")
         kelvin = temperature_of(given)
         beside = place.within(case).file
         tables = read_toml(case)
-        if self.rough and "surface" in tables:
-            if given.keys() - {_CASE}:
-                raise InputError(f"{case} states the whole test of a map; remove the options")
-            stated: Any = read_rough_case(case, also=place.also, beside=beside)
-            return Statement(stated, given=case)
-        said: Any = {
-            "where": str(case),
-            "also": place.also,
-            "temperature": kelvin,
-            "beside": beside,
-        }
-        problem = case_of_tables(tables, **said)
+        reading = Reading(str(case), known(place.also), beside)
+        problem = self._checked(problem_of(tables, reading, kelvin))
+        if _SET in given:
+            problem = _with_numbers(problem, given[_SET], tables)
+        passport, deviation = passport_of_tables(
+            tables, where=str(case), also=place.also, temperature=kelvin, beside=beside
+        )
+        stated = Statement(
+            problem, deviation, {**given, _CASE: case} if len(given) > 1 else case, passport
+        )
+        if not hasattr(problem, "geometry"):  # a map of heights
+            return stated
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
             command = found if found in INDENTERS else "case"
             raise InputError(f"{case} contains a {found}; use viscotack simulate {command} {case}")
-        passport, deviation = passport_of_tables(tables, **said)
-        return Statement(problem, deviation, {**given, _CASE: case} if kelvin else case, passport)
+        return stated
 
     def _of_numbers(self, value: Mapping[str, Any], place: Place) -> Statement:
         from .questions import given_of, passport_at, stated
 
         word = value[_INDENTER]
+        if value.get(_SET):
+            raise InputError("--set replaces a number of a file; give the option itself")
         if word not in self.indenters:
             raise InputError(
                 f"indenter must be one of {', '.join(self.indenters)}, got {word!r:.60}"
@@ -217,6 +219,30 @@ class Stated(Card):
         said = {n.replace("-", "_"): v for n, v in given.items()}
         passport, deviation = passport_at(given, place.also)
         return Statement(problem, deviation, {_INDENTER: word, **said}, passport)
+
+
+def _with_numbers(problem: Any, said: Any, tables: Mapping[str, Any]) -> Any:
+    """Return a problem with numbers replaced, each as ``sphere.radius=6 mm``."""
+    from viscotack.problem import Groups
+    from viscotack.problem.inputs import changed, inputs_of
+    from viscotack.units import parse
+
+    known, values = inputs_of(problem), dict[str, float]()
+    for words in [said] if isinstance(said, str) else said:
+        name, equals, text = (part.strip() for part in str(words).partition("="))
+        if not equals or name not in known:
+            raise InputError(
+                f'--set must name a number of the file, sphere.radius="6 mm", got {words!r:.60}; '
+                f"it has {', '.join(known)}"
+            )
+        if name.startswith("material.") and "passport" in tables["material"]:
+            raise InputError(f"--set {name}: the passport defines the whole material")
+        unit = "1" if isinstance(problem, Groups) else known[name].unit
+        try:
+            values[name] = known[name].card.checked(name, parse(text, unit), unit)
+        except InputError as error:
+            raise InputError(f"--set {name}: {error}") from None
+    return changed(problem, values)
 
 
 def indenter_named(word: str) -> "Indenter":
