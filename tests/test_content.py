@@ -205,7 +205,7 @@ def test_a_column_and_its_unit_are_chosen_by_heading_or_number(file):
         ("hardness=1", "--columns must be like"),
         ("storage=G1 [Pa]", "no column 'G1'"),
         ("storage=G' [kPa]", 'the file states Pa for "G\'", but --columns kPa'),
-        ("storage=2; loss=2", '--columns has "G\'" as storage and as loss'),
+        ("storage=2; loss=2", '"G\'" is chosen as storage and as loss'),
     ],
 )
 def test_a_wrong_choice_of_columns_is_refused(file, columns, words):

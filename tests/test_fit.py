@@ -18,11 +18,11 @@ from viscotack.lab import (
     read_dma,
     read_relaxation,
 )
-from viscotack.lab.fit_passport import issued
-from viscotack.lab.fit_power_law import fit_constants
-from viscotack.lab.fit_prony import fit_series
-from viscotack.lab.fitting import Tried, _alike
-from viscotack.lab.observed import observed
+from viscotack.lab.fit.fitting import Tried, _alike
+from viscotack.lab.fit.observed import observed
+from viscotack.lab.fit.passport import issued
+from viscotack.lab.fit.power_law import fit_constants
+from viscotack.lab.fit.prony import fit_series
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
 from viscotack.materials import (

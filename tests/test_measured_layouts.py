@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 import lab_files
 from viscotack.lab import read, read_dma, read_shifts
-from viscotack.lab.quantities import recognise
+from viscotack.lab.formats.headings import recognise
 
 
 @pytest.fixture
@@ -83,7 +83,7 @@ def test_two_columns_of_equal_content_are_merged(file):
     rows = "1, 3, 0.4, 20.0, 20.1\n2, 4, 0.5, 20.0, 20.1\n"
     names = "f, E', E'', Temp, Temp\nHz, MPa, MPa, C, C\n"
     assert 'two equal columns; "Temp" is used' in notes(read_dma(file(names + rows)))
-    with pytest.raises(ValueError, match='two columns of one quantity: "Temp" and "Temp"'):
+    with pytest.raises(ValueError, match='"Temp" and "Temp"'):
         read_dma(file(names + rows.replace("20.1\n2", "25.1\n2")))
 
 
@@ -163,7 +163,7 @@ def test_steps_of_reptate_stand_in_its_first_line(file):
     creep = read(file("T=20;stress=50;\nt strain\ns -\n0 0\n1 0.001\n2 0.002\n", "melt.creep"))
     assert_allclose(creep.compliance, [2e-5, 4e-5])
     assert creep.stress == 50
-    with pytest.raises(ValueError, match="line 1: the first line must state the step.*stress=100"):
+    with pytest.raises(ValueError, match="line 1.*stress=100"):
         read(file("T=20;Mw=3;\n1 0.001\n", "melt.creep"))
     with pytest.raises(ValueError, match="recovery after creep"):
         read(file("T=20;stress=50;rec=1;\nt strain stress\n1 0.001\n", "melt.creep"))

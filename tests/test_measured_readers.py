@@ -16,8 +16,8 @@ from viscotack.lab import (
     read_relaxations,
     read_shifts,
 )
+from viscotack.lab.formats.headings import kelvin, recognise
 from viscotack.lab.grouping import grouped
-from viscotack.lab.quantities import kelvin, recognise
 
 
 @pytest.fixture

@@ -98,7 +98,7 @@ PLAIN = tack_files.plain(WHOLE)
 REFUSED = {
     "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
     "no time": (PLAIN.replace(b"Time [s]", b"Number"), "--nominal-speed"),
-    "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "has the columns of a tack test"),
+    "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "--force-column"),
     "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
     "few rows": (b"\r\n".join(PLAIN.split(b"\r\n")[:10]) + b"\r\n", "at least 20 are needed"),
     "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells under"),

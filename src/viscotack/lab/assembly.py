@@ -11,15 +11,15 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .columns import Columns
 from .diagnosis import cause, form_of, has_sweep
+from .formats.columns import MaterialColumns
+from .formats.file import LabFile
+from .formats.tables import Table, refuse_pooled
+from .formats.unit_checks import doubtful_modulus
 from .grouping import GAP, grouped
 from .joining import numbered_on
-from .lab_file import LabFile
 from .options import Options
 from .sweeps import FrequencySweeps, Source
-from .tables import Table, refuse_pooled
-from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
 _ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
@@ -34,7 +34,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
-        columns = Columns(file, table, given)
+        columns = MaterialColumns(file, table, given)
         if not table.rows or not has_sweep(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
@@ -66,7 +66,7 @@ def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted:
         "relaxation": "a time and a modulus (or stress and strain)",
         "creep": "a time and a compliance (or stress and strain)",
     }
-    every = [Columns(file, table, replace(given, kind=None)) for table in tables]
+    every = [MaterialColumns(file, table, replace(given, kind=None)) for table in tables]
     why = cause(every, wanted, given.kind)
     return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
@@ -81,7 +81,7 @@ def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
     return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: Columns, given: Options) -> FrequencySweeps:
+def _part(columns: MaterialColumns, given: Options) -> FrequencySweeps:
     """Return the sweeps of one table."""
     form = form_of(columns)
     assert form is not None, "checked by the caller"
@@ -121,7 +121,7 @@ def _part(columns: Columns, given: Options) -> FrequencySweeps:
     return FrequencySweeps(**values, kind=kind)
 
 
-def _moduli(columns: Columns, form: tuple[str, str], omega: Array) -> tuple[Array, Array]:
+def _moduli(columns: MaterialColumns, form: tuple[str, str], omega: Array) -> tuple[Array, Array]:
     """Return storage and loss modulus [Pa], from two columns that determine them."""
     one, other = form
     if form == ("storage", "loss"):
@@ -144,7 +144,7 @@ def _moduli(columns: Columns, form: tuple[str, str], omega: Array) -> tuple[Arra
     return size * np.cos(angle), size * np.sin(angle)
 
 
-def _tangent(columns: Columns) -> Array:
+def _tangent(columns: MaterialColumns) -> Array:
     """Return tan(delta), from its column or from the loss angle."""
     if "tan_delta" in columns:
         return columns.numbers("tan_delta")
@@ -160,7 +160,7 @@ def _tangent(columns: Columns) -> Array:
 
 
 def refuse_what_is_lacking(
-    columns: Columns, given: Options, moduli: Sequence[str], *quantities: str
+    columns: MaterialColumns, given: Options, moduli: Sequence[str], *quantities: str
 ) -> None:
     """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
@@ -176,7 +176,7 @@ def refuse_what_is_lacking(
         raise columns.error(f"the file does not state {what}{'; ' * bool(flags)}{example}")
 
 
-def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:
+def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict[str, Array]:
     """Remove rows that repeat an earlier row exactly."""
     rows = np.column_stack(list(values.values()))
     _, first = np.unique(rows, axis=0, return_index=True)
@@ -185,7 +185,7 @@ def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Ar
     return {name: column[np.sort(first)] for name, column in values.items()}
 
 
-def kind_of(columns: Columns, given: Options, *quantities: str) -> str:
+def kind_of(columns: MaterialColumns, given: Options, *quantities: str) -> str:
     """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
     said = columns.kind(*quantities)
     if said is not None and given.kind is not None and said != given.kind:
@@ -193,7 +193,7 @@ def kind_of(columns: Columns, given: Options, *quantities: str) -> str:
     return said or given.kind or ""
 
 
-def temperatures(columns: Columns, given: Options) -> Array:
+def temperatures(columns: MaterialColumns, given: Options) -> Array:
     """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
     temperature = columns.temperature()
     if given.temperature is None:
@@ -203,7 +203,7 @@ def temperatures(columns: Columns, given: Options) -> Array:
     return np.full(temperature.size, given.temperature)
 
 
-def kept(columns: Columns, *positive: Array) -> npt.NDArray[np.bool_]:
+def kept(columns: MaterialColumns, *positive: Array) -> npt.NDArray[np.bool_]:
     """Return a mask of the usable rows, and note how many were rejected and why."""
     lines = np.array([line for line, _ in columns.table.rows])
     missing = ~columns.keep
@@ -217,7 +217,7 @@ def kept(columns: Columns, *positive: Array) -> npt.NDArray[np.bool_]:
     return keep
 
 
-def refuse_stiffer_than_diamond(columns: Columns, modulus: Array) -> None:
+def refuse_stiffer_than_diamond(columns: MaterialColumns, modulus: Array) -> None:
     """Raise an error if a modulus exceeds that of diamond, because its unit must be wrong."""
     for row in np.flatnonzero(modulus > STIFFEST):
         raise columns.error(
@@ -226,7 +226,7 @@ def refuse_stiffer_than_diamond(columns: Columns, modulus: Array) -> None:
         )
 
 
-def _agree(columns: Columns, storage: Array, loss: Array) -> None:
+def _agree(columns: MaterialColumns, storage: Array, loss: Array) -> None:
     """Raise an error if tan(delta) or |E*| contradicts the storage and loss modulus of its row."""
     digits = [columns.resolution(name) * columns.factor(name) for name in ("storage", "loss")]
     sizes = np.hypot(storage, loss)
@@ -239,7 +239,9 @@ def _agree(columns: Columns, storage: Array, loss: Array) -> None:
         _same(columns, "magnitude", columns.factor("magnitude"), sizes, digits[0] + digits[1])
 
 
-def _same(columns: Columns, name: str, factor: float, expected: Array, slack: Array) -> None:
+def _same(
+    columns: MaterialColumns, name: str, factor: float, expected: Array, slack: Array
+) -> None:
     found = factor * columns.numbers(name, needed=False)
     slack = slack + factor * columns.resolution(name)
     off = np.abs(found - expected)

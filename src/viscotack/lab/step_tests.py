@@ -20,14 +20,14 @@ from .assembly import (
     source_of,
     temperatures,
 )
-from .columns import Columns
 from .diagnosis import test_of
+from .formats.columns import MaterialColumns
+from .formats.file import LabFile
+from .formats.tables import Table, refuse_pooled
+from .formats.unit_checks import doubtful_modulus
 from .grouping import levels
-from .lab_file import LabFile
 from .options import Options
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
-from .tables import Table, refuse_pooled
-from .unit_checks import doubtful_modulus
 
 Test = TypeVar("Test", RelaxationTest, CreepTest)
 # test -> measured quantity, numerator and denominator if it is not a column, and its name
@@ -61,7 +61,7 @@ class _Rows:
     values: Array
     temperature: Array
     kind: str
-    columns: Columns
+    columns: MaterialColumns
 
 
 def _test(kind: type[Test], file: LabFile, format: str, rows: _Rows) -> Test:
@@ -112,7 +112,7 @@ def _by_temperature(rows: _Rows) -> list[_Rows]:
 def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
     """Return the shift factors of a file, as log10."""
     for table in tables:
-        columns = Columns(file, table, given)
+        columns = MaterialColumns(file, table, given)
         if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
             break
     else:
@@ -141,7 +141,7 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable
     return table
 
 
-def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
+def _refuse_inverse(columns: MaterialColumns, table: ShiftTable) -> None:
     """Raise an error if shifts rise with temperature, because they are 1/a_T."""
     if len(table) > 1 and np.all(np.diff(table.log10_shift) > 0):
         raise columns.error(
@@ -155,7 +155,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
-        columns = Columns(file, table, given)
+        columns = MaterialColumns(file, table, given)
         timed = "time" in columns or "step_time" in columns
         known = under in columns or under in table.levels
         if table.rows and timed and (wanted in columns or (over in columns and known)):
@@ -205,12 +205,12 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
 
 
-def _refuse_late_start(columns: Columns, time: Array) -> None:
+def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
     """Raise an error if time continues from the table before and is no time since the step."""
     previous = columns.table.before
     if previous is None or previous.sheet != columns.table.sheet or not np.isfinite(time).any():
         return
-    before = Columns(columns.file, previous, columns.options)
+    before = MaterialColumns(columns.file, previous, columns.options)
     if "time" not in before:
         return
     try:
@@ -226,7 +226,7 @@ def _refuse_late_start(columns: Columns, time: Array) -> None:
         )
 
 
-def _ratio(columns: Columns, over: str, under: str) -> Array:
+def _ratio(columns: MaterialColumns, over: str, under: str) -> Array:
     """Return stress over strain or its inverse; the step may be stated once in the file."""
     numerator = columns.si(over)
     if under not in columns:
@@ -236,7 +236,7 @@ def _ratio(columns: Columns, over: str, under: str) -> Array:
     return numerator / np.where(denominator == 0, math.nan, denominator)
 
 
-def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> None:
+def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: str) -> None:
     """Remove the points before and after the step; raise an error if there is no step."""
     if quantity not in columns:
         return
@@ -254,7 +254,7 @@ def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> N
     columns.keep &= held
 
 
-def _level(columns: Columns, quantity: str) -> float | None:
+def _level(columns: MaterialColumns, quantity: str) -> float | None:
     """Return the median of a column held constant by the instrument, in SI."""
     if quantity not in columns:
         return columns.table.levels.get(quantity)
@@ -263,7 +263,7 @@ def _level(columns: Columns, quantity: str) -> float | None:
     return float(np.median(values)) if values.size else None
 
 
-def _log10(columns: Columns, quantity: str) -> Array:
+def _log10(columns: MaterialColumns, quantity: str) -> Array:
     values = columns.numbers(quantity)
     for row in np.flatnonzero(values <= 0):
         raise columns.error(

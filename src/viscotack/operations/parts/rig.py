@@ -52,10 +52,10 @@ class Unit(Text):
 
     def read(self, value: Any, place: Place) -> str:
         """Return the unit, which must be one of the quantity."""
-        from viscotack.lab.tack.headings import factor
+        from viscotack.lab.formats.headings import UNITS, scale
 
         words = super().read(value, place)
-        factor(words, self.of)
+        scale(words, UNITS[self.of])
         return words
 
 
