@@ -424,13 +424,3 @@ def test_published_relaxation_master_curve_is_met():
     data = read_relaxation(DMA / "time_user_master.csv")
     report = fit(data, poisson_ratio=0.35, model="prony", draws=0)
     assert report.median_error < 0.003
-
-
-# ---- report, passport, picture -----------------------------------------------------------------
-
-
-def liquid(decades):
-    """Return a relaxation test of a liquid with one relaxation time, over decades of modulus."""
-    time = np.geomspace(0.1, 10 * decades * np.log(10), 50)
-    scatter = np.exp(0.02 * np.random.default_rng(0).standard_normal(50))
-    return RelaxationTest(time, 1e6 * np.exp(-time / 10) * scatter, "E")
