@@ -12,12 +12,12 @@ from viscotack.geometry import Sphere
 from viscotack.identify import PullOff, identify_rates
 from viscotack.lab import (
     fit,
-    fit_errors,
     master_curve,
-    nonnegative,
     read_dma,
     read_relaxation,
 )
+from viscotack.lab.fit import errors as fit_errors
+from viscotack.lab.fit import nonnegative
 from viscotack.lab.fit.fitting import Tried, _alike
 from viscotack.lab.fit.observed import observed
 from viscotack.lab.fit.passport import issued

@@ -3,9 +3,8 @@
 from viscotack.materials.shift import FittedShift as ShiftFit
 
 from .fit.fitting import fit
-from .fit.in_time import superposed
 from .fit.kramers_kronig import Consistency, consistency, loss_from_storage
-from .fit.master_curve import master_curve
+from .fit.master_curve import master_curve, superposed
 from .fit.passport import issued
 from .fit.report import FitReport
 from .fit.shift_factors import shift_factors

@@ -10,6 +10,7 @@ are multiplied by 10^log10_vertical to give those at the reference temperature.
 """
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
@@ -57,8 +58,37 @@ class Source:
         return replace(self, notes=(*self.notes, *notes))
 
 
+class _Moduli:
+    """What sweeps and master curves have in common: storage and loss modulus."""
+
+    storage: Array
+    loss: Array
+
+    def __len__(self) -> int:
+        return self.storage.size
+
+    @property
+    def complex_modulus(self) -> Complex:
+        """Storage + i loss [Pa], shape (N,)."""
+        return self.storage + 1j * self.loss
+
+    def chosen(self, points: npt.ArrayLike) -> Self:
+        """Select points, by indices or by a mask of shape (N,)."""
+        return arrays.chosen(self, points)
+
+    def in_tension(self, poisson_ratio: float) -> Self:
+        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
+
+        Parameters
+        ----------
+        poisson_ratio : float
+            nu, in [0, 0.5], the same at every frequency.
+        """
+        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
+
+
 @dataclass(frozen=True, eq=False)
-class FrequencySweeps:
+class FrequencySweeps(_Moduli):
     """Storage and loss modulus over frequency, at one or more temperatures.
 
     Parameters
@@ -107,18 +137,10 @@ class FrequencySweeps:
         )
         arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
 
-    def __len__(self) -> int:
-        return self.storage.size
-
     @property
     def ids(self) -> tuple[int, ...]:
         """Sweep numbers, ascending."""
         return tuple(int(number) for number in np.unique(self.sweep))
-
-    @property
-    def complex_modulus(self) -> Complex:
-        """Storage + i loss [Pa], shape (N,)."""
-        return self.storage + 1j * self.loss
 
     def at(self, sweep: int) -> "FrequencySweeps":
         """Return one sweep, in ascending order of frequency."""
@@ -133,20 +155,6 @@ class FrequencySweeps:
         if unknown:
             raise InputError(f"no sweep {min(unknown)}; available: {list(self.ids)}")
         return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
-
-    def chosen(self, points: npt.ArrayLike) -> "FrequencySweeps":
-        """Select points, by indices or by a mask of shape (N,)."""
-        return arrays.chosen(self, points)
-
-    def in_tension(self, poisson_ratio: float) -> "FrequencySweeps":
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
-
-        Parameters
-        ----------
-        poisson_ratio : float
-            nu, in [0, 0.5], the same at every frequency.
-        """
-        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,7 +217,7 @@ class ShiftTable:
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve:
+class MasterCurve(_Moduli):
     """Storage and loss modulus at one temperature, from shifted sweeps.
 
     Parameters
@@ -259,22 +267,6 @@ class MasterCurve:
         if self.sweep is not None:
             arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
         arrays.sort_along(self, self.angular_frequency)
-
-    def __len__(self) -> int:
-        return self.storage.size
-
-    @property
-    def complex_modulus(self) -> Complex:
-        """Storage + i loss [Pa], shape (N,)."""
-        return self.storage + 1j * self.loss
-
-    def chosen(self, points: npt.ArrayLike) -> "MasterCurve":
-        """Select points, by indices or by a mask of shape (N,)."""
-        return arrays.chosen(self, points)
-
-    def in_tension(self, poisson_ratio: float) -> "MasterCurve":
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged."""
-        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
 
 
 @dataclass(frozen=True, eq=False)

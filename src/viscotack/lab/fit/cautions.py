@@ -7,7 +7,7 @@ import numpy as np
 from viscotack.materials.passport import LIQUID
 
 from .observed import Observed, only
-from .plateaus import change, open_ends
+from .plateaus import NAMES, change, open_ends
 from .prony import fit_series
 from .report import Fitted, Interval, Scatter
 
@@ -39,16 +39,13 @@ def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...])
 
 def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
     """Return sentences on single undetermined constants."""
-    said = {"rubbery_modulus": _rubbery, "glassy_modulus": _glassy}
     words = []
     for each in intervals:
         if each.known:
             continue
-        if not each.told:
-            if each.name in open_ends(data, material):
-                words += said[each.name](data, material, each)
-        elif each.name in said:
-            words += said[each.name](data, material, each)
+        if each.name in NAMES:
+            if each.told or each.name in open_ends(data, material):
+                words += _plateau(data, material, each)
         elif not each.bounded:
             words.append(f"{each.name}: the data give no bound on one or both sides")
         elif each.high > 3 * each.low:
@@ -169,10 +166,10 @@ def flow(data: Observed, material: Any) -> str:
     return f"{how} (shear viscosity about {viscosity / shear:.2g} Pa s)"
 
 
-def _rubbery(data: Observed, material: Any, interval: Interval) -> list[str]:
-    softest = data.moduli[0]
-    flowing = flow(data, material)
-    if flowing:
+def _plateau(data: Observed, material: Any, interval: Interval) -> list[str]:
+    """Return a sentence on a plateau that was not measured, or lies beyond the measurement."""
+    rubbery = interval.name == "rubbery_modulus"
+    if rubbery and (flowing := flow(data, material)):
         return [
             f"{LIQUID}: at the slowest point {flowing}. It has no rubbery plateau; "
             f"rubbery_modulus = {interval.value:.3g} Pa is the end of the fit, not a property of "
@@ -180,37 +177,32 @@ def _rubbery(data: Observed, material: Any, interval: Interval) -> list[str]:
         ]
     if not interval.bounded:
         rate = 100 * change(data, material, interval.name)
-        return [
-            "the rubbery plateau was not measured: at the slowest point the modulus still falls by "
-            f"{rate:.2g} % per decade. rubbery_modulus is {_bound(interval)}, and slow detachment "
-            "cannot be predicted; give rubbery_modulus if you know it"
-        ]
-    if softest > _BEYOND * interval.value:
-        return [
-            f"rubbery_modulus lies {softest / interval.value:.3g} times below the softest point: "
-            "it is an extrapolation of the law, and so is its interval"
-        ]
-    return []
-
-
-def _glassy(data: Observed, material: Any, interval: Interval) -> list[str]:
-    stiffest = data.moduli[1]
-    if not interval.bounded:
-        rate = 100 * change(data, material, interval.name)
         least = interval.low if interval.told else interval.value
         ratio = material.rubbery_modulus / max(least, material.rubbery_modulus)
+        plateau, place, way, unknown = (
+            ("rubbery", "slowest", "falls", ", and slow detachment cannot be predicted")
+            if rubbery
+            else (
+                "glassy",
+                "fastest",
+                "rises",
+                f" and modulus_ratio at most {ratio:.2g}, so the bound 1/k on the ratio of fast to "
+                "slow pull-off force is unknown",
+            )
+        )
         return [
-            "the glassy plateau was not measured: at the fastest point the modulus still rises by "
-            f"{rate:.2g} % per decade. glassy_modulus is {_bound(interval)} and "
-            f"modulus_ratio at most {ratio:.2g}, so the bound 1/k on the ratio of fast to slow "
-            "pull-off force is unknown; give glassy_modulus if you know it"
+            f"the {plateau} plateau was not measured: at the {place} point the modulus still {way} "
+            f"by {rate:.2g} % per decade. {interval.name} is {_bound(interval)}{unknown}; give "
+            f"{interval.name} if you know it"
         ]
-    if interval.value > _BEYOND * stiffest:
-        return [
-            f"glassy_modulus lies {interval.value / stiffest:.3g} times above the stiffest point: "
-            "it is an extrapolation of the law, and so is its interval"
-        ]
-    return []
+    beyond = data.moduli[0] / interval.value if rubbery else interval.value / data.moduli[1]
+    if beyond <= _BEYOND:
+        return []
+    end = "below the softest" if rubbery else "above the stiffest"
+    return [
+        f"{interval.name} lies {beyond:.3g} times {end} point: it is an extrapolation of the law, "
+        "and so is its interval"
+    ]
 
 
 def _bound(interval: Interval) -> str:

@@ -13,12 +13,10 @@ from viscotack.threads import one_blas_thread
 from viscotack.units import readable
 
 from .cautions import few_arms_caution, misfit_cautions, series_cautions, undetermined
-from .observed import Data, Observed, observed, only
-from .power_law import fit_constants, fitted_constants
+from .observed import Data, Observed, observed, only, thinned
+from .power_law import KINDS, fit_constants, fitted_constants
 from .prony import fit_series, with_noise
 from .report import ALIKE, FitReport, information_criterion
-from .search import KINDS
-from .thinned import thinned
 
 MODELS = (*KINDS, "prony")
 # Candidates of `best`: contacts can be simulated on all of them.
@@ -210,16 +208,10 @@ def _fitted(
     if data.points:
         cautions = (*cautions, data.source.notes[-1])
     return FitReport(
-        material=found.material,
+        **vars(found),
         model=model,
         observed=data,
-        intervals=found.intervals,
         level=level,
-        scatter=found.scatter,
-        constants=found.constants,
-        criterion=found.criterion,
-        compared=found.compared,
         undetermined=undetermined(data, found.material, found.intervals),
         cautions=cautions,
-        draws=found.draws,
     )

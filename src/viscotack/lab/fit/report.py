@@ -8,7 +8,6 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Material
 
 from .observed import Observed
 
@@ -90,14 +89,27 @@ class Scatter:
     shared: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Fitted:
     """A fitted solid with the intervals of its constants and sampled solids.
 
     Attributes
     ----------
-    material, intervals, scatter, constants, criterion, compared, draws
-        As in :class:`FitReport`.
+    material : Material
+        The fitted solid, tensile.
+    intervals : tuple of Interval
+        Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
+    scatter : Scatter
+        Size of the residuals.
+    constants : int
+        Number of fitted constants.
+    criterion : float
+        Corrected Akaike information criterion; inf with too few numbers.
+    draws : tuple of Material
+        Solids sampled from the uncertainty of the fit, for bands and to propagate the uncertainty
+        to predictions.
+    compared : tuple of (str, float)
+        Alternatives that were fitted, with the criterion of each.
     grid : int
         For a Prony series, the number of relaxation times tried.
     """
@@ -134,50 +146,28 @@ def information_criterion(residuals: Array, constants: int, *, floor: float = 0.
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FitReport:
+class FitReport(Fitted):
     """A material fitted to a measurement, returned by :func:`viscotack.lab.fit`.
 
     Attributes
     ----------
-    material : Material
-        The fitted solid, tensile.
     model : str
         "power-law", "relaxation-power-law", "sls" or "prony".
     observed : Observed
         Fitted numbers.
-    intervals : tuple of Interval
-        Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
     level : float
         Confidence level of the intervals and of `band`.
-    scatter : Scatter
-        Size of the residuals.
-    constants : int
-        Number of fitted constants.
-    criterion : float
-        Corrected Akaike information criterion; inf with too few numbers.
-    compared : tuple of (str, float)
-        Alternatives that were fitted, with the criterion of each.
     undetermined : tuple of str
         Sentences on constants and ranges that the measurement does not determine.
     cautions : tuple of str
         Sentences on the quality of the fit.
-    draws : tuple of Material
-        Solids sampled from the uncertainty of the fit, for bands and to propagate the uncertainty
-        to predictions.
     """
 
-    material: Material
     model: str
     observed: Observed
-    intervals: tuple[Interval, ...]
     level: float
-    scatter: Scatter
-    constants: int
-    criterion: float
-    compared: tuple[tuple[str, float], ...]
     undetermined: tuple[str, ...]
     cautions: tuple[str, ...]
-    draws: tuple[Any, ...]
 
     @property
     def residuals(self) -> Array:
