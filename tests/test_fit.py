@@ -13,8 +13,8 @@ from viscotack.identify import PullOff, identify_rates
 from viscotack.lab import (
     fit,
     master_curve,
+    read,
     read_dma,
-    read_relaxation,
 )
 from viscotack.lab.fit import errors as fit_errors
 from viscotack.lab.fit import nonnegative
@@ -421,6 +421,6 @@ def test_the_storage_of_a_published_curve_that_contradicts_itself_is_met_without
 
 
 def test_published_relaxation_master_curve_is_met():
-    data = read_relaxation(DMA / "time_user_master.csv")
+    data = read(DMA / "time_user_master.csv")
     report = fit(data, poisson_ratio=0.35, model="prony", draws=0)
     assert report.median_error < 0.003

@@ -15,10 +15,8 @@ from .options import Options, TackOptions
 from .reading import (
     FORMATS,
     read,
-    read_creep,
     read_creeps,
     read_dma,
-    read_relaxation,
     read_relaxations,
     read_shifts,
 )
@@ -49,10 +47,8 @@ __all__ = [
     "master_curve",
     "nearest_law",
     "read",
-    "read_creep",
     "read_creeps",
     "read_dma",
-    "read_relaxation",
     "read_relaxations",
     "read_shifts",
     "shift_factors",

@@ -170,92 +170,14 @@ def read_dma(
     return joined([assembly.sweeps(*each) for each in opened])
 
 
-def read_relaxation(path: Path, options: Options = _NOTHING, **more: Any) -> RelaxationTest:
-    r"""Read a stress relaxation test: time and modulus, or stress over strain.
-
-    A time since the step takes precedence over a time
-    of the whole test; rows at time zero are ignored, with a note.
-
-    Parameters
-    ----------
-    path : path-like
-        Text file or workbook, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    RelaxationTest
-        In SI.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless the file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "t,G(t)\ns,MPa\n1,4\n10,2\n100,1\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_relaxation(file)
-    >>> found.kind, found.modulus.tolist()
-    ('G', [4000000.0, 2000000.0, 1000000.0])
-    """
-    (opened,) = _opened([path], options, more)
-    return step_tests.one(RelaxationTest, *opened)
-
-
-def read_creep(path: Path, options: Options = _NOTHING, **more: Any) -> CreepTest:
-    r"""Read a creep test: time and compliance, or strain over stress.
-
-    Parameters
-    ----------
-    path : path-like
-        Text file or workbook, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    CreepTest
-        In SI.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless the file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "t,J\ns,1/Pa\n1,1e-6\n10,2e-6\n100,4e-6\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_creep(file, kind="G")
-    >>> found.kind, found.compliance.tolist()
-    ('G', [1e-06, 2e-06, 4e-06])
-    """
-    (opened,) = _opened([path], options, more)
-    return step_tests.one(CreepTest, *opened)
-
-
 def read_relaxations(
     path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
 ) -> tuple[RelaxationTest, ...]:
     r"""Read the relaxation tests of one or more files, one per temperature, from cold to hot.
 
     Points within 1 K have one temperature. Rows with
-    monotonic time are one test, as in :func:`read_relaxation`.
+    monotonic time are one test. A time since the step takes precedence over a time of the whole
+    test; rows at time zero are ignored, with a note.
 
     Parameters
     ----------
@@ -298,7 +220,7 @@ def read_creeps(
     r"""Read the creep tests of one or more files, one per temperature, from cold to hot.
 
     Points within 1 K have one temperature. Rows with
-    monotonic time are one test, as in :func:`read_creep`.
+    monotonic time are one test, as in :func:`read_relaxations`.
 
     Parameters
     ----------
@@ -403,7 +325,7 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
 
 
 def _each(kind: type[step_tests.Test], opened: Sequence[_Opened]) -> tuple[step_tests.Test, ...]:
-    tests = [test for one in opened for test in step_tests.each(kind, *one)]
+    tests = [test for one in opened for test in step_tests.tests(kind, *one)]
     return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
 
 

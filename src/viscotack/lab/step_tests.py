@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -29,6 +28,7 @@ from .grouping import levels
 from .options import Options
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
 
+_DRIFT = 5.0  # K: largest range of temperatures of one test
 Test = TypeVar("Test", RelaxationTest, CreepTest)
 # test -> measured quantity, numerator and denominator if it is not a column, and its name
 _MEASURED: dict[type, tuple[str, str, str, str]] = {
@@ -37,76 +37,37 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 }
 
 
-def one(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
-) -> Test:
-    """Return the single test of a kind in a file."""
-    rows = _rows(file, tables, given, kind)
-    return _test(kind, file, format, replace(rows, temperature=_one_temperature(rows)))
-
-
-def each(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
+def tests(
+    kind: type[Test],
+    file: LabFile,
+    format: str,
+    tables: Sequence[Table],
+    given: Options,
 ) -> list[Test]:
-    """Return the tests of a kind in a file, one per temperature."""
-    rows = _by_temperature(_rows(file, tables, given, kind))
-    return [_test(kind, file, format, part) for part in rows]
-
-
-@dataclass(frozen=True, eq=False)
-class _Rows:
-    """Usable rows of a step test: time, modulus or compliance, temperature."""
-
-    time: Array
-    values: Array
-    temperature: Array
-    kind: str
-    columns: MaterialColumns
-
-
-def _test(kind: type[Test], file: LabFile, format: str, rows: _Rows) -> Test:
-    held = _MEASURED[kind][2]
-    known = rows.temperature[~np.isnan(rows.temperature)]
-    stated: dict[str, Any] = {held: _level(rows.columns, held)}
-    return kind(
-        rows.time,
-        rows.values,
-        rows.kind,
-        temperature=float(np.mean(known)) if known.size else None,
-        source=source_of(file, format, [*file.notes, *rows.columns.notes]),
-        **stated,
-    )
-
-
-def _one_temperature(rows: _Rows) -> Array:
-    """Return the temperatures of a test; raise an error if there is more than one."""
-    known = rows.temperature[~np.isnan(rows.temperature)]
-    if known.size and np.ptp(known) > 5:
-        raise rows.columns.error(
-            f"the temperature varies by {np.ptp(known):.3g} K; a step test must have one "
-            "temperature"
-        )
-    return rows.temperature
-
-
-def _by_temperature(rows: _Rows) -> list[_Rows]:
-    """Return the rows of each temperature, from cold to hot; all rows if it is unknown.
+    """Return the tests of a kind in a file, one per temperature.
 
     Rows with monotonic time are one test, whose temperature may drift.
     """
-    steps = np.diff(rows.time)
-    if np.any(np.isnan(rows.temperature)) or np.all(steps > 0) or np.all(steps < 0):
-        return [replace(rows, temperature=_one_temperature(rows))]
-    parts = [
-        replace(
-            rows,
-            time=rows.time[part],
-            values=rows.values[part],
-            temperature=rows.temperature[part],
-        )
-        for part in levels(rows.temperature)
-    ]
-    return [replace(part, temperature=_one_temperature(part)) for part in parts]
+    time, values, temperature, modulus, columns = _rows(file, tables, given, kind)
+    steps = np.diff(time)
+    runs_on = np.all(steps > 0) or np.all(steps < 0)
+    whole = runs_on or np.any(np.isnan(temperature))
+    source = source_of(file, format, [*file.notes, *columns.notes])
+    held = _MEASURED[kind][2]
+    found = []
+    for part in [np.arange(time.size)] if whole else levels(temperature):
+        known = temperature[part][~np.isnan(temperature[part])]
+        if known.size and np.ptp(known) > _DRIFT:
+            raise columns.error(
+                f"the temperature varies by {np.ptp(known):.3g} K; a step test must have one "
+                "temperature"
+            )
+        stated: dict[str, Any] = {
+            held: _level(columns, held),
+            "temperature": float(np.mean(known)) if known.size else None,
+        }
+        found.append(kind(time[part], values[part], modulus, source=source, **stated))
+    return found
 
 
 def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
@@ -150,8 +111,10 @@ def _refuse_inverse(columns: MaterialColumns, table: ShiftTable) -> None:
         )
 
 
-def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type) -> _Rows:
-    """Return time, modulus or compliance, and temperature of the single matching table."""
+def _rows(
+    file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type
+) -> tuple[Array, Array, Array, str, MaterialColumns]:
+    """Return time, modulus or compliance, temperature and kind of the single matching table."""
     wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
@@ -202,7 +165,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     states = list(zip(kelvins, np.round(time, 9), strict=True))
     refuse_pooled(file, [columns.table], [columns.columns_in_use], [states])
     keep = kept(columns, time, values)
-    return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
+    return time[keep], values[keep], temperature[keep], kind, columns
 
 
 def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
