@@ -38,7 +38,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
         if not table.rows or not has_sweep(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
-        part = _part(columns, given)
+        part = _part(columns)
         if _repeats_one_state(part, len(tables)):
             states.append(columns)
             notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
@@ -81,19 +81,19 @@ def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
     return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: MaterialColumns, given: Options) -> FrequencySweeps:
+def _part(columns: MaterialColumns) -> FrequencySweeps:
     """Return the sweeps of one table."""
     form = form_of(columns)
     assert form is not None, "checked by the caller"
-    if "viscosity" in form[0] and columns.kind(*form) is None and given.kind is None:
-        given = replace(given, kind="G")
+    if "viscosity" in form[0] and columns.kind(*form) is None and columns.options.kind is None:
+        columns.options = replace(columns.options, kind="G")
         columns.notes.append(f'"{columns.name(form[0])}" is taken as a viscosity in shear')
     frequency = () if "angular_frequency" in columns else ("frequency",)
-    refuse_what_is_lacking(columns, given, form, "temperature", *frequency, *form)
-    kind = kind_of(columns, given, *form)
+    refuse_what_is_lacking(columns, form, "temperature", *frequency, *form)
+    kind = kind_of(columns, *form)
     omega = columns.angular_frequency()
     values: dict[str, Any] = {
-        "temperature": temperatures(columns, given),
+        "temperature": temperatures(columns),
         "angular_frequency": omega,
     }
     values["storage"], values["loss"] = _moduli(columns, form, omega)
@@ -101,8 +101,7 @@ def _part(columns: MaterialColumns, given: Options) -> FrequencySweeps:
     columns.states = list(zip(kelvins, np.round(100 * np.log(omega)), strict=True))
     if "sweep" in columns:
         values["sweep"] = columns.numbers("sweep")
-    refuse_stiffer_than_diamond(columns, values["storage"])
-    refuse_stiffer_than_diamond(columns, values["loss"])
+    refuse_stiffer_than_diamond(columns, values["storage"], values["loss"])
     keep = kept(columns, values["storage"], values["loss"])
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
@@ -160,12 +159,12 @@ def _tangent(columns: MaterialColumns) -> Array:
 
 
 def refuse_what_is_lacking(
-    columns: MaterialColumns, given: Options, moduli: Sequence[str], *quantities: str
+    columns: MaterialColumns, moduli: Sequence[str], *quantities: str
 ) -> None:
     """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
     columns.refuse_contradiction(*quantities)
-    if columns.kind(*moduli) is None and given.kind is None:
+    if columns.kind(*moduli) is None and columns.options.kind is None:
         lacking.append(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
         )
@@ -185,22 +184,22 @@ def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict
     return {name: column[np.sort(first)] for name, column in values.items()}
 
 
-def kind_of(columns: MaterialColumns, given: Options, *quantities: str) -> str:
+def kind_of(columns: MaterialColumns, *quantities: str) -> str:
     """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
-    said = columns.kind(*quantities)
-    if said is not None and given.kind is not None and said != given.kind:
-        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given.kind}")
-    return said or given.kind or ""
+    said, given = columns.kind(*quantities), columns.options.kind
+    if said is not None and given is not None and said != given:
+        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given}")
+    return said or given or ""
 
 
-def temperatures(columns: MaterialColumns, given: Options) -> Array:
+def temperatures(columns: MaterialColumns) -> Array:
     """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
-    temperature = columns.temperature()
-    if given.temperature is None:
+    temperature, given = columns.temperature(), columns.options.temperature
+    if given is None:
         return temperature
     if not np.all(np.isnan(temperature)):
         raise columns.error("the file states its temperatures; omit --temperature")
-    return np.full(temperature.size, given.temperature)
+    return np.full(temperature.size, given)
 
 
 def kept(columns: MaterialColumns, *positive: Array) -> npt.NDArray[np.bool_]:
@@ -217,13 +216,14 @@ def kept(columns: MaterialColumns, *positive: Array) -> npt.NDArray[np.bool_]:
     return keep
 
 
-def refuse_stiffer_than_diamond(columns: MaterialColumns, modulus: Array) -> None:
+def refuse_stiffer_than_diamond(columns: MaterialColumns, *moduli: Array) -> None:
     """Raise an error if a modulus exceeds that of diamond, because its unit must be wrong."""
-    for row in np.flatnonzero(modulus > STIFFEST):
-        raise columns.error(
-            f"a modulus of {modulus[row]:g} Pa exceeds that of diamond; check its unit",
-            int(row),
-        )
+    for modulus in moduli:
+        for row in np.flatnonzero(modulus > STIFFEST):
+            raise columns.error(
+                f"a modulus of {modulus[row]:g} Pa exceeds that of diamond; check its unit",
+                int(row),
+            )
 
 
 def _agree(columns: MaterialColumns, storage: Array, loss: Array) -> None:

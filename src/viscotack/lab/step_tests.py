@@ -138,7 +138,7 @@ def _rows(
     timed = "step_time" if "step_time" in columns else "time"
     needed = (wanted,) if wanted in columns else (over, under)
     refuse_what_is_lacking(
-        columns, given, [name for name in needed if name in columns], timed, "temperature", *needed
+        columns, [name for name in needed if name in columns], timed, "temperature", *needed
     )
     time = columns.si(timed) - given.step_start
     if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
@@ -148,7 +148,7 @@ def _rows(
         )
     if not given.step_start and timed == "time":
         _refuse_late_start(columns, time)
-    kind = kind_of(columns, given, *needed)
+    kind = kind_of(columns, *needed)
     if wanted in columns:
         values = columns.si(wanted)
     else:
@@ -157,7 +157,7 @@ def _rows(
     if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
         columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
     _leave_out_what_is_not_held(columns, under, test)
-    temperature = temperatures(columns, given)
+    temperature = temperatures(columns)
     if wanted == "modulus":
         refuse_stiffer_than_diamond(columns, values)
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])

@@ -56,7 +56,8 @@ _FLAGS = {
     "m": "--length-unit mm or um",
 }
 _IN_FILE = "written in the heading or below it"
-_SAME_TEMPERATURE = 0.5  # K: largest difference of two columns of one temperature
+# largest differences of two columns of one quantity: of temperatures [K], of others relative
+_SAME_TEMPERATURE, _SAME = 0.5, 0.01
 _LARGEST_POWER = 100.0  # of a logarithm
 _HELD = 0.05  # relative to the level of a step; instruments hold it better than this
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
@@ -339,66 +340,58 @@ class Columns:
     # ---- one of several columns ----------------------------------------------------------------
 
     def _column(self, quantity: str) -> _Place:
-        """Return the column of a quantity; if several columns agree, the first one."""
-        if quantity not in self._chosen:
-            if quantity == "temperature":
-                self._chosen[quantity] = self._of_sample()
-            else:
-                first, *others = self._found[quantity]
-                for other in others:
-                    self._refuse_other(quantity, first, other)
-                self._chosen[quantity] = first
-        return self._chosen[quantity]
+        """Return the column of a quantity: the first of equal ones, the temperature of the sample.
 
-    def _of_sample(self) -> _Place:
-        """Return the column of the temperature of the sample; ask where several may be it."""
-        names, places = self.table.headings, self._found["temperature"]
-        best = max(nearness_to_sample(names[index]) for index, _ in places)
-        first, *others = sorted(places, key=lambda at: nearness_to_sample(names[at[0]]) != best)
+        Of several others it is unknown which one is meant.
+        """
+        if quantity in self._chosen:
+            return self._chosen[quantity]
+
+        def far(place: _Place) -> int:
+            name = self.table.headings[place[0]]
+            return -nearness_to_sample(name) if quantity == "temperature" else 0
+
+        first, *others = sorted(self._found[quantity], key=far)
         for other in others:
-            apart = np.abs(self._kelvins(first) - self._kelvins(other))
-            if not np.any(apart > _SAME_TEMPERATURE):
-                self.notes.append(f'two equal columns; "{names[first[0]]}" is used')
-            elif nearness_to_sample(names[other[0]]) == best:
-                raise self._two_columns("temperature", first, other)
-            else:
-                self.notes.append(
-                    f'"{names[first[0]]}" is the temperature; "{names[other[0]]}" differs by up '
-                    f"to {np.nanmax(apart):.3g} K and is not used"
+            names = [self.table.headings[index] for index, _ in (first, other)]
+            kinds = {heading.kind for _, heading in (first, other)} - {None}
+            apart = self._apart(quantity, first, other)
+            if len(kinds) > 1:
+                raise self.error(
+                    f'two columns of one quantity: "{names[0]}" and "{names[1]}"; set --kind E or '
+                    "--kind G"
                 )
+            if not np.any(apart > 1):
+                self.notes.append(f'two equal columns; "{names[0]}" is used')
+            elif far(other) > far(first):
+                self.notes.append(
+                    f'"{names[0]}" is the temperature; "{names[1]}" differs by up to '
+                    f"{np.nanmax(apart) * _SAME_TEMPERATURE:.3g} K and is not used"
+                )
+            else:
+                chosen = self.words.choose(quantity, first[0] + 1)
+                raise self.error(
+                    f'two columns of {quantity}: "{names[0]}" and "{names[1]}"; {chosen}'
+                )
+        self._chosen[quantity] = first
         return first
 
-    def _kelvins(self, column: _Place) -> Array:
-        """Return the temperatures of a column [K]; nan where its unit is unknown."""
-        index, heading = column
-        unit = heading.unit or self.table.units[index] or self.options.temperature_unit or ""
-        try:
-            factor, offset = kelvin(unit)
-        except InputError:
-            return np.full(len(self.table.rows), math.nan)
-        return self._numbers(index) * factor + offset
-
-    def _refuse_other(self, quantity: str, first: _Place, other: _Place) -> None:
-        names = [self.table.headings[index] for index, _ in (first, other)]
-        kinds = {heading.kind for _, heading in (first, other)} - {None}
-        units = {bare(heading.unit or self.table.units[index]) for index, heading in (first, other)}
-        if len(kinds) < 2 and len(units) == 1:
-            values = [self._numbers(index) for index, _ in (first, other)]
-            slack = 0.01 * np.abs(values[0])
-            if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
-                self.notes.append(f'two equal columns; "{names[0]}" is used')
-                return
-        if len(kinds) > 1:
-            raise self.error(
-                f'two columns of one quantity: "{names[0]}" and "{names[1]}"; set --kind E or '
-                "--kind G"
-            )
-        raise self._two_columns(quantity, first, other)
-
-    def _two_columns(self, quantity: str, first: _Place, other: _Place) -> InputError:
-        names = [self.table.headings[index] for index, _ in (first, other)]
-        chosen = self.words.choose(quantity, first[0] + 1)
-        return self.error(f'two columns of {quantity}: "{names[0]}" and "{names[1]}"; {chosen}')
+    def _apart(self, quantity: str, first: _Place, other: _Place) -> Array:
+        """Return the difference of two columns over what is negligible; nan where unknown."""
+        one, two = (self._numbers(index) for index, _ in (first, other))
+        units = [heading.unit or self.table.units[index] for index, heading in (first, other)]
+        if quantity == "temperature":
+            try:
+                (a, b), (c, d) = (kelvin(u or self.options.temperature_unit or "") for u in units)
+            except InputError:
+                return np.full(one.size, math.nan)
+            return np.abs(a * one + b - c * two - d) / _SAME_TEMPERATURE
+        if bare(units[0]) != bare(units[1]):
+            return np.full(one.size, math.inf)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            apart = np.abs(one - two) / (_SAME * np.abs(one))
+        # a gap beside a number is a difference
+        return np.where(one == two, 0.0, np.where(np.isnan(two) & ~np.isnan(one), math.inf, apart))
 
 
 class MaterialColumns(Columns):
