@@ -10,7 +10,7 @@ are multiplied by 10^log10_vertical to give those at the reference temperature.
 """
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -269,8 +269,32 @@ class MasterCurve(_Moduli):
         arrays.sort_along(self, self.angular_frequency)
 
 
+class _StepTest:
+    """What relaxation and creep tests have in common: a number over the time since the step."""
+
+    # name and unit of the number, and the power of the modulus that it is
+    measured: ClassVar[tuple[str, str, int]]
+    time: Array
+    kind: str
+
+    def __post_init__(self):
+        name, unit, _ = self.measured
+        arrays.check_kind(self.kind)
+        arrays.store_temperature(self, "temperature")
+        arrays.store_columns(self, time=("s", False), **{name: (unit, False)})
+        arrays.sort_along(self, self.time)
+
+    def __len__(self) -> int:
+        return self.time.size
+
+    def in_tension(self, poisson_ratio: float) -> Self:
+        """Convert a shear to a tensile modulus, 2 (1 + nu) G, or compliance, J/(2 (1 + nu))."""
+        name, _, power = self.measured
+        return arrays.in_tension(self, poisson_ratio, name, power=power)
+
+
 @dataclass(frozen=True, eq=False)
-class RelaxationTest:
+class RelaxationTest(_StepTest):
     """Modulus over time after a step of strain.
 
     Parameters
@@ -294,6 +318,8 @@ class RelaxationTest:
     [6000000.0, 3000000.0]
     """
 
+    measured: ClassVar = ("modulus", "Pa", 1)
+
     time: Array
     modulus: Array
     kind: str
@@ -301,22 +327,9 @@ class RelaxationTest:
     temperature: float | None = None
     source: Source = Source()
 
-    def __post_init__(self):
-        arrays.check_kind(self.kind)
-        arrays.store_temperature(self, "temperature")
-        arrays.store_columns(self, time=("s", False), modulus=("Pa", False))
-        arrays.sort_along(self, self.time)
-
-    def __len__(self) -> int:
-        return self.time.size
-
-    def in_tension(self, poisson_ratio: float) -> "RelaxationTest":
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged."""
-        return arrays.in_tension(self, poisson_ratio, "modulus")
-
 
 @dataclass(frozen=True, eq=False)
-class CreepTest:
+class CreepTest(_StepTest):
     """Compliance over time after a step of stress.
 
     Parameters
@@ -340,22 +353,11 @@ class CreepTest:
     [1e-06, 2e-06]
     """
 
+    measured: ClassVar = ("compliance", "1/Pa", -1)
+
     time: Array
     compliance: Array
     kind: str
     stress: float | None = None
     temperature: float | None = None
     source: Source = Source()
-
-    def __post_init__(self):
-        arrays.check_kind(self.kind)
-        arrays.store_temperature(self, "temperature")
-        arrays.store_columns(self, time=("s", False), compliance=("1/Pa", False))
-        arrays.sort_along(self, self.time)
-
-    def __len__(self) -> int:
-        return self.time.size
-
-    def in_tension(self, poisson_ratio: float) -> "CreepTest":
-        """Convert to the tensile compliance J / (2 (1 + nu)); a tensile one is unchanged."""
-        return arrays.in_tension(self, poisson_ratio, "compliance", power=-1)
