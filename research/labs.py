@@ -36,7 +36,7 @@ from scipy.stats import chi2
 import viscotack as vt
 from viscotack.identify import forecast_rates, identify_rates, pull_offs
 from viscotack.lab import MasterCurve, fit
-from viscotack.lab.fit_passport import issued
+from viscotack.lab.fit.passport import issued
 from viscotack.lab.tack import TackRecord, evaluate
 from viscotack.materials.conversion import slowed
 

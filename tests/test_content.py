@@ -194,6 +194,9 @@ def test_a_column_and_its_unit_are_chosen_by_heading_or_number(file):
     path = file(table("# no headings at all", (1, 1e3, 1)))
     columns = "angular_frequency=1 [rad/s]; storage=2 [kPa]; loss=3 [Pa]"
     assert_the_sweep(lab.read(path, kind="G", columns=columns))
+    # a row of numbers that has the number of a column is no heading
+    counted = lab.read(file("1,10,2\n2,11,3\n"), kind="G", columns=columns)
+    assert counted.storage.tolist() == [1e4, 1.1e4]
     rows = [[w, s, l] for w, s, l in zip(OMEGA, STORAGE, LOSS)]  # noqa: B905, E741
     columns = "angular_frequency=1 [rad/s]; storage=2 [Pa]; loss=3 [Pa]"
     assert_the_sweep(lab.read(file({"Data": rows}, "film.xlsx"), kind="G", columns=columns))
@@ -205,7 +208,7 @@ def test_a_column_and_its_unit_are_chosen_by_heading_or_number(file):
         ("hardness=1", "--columns must be like"),
         ("storage=G1 [Pa]", "no column 'G1'"),
         ("storage=G' [kPa]", 'the file states Pa for "G\'", but --columns kPa'),
-        ("storage=2; loss=2", '--columns has "G\'" as storage and as loss'),
+        ("storage=2; loss=2", '"G\'" is chosen as storage and as loss'),
     ],
 )
 def test_a_wrong_choice_of_columns_is_refused(file, columns, words):

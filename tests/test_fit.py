@@ -12,17 +12,17 @@ from viscotack.geometry import Sphere
 from viscotack.identify import PullOff, identify_rates
 from viscotack.lab import (
     fit,
-    fit_errors,
     master_curve,
-    nonnegative,
+    read,
     read_dma,
-    read_relaxation,
 )
-from viscotack.lab.fit_passport import issued
-from viscotack.lab.fit_power_law import fit_constants
-from viscotack.lab.fit_prony import fit_series
-from viscotack.lab.fitting import Tried, _alike
-from viscotack.lab.observed import observed
+from viscotack.lab.fit import errors as fit_errors
+from viscotack.lab.fit import nonnegative
+from viscotack.lab.fit.fitting import Tried, _alike
+from viscotack.lab.fit.observed import observed
+from viscotack.lab.fit.passport import issued
+from viscotack.lab.fit.power_law import fit_constants
+from viscotack.lab.fit.prony import fit_series
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
 from viscotack.materials import (
@@ -421,16 +421,6 @@ def test_the_storage_of_a_published_curve_that_contradicts_itself_is_met_without
 
 
 def test_published_relaxation_master_curve_is_met():
-    data = read_relaxation(DMA / "time_user_master.csv")
+    data = read(DMA / "time_user_master.csv")
     report = fit(data, poisson_ratio=0.35, model="prony", draws=0)
     assert report.median_error < 0.003
-
-
-# ---- report, passport, picture -----------------------------------------------------------------
-
-
-def liquid(decades):
-    """Return a relaxation test of a liquid with one relaxation time, over decades of modulus."""
-    time = np.geomspace(0.1, 10 * decades * np.log(10), 50)
-    scatter = np.exp(0.02 * np.random.default_rng(0).standard_normal(50))
-    return RelaxationTest(time, 1e6 * np.exp(-time / 10) * scatter, "E")

@@ -15,7 +15,7 @@ from viscotack.lab import (
     read_dma,
     shift_factors,
 )
-from viscotack.lab.overlap import Curve, Hold, step_between
+from viscotack.lab.fit.overlap import Curve, Hold, step_between
 from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 

@@ -23,7 +23,7 @@ from viscotack.lab import (
     superposed,
     superposition,
 )
-from viscotack.lab.fit_passport import issued
+from viscotack.lab.fit.passport import issued
 from viscotack.materials import FractionalZener, StandardSolid
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.shift import WLF, Arrhenius

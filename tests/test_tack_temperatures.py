@@ -12,7 +12,7 @@ from command_line import exit_status
 from viscotack.errors import InputError
 from viscotack.identify import pull_offs
 from viscotack.identify.speed_table import speed_table
-from viscotack.lab.tables import stated_temperature
+from viscotack.lab.formats.tables import stated_temperature
 from viscotack.lab.tack import Measured, survey
 from viscotack.materials.shift import WLF
 

@@ -81,8 +81,8 @@ def is_workbook(path: Path) -> bool:
 
 def _of_sheet(path: Path) -> Iterator[Line]:
     """Return the rows of the first sheet of a workbook."""
-    from viscotack.lab.lab_file import load
-    from viscotack.lab.workbook_layout import sheets
+    from viscotack.lab.formats.file import load
+    from viscotack.lab.formats.workbook import sheets
 
     try:
         first = next(iter(sheets(load(path)).values()), [])

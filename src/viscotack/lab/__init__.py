@@ -2,27 +2,24 @@
 
 from viscotack.materials.shift import FittedShift as ShiftFit
 
-from .fit_passport import issued
-from .fit_report import FitReport
-from .fitting import fit
-from .in_time import superposed
-from .judging import Superposition, contradiction, superposition
-from .kramers_kronig import Consistency, consistency, loss_from_storage
-from .master_curves import master_curve
-from .options import Options
+from .fit.fitting import fit
+from .fit.kramers_kronig import Consistency, consistency, loss_from_storage
+from .fit.master_curve import master_curve, superposed
+from .fit.passport import issued
+from .fit.report import FitReport
+from .fit.shift_factors import shift_factors
+from .fit.shift_laws import fit_arrhenius, fit_wlf, nearest_law
+from .fit.shift_spread import allow_for_shifts
+from .fit.superposition import Superposition, contradiction, superposition
+from .options import Options, TackOptions
 from .reading import (
     FORMATS,
     read,
-    read_creep,
     read_creeps,
     read_dma,
-    read_relaxation,
     read_relaxations,
     read_shifts,
 )
-from .shift_laws import fit_arrhenius, fit_wlf, nearest_law
-from .shift_spread import allow_for_shifts
-from .shifting import shift_factors
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
 
 __all__ = [
@@ -38,6 +35,7 @@ __all__ = [
     "ShiftTable",
     "Source",
     "Superposition",
+    "TackOptions",
     "allow_for_shifts",
     "consistency",
     "contradiction",
@@ -49,10 +47,8 @@ __all__ = [
     "master_curve",
     "nearest_law",
     "read",
-    "read_creep",
     "read_creeps",
     "read_dma",
-    "read_relaxation",
     "read_relaxations",
     "read_shifts",
     "shift_factors",

@@ -11,15 +11,15 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .columns import Columns
 from .diagnosis import cause, form_of, has_sweep
+from .formats.columns import MaterialColumns
+from .formats.file import LabFile
+from .formats.tables import Table, refuse_pooled
+from .formats.unit_checks import doubtful_modulus
 from .grouping import GAP, grouped
 from .joining import numbered_on
-from .lab_file import LabFile
 from .options import Options
 from .sweeps import FrequencySweeps, Source
-from .tables import Table, refuse_pooled
-from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
 _ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
@@ -34,11 +34,11 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
-        columns = Columns(file, table, given)
+        columns = MaterialColumns(file, table, given)
         if not table.rows or not has_sweep(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
-        part = _part(columns, given)
+        part = _part(columns)
         if _repeats_one_state(part, len(tables)):
             states.append(columns)
             notes.append(f"ignored the table from line {table.rows[0][0]}: {_ONE_STATE}")
@@ -66,7 +66,7 @@ def no_such_test(file: LabFile, tables: Sequence[Table], given: Options, wanted:
         "relaxation": "a time and a modulus (or stress and strain)",
         "creep": "a time and a compliance (or stress and strain)",
     }
-    every = [Columns(file, table, replace(given, kind=None)) for table in tables]
+    every = [MaterialColumns(file, table, replace(given, kind=None)) for table in tables]
     why = cause(every, wanted, given.kind)
     return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
@@ -81,19 +81,19 @@ def _repeats_one_state(part: FrequencySweeps, tables: int) -> bool:
     return bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: Columns, given: Options) -> FrequencySweeps:
+def _part(columns: MaterialColumns) -> FrequencySweeps:
     """Return the sweeps of one table."""
     form = form_of(columns)
     assert form is not None, "checked by the caller"
-    if "viscosity" in form[0] and columns.kind(*form) is None and given.kind is None:
-        given = replace(given, kind="G")
+    if "viscosity" in form[0] and columns.kind(*form) is None and columns.options.kind is None:
+        columns.options = replace(columns.options, kind="G")
         columns.notes.append(f'"{columns.name(form[0])}" is taken as a viscosity in shear')
     frequency = () if "angular_frequency" in columns else ("frequency",)
-    refuse_what_is_lacking(columns, given, form, "temperature", *frequency, *form)
-    kind = kind_of(columns, given, *form)
+    refuse_what_is_lacking(columns, form, "temperature", *frequency, *form)
+    kind = kind_of(columns, *form)
     omega = columns.angular_frequency()
     values: dict[str, Any] = {
-        "temperature": temperatures(columns, given),
+        "temperature": temperatures(columns),
         "angular_frequency": omega,
     }
     values["storage"], values["loss"] = _moduli(columns, form, omega)
@@ -101,8 +101,7 @@ def _part(columns: Columns, given: Options) -> FrequencySweeps:
     columns.states = list(zip(kelvins, np.round(100 * np.log(omega)), strict=True))
     if "sweep" in columns:
         values["sweep"] = columns.numbers("sweep")
-    refuse_stiffer_than_diamond(columns, values["storage"])
-    refuse_stiffer_than_diamond(columns, values["loss"])
+    refuse_stiffer_than_diamond(columns, values["storage"], values["loss"])
     keep = kept(columns, values["storage"], values["loss"])
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
@@ -121,7 +120,7 @@ def _part(columns: Columns, given: Options) -> FrequencySweeps:
     return FrequencySweeps(**values, kind=kind)
 
 
-def _moduli(columns: Columns, form: tuple[str, str], omega: Array) -> tuple[Array, Array]:
+def _moduli(columns: MaterialColumns, form: tuple[str, str], omega: Array) -> tuple[Array, Array]:
     """Return storage and loss modulus [Pa], from two columns that determine them."""
     one, other = form
     if form == ("storage", "loss"):
@@ -144,7 +143,7 @@ def _moduli(columns: Columns, form: tuple[str, str], omega: Array) -> tuple[Arra
     return size * np.cos(angle), size * np.sin(angle)
 
 
-def _tangent(columns: Columns) -> Array:
+def _tangent(columns: MaterialColumns) -> Array:
     """Return tan(delta), from its column or from the loss angle."""
     if "tan_delta" in columns:
         return columns.numbers("tan_delta")
@@ -160,12 +159,12 @@ def _tangent(columns: Columns) -> Array:
 
 
 def refuse_what_is_lacking(
-    columns: Columns, given: Options, moduli: Sequence[str], *quantities: str
+    columns: MaterialColumns, moduli: Sequence[str], *quantities: str
 ) -> None:
     """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
     columns.refuse_contradiction(*quantities)
-    if columns.kind(*moduli) is None and given.kind is None:
+    if columns.kind(*moduli) is None and columns.options.kind is None:
         lacking.append(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
         )
@@ -176,7 +175,7 @@ def refuse_what_is_lacking(
         raise columns.error(f"the file does not state {what}{'; ' * bool(flags)}{example}")
 
 
-def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:
+def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict[str, Array]:
     """Remove rows that repeat an earlier row exactly."""
     rows = np.column_stack(list(values.values()))
     _, first = np.unique(rows, axis=0, return_index=True)
@@ -185,25 +184,25 @@ def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Ar
     return {name: column[np.sort(first)] for name, column in values.items()}
 
 
-def kind_of(columns: Columns, given: Options, *quantities: str) -> str:
+def kind_of(columns: MaterialColumns, *quantities: str) -> str:
     """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
-    said = columns.kind(*quantities)
-    if said is not None and given.kind is not None and said != given.kind:
-        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given.kind}")
-    return said or given.kind or ""
+    said, given = columns.kind(*quantities), columns.options.kind
+    if said is not None and given is not None and said != given:
+        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given}")
+    return said or given or ""
 
 
-def temperatures(columns: Columns, given: Options) -> Array:
+def temperatures(columns: MaterialColumns) -> Array:
     """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
-    temperature = columns.temperature()
-    if given.temperature is None:
+    temperature, given = columns.temperature(), columns.options.temperature
+    if given is None:
         return temperature
     if not np.all(np.isnan(temperature)):
         raise columns.error("the file states its temperatures; omit --temperature")
-    return np.full(temperature.size, given.temperature)
+    return np.full(temperature.size, given)
 
 
-def kept(columns: Columns, *positive: Array) -> npt.NDArray[np.bool_]:
+def kept(columns: MaterialColumns, *positive: Array) -> npt.NDArray[np.bool_]:
     """Return a mask of the usable rows, and note how many were rejected and why."""
     lines = np.array([line for line, _ in columns.table.rows])
     missing = ~columns.keep
@@ -217,16 +216,17 @@ def kept(columns: Columns, *positive: Array) -> npt.NDArray[np.bool_]:
     return keep
 
 
-def refuse_stiffer_than_diamond(columns: Columns, modulus: Array) -> None:
+def refuse_stiffer_than_diamond(columns: MaterialColumns, *moduli: Array) -> None:
     """Raise an error if a modulus exceeds that of diamond, because its unit must be wrong."""
-    for row in np.flatnonzero(modulus > STIFFEST):
-        raise columns.error(
-            f"a modulus of {modulus[row]:g} Pa exceeds that of diamond; check its unit",
-            int(row),
-        )
+    for modulus in moduli:
+        for row in np.flatnonzero(modulus > STIFFEST):
+            raise columns.error(
+                f"a modulus of {modulus[row]:g} Pa exceeds that of diamond; check its unit",
+                int(row),
+            )
 
 
-def _agree(columns: Columns, storage: Array, loss: Array) -> None:
+def _agree(columns: MaterialColumns, storage: Array, loss: Array) -> None:
     """Raise an error if tan(delta) or |E*| contradicts the storage and loss modulus of its row."""
     digits = [columns.resolution(name) * columns.factor(name) for name in ("storage", "loss")]
     sizes = np.hypot(storage, loss)
@@ -239,7 +239,9 @@ def _agree(columns: Columns, storage: Array, loss: Array) -> None:
         _same(columns, "magnitude", columns.factor("magnitude"), sizes, digits[0] + digits[1])
 
 
-def _same(columns: Columns, name: str, factor: float, expected: Array, slack: Array) -> None:
+def _same(
+    columns: MaterialColumns, name: str, factor: float, expected: Array, slack: Array
+) -> None:
     found = factor * columns.numbers(name, needed=False)
     slack = slack + factor * columns.resolution(name)
     off = np.abs(found - expected)

@@ -9,7 +9,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .arrays import KINDS
-from .columns import Columns
+from .formats.columns import MaterialColumns
 from .grouping import GAP
 
 _SWEPT = 0.05  # relative range of a frequency or a temperature that is swept
@@ -25,7 +25,7 @@ _FORMS = (
 TESTS = ("dma", "relaxation", "creep", "shifts")
 
 
-def test_of(columns: Columns) -> str | None:
+def test_of(columns: MaterialColumns) -> str | None:
     """Return the test that the columns of a table belong to, or None.
 
     If both stress and strain are present, the one held constant identifies the test.
@@ -48,10 +48,10 @@ def test_of(columns: Columns) -> str | None:
     return "relaxation" if modulus else "creep" if compliance else None
 
 
-def best_sheet(tables: Sequence[Columns]) -> str:
+def best_sheet(tables: Sequence[MaterialColumns]) -> str:
     """Return the first sheet with a test, preferably with one that sweeps and lacks no unit."""
 
-    def score(columns: Columns) -> tuple[bool, bool, bool]:
+    def score(columns: MaterialColumns) -> tuple[bool, bool, bool]:
         test = test_of(columns) if columns.table.rows else None
         sweeps = test is not None and (test != "dma" or _sweeps(columns))
         return test is not None, sweeps, sweeps and not columns.lacking(*columns.quantities)
@@ -59,7 +59,7 @@ def best_sheet(tables: Sequence[Columns]) -> str:
     return max(tables, key=score).table.sheet
 
 
-def sheets_with(sheet: str, tables: Sequence[Columns]) -> tuple[set[str], set[str]]:
+def sheets_with(sheet: str, tables: Sequence[MaterialColumns]) -> tuple[set[str], set[str]]:
     """Return the sheets that are read with a sheet, and others that have the same columns.
 
     Sheets of sweeps with the same headings belong to one test if each has temperatures of its own.
@@ -76,11 +76,11 @@ def sheets_with(sheet: str, tables: Sequence[Columns]) -> tuple[set[str], set[st
     return (names, set()) if known and apart else ({sheet}, names - {sheet})
 
 
-def _is_sweep(columns: Columns) -> bool:
+def _is_sweep(columns: MaterialColumns) -> bool:
     return bool(columns.table.rows) and test_of(columns) == "dma" and _sweeps(columns)
 
 
-def _levels(columns: Columns) -> Array:
+def _levels(columns: MaterialColumns) -> Array:
     """Return the temperatures of a table [K]; empty if they cannot be read."""
     try:
         kelvins = columns.temperature()
@@ -89,7 +89,7 @@ def _levels(columns: Columns) -> Array:
     return np.unique(kelvins[np.isfinite(kelvins)])
 
 
-def _sweeps(columns: Columns) -> bool:
+def _sweeps(columns: MaterialColumns) -> bool:
     """Return whether a frequency or a temperature varies by more than it scatters."""
     try:
         swept = [
@@ -103,23 +103,23 @@ def _sweeps(columns: Columns) -> bool:
     return any(x.size and np.ptp(x) > _SWEPT * np.max(np.abs(x)) for x in known)
 
 
-def has_sweep(columns: Columns) -> bool:
+def has_sweep(columns: MaterialColumns) -> bool:
     """Return whether the columns hold a frequency and two numbers that give a complex modulus."""
     swept = "frequency" in columns or "angular_frequency" in columns
     return swept and form_of(columns) is not None
 
 
-def form_of(columns: Columns) -> tuple[str, str] | None:
+def form_of(columns: MaterialColumns) -> tuple[str, str] | None:
     """Return the two columns from which a complex modulus follows, or None."""
     return next((form for form in _FORMS if all(name in columns for name in form)), None)
 
 
-def cause(tables: Sequence[Columns], wanted: str, kind: str | None) -> str:
+def cause(tables: Sequence[MaterialColumns], wanted: str, kind: str | None) -> str:
     """Return the reason why the tables of a file lack the requested test.
 
     Parameters
     ----------
-    tables : sequence of Columns
+    tables : sequence of MaterialColumns
         All tables of the file, whatever kind of modulus was requested.
     wanted : str
         One of :data:`TESTS`.
@@ -147,7 +147,7 @@ def cause(tables: Sequence[Columns], wanted: str, kind: str | None) -> str:
     return next(filter(None, (_nonlinear(columns) for columns in tables)), "")
 
 
-def _nonlinear(columns: Columns) -> str:
+def _nonlinear(columns: MaterialColumns) -> str:
     """Describe a table without a linear viscoelastic test; empty if unknown."""
     timed = "time" in columns or "step_time" in columns
     # a wave of large amplitude has its rate beside strain and stress
@@ -177,7 +177,7 @@ def _nonlinear(columns: Columns) -> str:
     return ""
 
 
-def _by_what_is_held(columns: Columns) -> str | None:
+def _by_what_is_held(columns: MaterialColumns) -> str | None:
     spread = {}
     for quantity in ("stress", "strain"):
         try:

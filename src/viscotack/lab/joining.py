@@ -9,8 +9,8 @@ import numpy as np
 
 from viscotack.errors import InputError
 
-from .lab_file import LabFile
-from .quantities import in_kelvin
+from .formats.file import LabFile
+from .formats.headings import in_kelvin
 from .sweeps import FrequencySweeps, Source
 
 _IN_NAME = re.compile(

@@ -1,4 +1,4 @@
-"""What a caller states about a file that does not state it: units, kind, columns, table."""
+"""What a caller states about a file that does not state it: units, columns, table."""
 
 import math
 import re
@@ -7,10 +7,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+import numpy as np
+
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .arrays import KINDS
-from .quantities import COLUMNS, POSSIBLE, kelvin, plain, radians_per_second, scale
+from .formats.file import LabFile
+from .formats.headings import (
+    COLUMNS,
+    POSSIBLE,
+    bare,
+    kelvin,
+    plain,
+    radians_per_second,
+    scale,
+)
 
 _COLUMN = re.compile(r"([^=]+)=\s*(.*\S)\s*")
 _BRACKET = re.compile(r"(.*\S)\s*\[([^\[\]]+)\]")
@@ -24,7 +36,42 @@ class Column(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options:
+class FileOptions:
+    """What the caller states about any file; see :class:`Options` and :class:`TackOptions`."""
+
+    format: str | None = None
+    time_unit: str | None = None
+    temperature_unit: str | None = None
+    temperature_in_name: bool = False
+    decimal: str | None = None
+    where: str | None = None
+
+    def __post_init__(self):
+        if self.decimal not in (None, ".", ","):
+            raise InputError(f"--decimal must be . or , got {self.decimal!r}")
+        if self.temperature_unit is not None:
+            kelvin(self.temperature_unit)
+        for target in ("Pa", "s", "N", "m"):
+            if unit := self.unit(target):
+                scale(unit, target)
+
+    @property
+    def chosen(self) -> Mapping[str, Column]:
+        """Columns chosen by the caller, by quantity."""
+        return {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Headings and numbers of the columns chosen by the caller."""
+        return tuple(column.name for column in self.chosen.values())
+
+    def unit(self, target: str) -> str:
+        """Return the unit given by the caller for columns without one, empty if none."""
+        return (self.time_unit or "") if target == "s" else ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options(FileOptions):
     """What the caller states about a file, for files that do not state it.
 
     Parameters
@@ -71,25 +118,18 @@ class Options:
     Column(name='1', unit='s')
     """
 
-    format: str | None = None
     kind: str | None = None
     temperature: float | None = None
     frequency_unit: str | None = None
     modulus_unit: str | None = None
-    time_unit: str | None = None
-    temperature_unit: str | None = None
-    temperature_in_name: bool = False
-    decimal: str | None = None
     step_start: float = 0.0
     columns: str | None = None
-    where: str | None = None
     table: str | None = None
 
     def __post_init__(self):
+        super().__post_init__()
         if self.kind is not None and self.kind not in KINDS:
             raise InputError(f"--kind must be E (tensile) or G (shear), got {self.kind!r}")
-        if self.decimal not in (None, ".", ","):
-            raise InputError(f"--decimal must be . or , got {self.decimal!r}")
         if self.temperature is not None and not POSSIBLE[0] < self.temperature < POSSIBLE[1]:
             raise InputError(
                 f"--temperature must be above 0 K, got {self.temperature!r} K; give Celsius "
@@ -101,12 +141,6 @@ class Options:
             raise InputError(f"--step-start must not be negative, got {self.step_start!r} s")
         if self.frequency_unit is not None:
             radians_per_second(self.frequency_unit, angular="rad" in self.frequency_unit)
-        if self.modulus_unit is not None:
-            scale(self.modulus_unit, "Pa")
-        if self.time_unit is not None:
-            scale(self.time_unit, "s")
-        if self.temperature_unit is not None:
-            kelvin(self.temperature_unit)
         _ = self.chosen
 
     @cached_property
@@ -125,7 +159,75 @@ class Options:
             found[quantity] = Column(unit[1], unit[2].strip()) if unit else Column(match[2], "")
         return found
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Headings and numbers of the columns chosen by the caller."""
-        return tuple(column.name for column in self.chosen.values())
+    def unit(self, target: str) -> str:
+        """Return the unit given by the caller for columns without one, empty if none."""
+        if target == "1/Pa" and self.modulus_unit:
+            return f"1/({bare(self.modulus_unit)})"
+        return (self.modulus_unit or "") if target == "Pa" else super().unit(target)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TackOptions(FileOptions):
+    """What the caller states about files of tack tests, which may not state it.
+
+    Parameters
+    ----------
+    format : str, optional
+        One of :data:`viscotack.lab.tack.FORMATS`; by default it is detected from the content.
+    force_unit, length_unit, time_unit : str, optional
+        Such as ``"mN"``, ``"um"`` and ``"s"``, if a heading has no unit. Grams are converted to
+        newtons.
+    temperature_unit : str, optional
+        ``"degC"``, ``"K"`` or ``"degF"``, of a column without a unit.
+    force_column, position_column, time_column : str, optional
+        Heading or number (from 1) of the column to use, if there are several or none is recognised.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+    nominal_speed : float, optional
+        Set speed [m/s], if a file has no column of time.
+    spring_constant, sensitivity : float, optional
+        Spring constant [N/m] and deflection by signal [m/A] of a cantilever, if the format
+        ``afmformats`` needs them (text of NT-MDT).
+    temperature_in_name : bool
+        Read the temperature from the name of each file, as in ``probe_25C.csv``; by default from
+        a column or a header line with a unit, if there is one.
+    where : str, optional
+        Rows to read, by the heading and the content of a column: ``"Sample=A"``.
+    """
+
+    force_unit: str | None = None
+    length_unit: str | None = None
+    force_column: str | None = None
+    position_column: str | None = None
+    time_column: str | None = None
+    nominal_speed: float | None = None
+    spring_constant: float | None = None
+    sensitivity: float | None = None
+
+    @cached_property
+    def chosen(self) -> Mapping[str, Column]:
+        """Columns chosen by the caller, by quantity."""
+        said = {
+            "force": self.force_column,
+            "travel": self.position_column,  # or another position, by its heading
+            "time": self.time_column,
+        }
+        return {name: Column(text.strip(), "") for name, text in said.items() if text}
+
+    def unit(self, target: str) -> str:
+        """Return the unit given by the caller for columns without one, empty if none."""
+        said = {"N": self.force_unit, "m": self.length_unit}
+        return (said[target] or "") if target in said else super().unit(target)
+
+    def time_of(self, file: LabFile, position: Array, notes: list[str]) -> Array:
+        """Compute the time [s] from the nominal speed."""
+        if self.nominal_speed is None:
+            raise file.error(
+                "there is no column of time, so the true speed is unknown; set "
+                "--nominal-speed to use the set speed"
+            )
+        if not 0 < self.nominal_speed < np.inf:
+            raise InputError(f"--nominal-speed must be positive, got {self.nominal_speed!r} m/s")
+        notes.append("no column of time: computed from the nominal speed, which is not verified")
+        way = np.abs(np.diff(position, prepend=position[0]))
+        return np.cumsum(np.where(np.isfinite(way), way, 0.0)) / self.nominal_speed

@@ -5,49 +5,51 @@ it; the fields of :class:`Options` have the same names, for example ``--modulus-
 `modulus_unit`. Every reader takes :class:`Options`, and fields of it as keywords.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from os import PathLike
-from types import ModuleType
 from typing import Any, NamedTuple
 
 from viscotack.errors import InputError
 
-from . import (
-    assembly,
-    plain_layout,
-    reptate_layout,
-    rheocompass_layout,
-    step_tests,
-    trios_json_layout,
-    trios_layout,
-    wide_layout,
-    workbook_layout,
-)
-from .columns import Columns
+from . import assembly, step_tests
 from .diagnosis import best_sheet, sheets_with, test_of
+from .formats import reptate, text, trios_json, workbook
+from .formats.columns import MaterialColumns
+from .formats.file import LabFile, format_of, load
+from .formats.headings import MATERIAL, Vocabulary
+from .formats.tables import Table, pieces, where
 from .joining import joined, kelvin_in_name
-from .lab_file import LabFile, format_of, load, refuse_unknown
 from .options import Options
-from .quantities import recognise
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
-from .tables import Table, heads, pieces, where
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
 _NOTHING = Options()
 
-# format -> module that reads its layout, in order of detection
-FORMATS: dict[str, ModuleType] = {
-    "eplexor": workbook_layout,
-    "workbook": workbook_layout,
-    "reptate": reptate_layout,
-    "trios-json": trios_json_layout,
-    "trios": trios_layout,
-    "rheocompass": rheocompass_layout,
-    "wide": wide_layout,
-    "pyvisco": plain_layout,
-    "csv": plain_layout,
+
+class Layout(NamedTuple):
+    """How to recognise files of a layout, and how to read their tables."""
+
+    name: Callable[[LabFile], str | None]
+    tables: Callable[[LabFile, Vocabulary, Sequence[str]], list[Table]]
+
+
+_PLAIN, _WORKBOOK = (
+    Layout(text.is_plain, text.plain),
+    Layout(workbook.is_workbook, workbook.tables),
+)
+# by format, in order of detection
+FORMATS: dict[str, Layout] = {
+    "eplexor": _WORKBOOK,
+    "workbook": _WORKBOOK,
+    "reptate": Layout(reptate.name, reptate.tables),
+    "trios-json": Layout(trios_json.name, trios_json.tables),
+    "trios": Layout(text.is_trios, text.trios),
+    "rheocompass": Layout(text.is_rheocompass, text.rheocompass),
+    "wide": Layout(text.is_wide, text.wide),
+    "pyvisco": _PLAIN,
+    "csv": _PLAIN,
 }
 
 
@@ -93,7 +95,7 @@ def read(
     """
     opened = _opened(path, options, more)
     tests = {
-        test_of(Columns(file, table, replace(given, kind=None)))
+        test_of(MaterialColumns(file, table, replace(given, kind=None)))
         for file, _, tables, given in opened
         for table in tables
         if table.rows
@@ -168,92 +170,14 @@ def read_dma(
     return joined([assembly.sweeps(*each) for each in opened])
 
 
-def read_relaxation(path: Path, options: Options = _NOTHING, **more: Any) -> RelaxationTest:
-    r"""Read a stress relaxation test: time and modulus, or stress over strain.
-
-    A time since the step takes precedence over a time
-    of the whole test; rows at time zero are ignored, with a note.
-
-    Parameters
-    ----------
-    path : path-like
-        Text file or workbook, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    RelaxationTest
-        In SI.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless the file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "t,G(t)\ns,MPa\n1,4\n10,2\n100,1\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_relaxation(file)
-    >>> found.kind, found.modulus.tolist()
-    ('G', [4000000.0, 2000000.0, 1000000.0])
-    """
-    (opened,) = _opened([path], options, more)
-    return step_tests.one(RelaxationTest, *opened)
-
-
-def read_creep(path: Path, options: Options = _NOTHING, **more: Any) -> CreepTest:
-    r"""Read a creep test: time and compliance, or strain over stress.
-
-    Parameters
-    ----------
-    path : path-like
-        Text file or workbook, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    CreepTest
-        In SI.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless the file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "t,J\ns,1/Pa\n1,1e-6\n10,2e-6\n100,4e-6\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_creep(file, kind="G")
-    >>> found.kind, found.compliance.tolist()
-    ('G', [1e-06, 2e-06, 4e-06])
-    """
-    (opened,) = _opened([path], options, more)
-    return step_tests.one(CreepTest, *opened)
-
-
 def read_relaxations(
     path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
 ) -> tuple[RelaxationTest, ...]:
     r"""Read the relaxation tests of one or more files, one per temperature, from cold to hot.
 
     Points within 1 K have one temperature. Rows with
-    monotonic time are one test, as in :func:`read_relaxation`.
+    monotonic time are one test. A time since the step takes precedence over a time of the whole
+    test; rows at time zero are ignored, with a note.
 
     Parameters
     ----------
@@ -296,7 +220,7 @@ def read_creeps(
     r"""Read the creep tests of one or more files, one per temperature, from cold to hot.
 
     Points within 1 K have one temperature. Rows with
-    monotonic time are one test, as in :func:`read_creep`.
+    monotonic time are one test, as in :func:`read_relaxations`.
 
     Parameters
     ----------
@@ -401,24 +325,20 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
 
 
 def _each(kind: type[step_tests.Test], opened: Sequence[_Opened]) -> tuple[step_tests.Test, ...]:
-    tests = [test for one in opened for test in step_tests.each(kind, *one)]
+    tests = [test for one in opened for test in step_tests.tests(kind, *one)]
     return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
 
 
 def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
-    refuse_unknown(given.format, FORMATS)
     file = load(path)
     if not given.names:
-        file = plain_layout.upright(file, heads, recognise)
-    found = format_of(file, FORMATS, given.format, "csv")
-    layout = FORMATS[found]
-    if given.names and layout in (plain_layout, workbook_layout):
-        whole = layout.tables(file, given.names)
-    else:
-        whole = layout.tables(file)
+        file = text.upright(file, MATERIAL)
+    names = {name: layout.name for name, layout in FORMATS.items()}
+    found = format_of(file, names, given.format, "csv")
+    whole = FORMATS[found].tables(file, MATERIAL, given.names)
     said = () if given.format is not None else (f"detected format: {found}",)
     cut = () if found == "trios-json" else file.left_out
-    parts = [part for table in whole for part in pieces(table)]
+    parts = [part for table in whole for part in pieces(table, MATERIAL)]
     pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
     numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
     tables, others = _selected(file, where(file, numbered, given.where), given)
@@ -435,12 +355,12 @@ def _selected(
         if not tables:
             raise file.error(f"no table {given.table!r} (--table); the file has {places}")
     for name in given.names:
-        if not any(name in Columns(file, table, given).names for table in tables):
+        if not any(name in MaterialColumns(file, table, given).names for table in tables):
             headings = assembly.headings_of(tables)
             raise file.error(f"no column {name!r} (--columns); the headings are {headings}")
     if not tables:
         return tables, ()
-    columns = [Columns(file, table, given) for table in tables]
+    columns = [MaterialColumns(file, table, given) for table in tables]
     read, alike = sheets_with(best_sheet(columns), columns)
     chosen = [table for table in tables if table.sheet in read]
     names = list(dict.fromkeys(table.sheet for table in chosen))

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -20,15 +19,16 @@ from .assembly import (
     source_of,
     temperatures,
 )
-from .columns import Columns
 from .diagnosis import test_of
+from .formats.columns import MaterialColumns
+from .formats.file import LabFile
+from .formats.tables import Table, refuse_pooled
+from .formats.unit_checks import doubtful_modulus
 from .grouping import levels
-from .lab_file import LabFile
 from .options import Options
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
-from .tables import Table, refuse_pooled
-from .unit_checks import doubtful_modulus
 
+_DRIFT = 5.0  # K: largest range of temperatures of one test
 Test = TypeVar("Test", RelaxationTest, CreepTest)
 # test -> measured quantity, numerator and denominator if it is not a column, and its name
 _MEASURED: dict[type, tuple[str, str, str, str]] = {
@@ -37,82 +37,43 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 }
 
 
-def one(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
-) -> Test:
-    """Return the single test of a kind in a file."""
-    rows = _rows(file, tables, given, kind)
-    return _test(kind, file, format, replace(rows, temperature=_one_temperature(rows)))
-
-
-def each(
-    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Options
+def tests(
+    kind: type[Test],
+    file: LabFile,
+    format: str,
+    tables: Sequence[Table],
+    given: Options,
 ) -> list[Test]:
-    """Return the tests of a kind in a file, one per temperature."""
-    rows = _by_temperature(_rows(file, tables, given, kind))
-    return [_test(kind, file, format, part) for part in rows]
-
-
-@dataclass(frozen=True, eq=False)
-class _Rows:
-    """Usable rows of a step test: time, modulus or compliance, temperature."""
-
-    time: Array
-    values: Array
-    temperature: Array
-    kind: str
-    columns: Columns
-
-
-def _test(kind: type[Test], file: LabFile, format: str, rows: _Rows) -> Test:
-    held = _MEASURED[kind][2]
-    known = rows.temperature[~np.isnan(rows.temperature)]
-    stated: dict[str, Any] = {held: _level(rows.columns, held)}
-    return kind(
-        rows.time,
-        rows.values,
-        rows.kind,
-        temperature=float(np.mean(known)) if known.size else None,
-        source=source_of(file, format, [*file.notes, *rows.columns.notes]),
-        **stated,
-    )
-
-
-def _one_temperature(rows: _Rows) -> Array:
-    """Return the temperatures of a test; raise an error if there is more than one."""
-    known = rows.temperature[~np.isnan(rows.temperature)]
-    if known.size and np.ptp(known) > 5:
-        raise rows.columns.error(
-            f"the temperature varies by {np.ptp(known):.3g} K; a step test must have one "
-            "temperature"
-        )
-    return rows.temperature
-
-
-def _by_temperature(rows: _Rows) -> list[_Rows]:
-    """Return the rows of each temperature, from cold to hot; all rows if it is unknown.
+    """Return the tests of a kind in a file, one per temperature.
 
     Rows with monotonic time are one test, whose temperature may drift.
     """
-    steps = np.diff(rows.time)
-    if np.any(np.isnan(rows.temperature)) or np.all(steps > 0) or np.all(steps < 0):
-        return [replace(rows, temperature=_one_temperature(rows))]
-    parts = [
-        replace(
-            rows,
-            time=rows.time[part],
-            values=rows.values[part],
-            temperature=rows.temperature[part],
-        )
-        for part in levels(rows.temperature)
-    ]
-    return [replace(part, temperature=_one_temperature(part)) for part in parts]
+    time, values, temperature, modulus, columns = _rows(file, tables, given, kind)
+    steps = np.diff(time)
+    runs_on = np.all(steps > 0) or np.all(steps < 0)
+    whole = runs_on or np.any(np.isnan(temperature))
+    source = source_of(file, format, [*file.notes, *columns.notes])
+    held = _MEASURED[kind][2]
+    found = []
+    for part in [np.arange(time.size)] if whole else levels(temperature):
+        known = temperature[part][~np.isnan(temperature[part])]
+        if known.size and np.ptp(known) > _DRIFT:
+            raise columns.error(
+                f"the temperature varies by {np.ptp(known):.3g} K; a step test must have one "
+                "temperature"
+            )
+        stated: dict[str, Any] = {
+            held: _level(columns, held),
+            "temperature": float(np.mean(known)) if known.size else None,
+        }
+        found.append(kind(time[part], values[part], modulus, source=source, **stated))
+    return found
 
 
 def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
     """Return the shift factors of a file, as log10."""
     for table in tables:
-        columns = Columns(file, table, given)
+        columns = MaterialColumns(file, table, given)
         if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
             break
     else:
@@ -141,7 +102,7 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable
     return table
 
 
-def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
+def _refuse_inverse(columns: MaterialColumns, table: ShiftTable) -> None:
     """Raise an error if shifts rise with temperature, because they are 1/a_T."""
     if len(table) > 1 and np.all(np.diff(table.log10_shift) > 0):
         raise columns.error(
@@ -150,12 +111,14 @@ def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
         )
 
 
-def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type) -> _Rows:
-    """Return time, modulus or compliance, and temperature of the single matching table."""
+def _rows(
+    file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type
+) -> tuple[Array, Array, Array, str, MaterialColumns]:
+    """Return time, modulus or compliance, temperature and kind of the single matching table."""
     wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
-        columns = Columns(file, table, given)
+        columns = MaterialColumns(file, table, given)
         timed = "time" in columns or "step_time" in columns
         known = under in columns or under in table.levels
         if table.rows and timed and (wanted in columns or (over in columns and known)):
@@ -175,7 +138,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     timed = "step_time" if "step_time" in columns else "time"
     needed = (wanted,) if wanted in columns else (over, under)
     refuse_what_is_lacking(
-        columns, given, [name for name in needed if name in columns], timed, "temperature", *needed
+        columns, [name for name in needed if name in columns], timed, "temperature", *needed
     )
     time = columns.si(timed) - given.step_start
     if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
@@ -185,7 +148,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
         )
     if not given.step_start and timed == "time":
         _refuse_late_start(columns, time)
-    kind = kind_of(columns, given, *needed)
+    kind = kind_of(columns, *needed)
     if wanted in columns:
         values = columns.si(wanted)
     else:
@@ -194,7 +157,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
         columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
     _leave_out_what_is_not_held(columns, under, test)
-    temperature = temperatures(columns, given)
+    temperature = temperatures(columns)
     if wanted == "modulus":
         refuse_stiffer_than_diamond(columns, values)
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
@@ -202,15 +165,15 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: 
     states = list(zip(kelvins, np.round(time, 9), strict=True))
     refuse_pooled(file, [columns.table], [columns.columns_in_use], [states])
     keep = kept(columns, time, values)
-    return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
+    return time[keep], values[keep], temperature[keep], kind, columns
 
 
-def _refuse_late_start(columns: Columns, time: Array) -> None:
+def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
     """Raise an error if time continues from the table before and is no time since the step."""
     previous = columns.table.before
     if previous is None or previous.sheet != columns.table.sheet or not np.isfinite(time).any():
         return
-    before = Columns(columns.file, previous, columns.options)
+    before = MaterialColumns(columns.file, previous, columns.options)
     if "time" not in before:
         return
     try:
@@ -226,7 +189,7 @@ def _refuse_late_start(columns: Columns, time: Array) -> None:
         )
 
 
-def _ratio(columns: Columns, over: str, under: str) -> Array:
+def _ratio(columns: MaterialColumns, over: str, under: str) -> Array:
     """Return stress over strain or its inverse; the step may be stated once in the file."""
     numerator = columns.si(over)
     if under not in columns:
@@ -236,7 +199,7 @@ def _ratio(columns: Columns, over: str, under: str) -> Array:
     return numerator / np.where(denominator == 0, math.nan, denominator)
 
 
-def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> None:
+def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: str) -> None:
     """Remove the points before and after the step; raise an error if there is no step."""
     if quantity not in columns:
         return
@@ -254,7 +217,7 @@ def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> N
     columns.keep &= held
 
 
-def _level(columns: Columns, quantity: str) -> float | None:
+def _level(columns: MaterialColumns, quantity: str) -> float | None:
     """Return the median of a column held constant by the instrument, in SI."""
     if quantity not in columns:
         return columns.table.levels.get(quantity)
@@ -263,7 +226,7 @@ def _level(columns: Columns, quantity: str) -> float | None:
     return float(np.median(values)) if values.size else None
 
 
-def _log10(columns: Columns, quantity: str) -> Array:
+def _log10(columns: MaterialColumns, quantity: str) -> Array:
     values = columns.numbers(quantity)
     for row in np.flatnonzero(values <= 0):
         raise columns.error(

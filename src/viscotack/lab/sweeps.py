@@ -10,6 +10,7 @@ are multiplied by 10^log10_vertical to give those at the reference temperature.
 """
 
 from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -57,8 +58,37 @@ class Source:
         return replace(self, notes=(*self.notes, *notes))
 
 
+class _Moduli:
+    """What sweeps and master curves have in common: storage and loss modulus."""
+
+    storage: Array
+    loss: Array
+
+    def __len__(self) -> int:
+        return self.storage.size
+
+    @property
+    def complex_modulus(self) -> Complex:
+        """Storage + i loss [Pa], shape (N,)."""
+        return self.storage + 1j * self.loss
+
+    def chosen(self, points: npt.ArrayLike) -> Self:
+        """Select points, by indices or by a mask of shape (N,)."""
+        return arrays.chosen(self, points)
+
+    def in_tension(self, poisson_ratio: float) -> Self:
+        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
+
+        Parameters
+        ----------
+        poisson_ratio : float
+            nu, in [0, 0.5], the same at every frequency.
+        """
+        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
+
+
 @dataclass(frozen=True, eq=False)
-class FrequencySweeps:
+class FrequencySweeps(_Moduli):
     """Storage and loss modulus over frequency, at one or more temperatures.
 
     Parameters
@@ -107,18 +137,10 @@ class FrequencySweeps:
         )
         arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
 
-    def __len__(self) -> int:
-        return self.storage.size
-
     @property
     def ids(self) -> tuple[int, ...]:
         """Sweep numbers, ascending."""
         return tuple(int(number) for number in np.unique(self.sweep))
-
-    @property
-    def complex_modulus(self) -> Complex:
-        """Storage + i loss [Pa], shape (N,)."""
-        return self.storage + 1j * self.loss
 
     def at(self, sweep: int) -> "FrequencySweeps":
         """Return one sweep, in ascending order of frequency."""
@@ -133,20 +155,6 @@ class FrequencySweeps:
         if unknown:
             raise InputError(f"no sweep {min(unknown)}; available: {list(self.ids)}")
         return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
-
-    def chosen(self, points: npt.ArrayLike) -> "FrequencySweeps":
-        """Select points, by indices or by a mask of shape (N,)."""
-        return arrays.chosen(self, points)
-
-    def in_tension(self, poisson_ratio: float) -> "FrequencySweeps":
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
-
-        Parameters
-        ----------
-        poisson_ratio : float
-            nu, in [0, 0.5], the same at every frequency.
-        """
-        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,7 +217,7 @@ class ShiftTable:
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve:
+class MasterCurve(_Moduli):
     """Storage and loss modulus at one temperature, from shifted sweeps.
 
     Parameters
@@ -260,25 +268,33 @@ class MasterCurve:
             arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
         arrays.sort_along(self, self.angular_frequency)
 
+
+class _StepTest:
+    """What relaxation and creep tests have in common: a number over the time since the step."""
+
+    # name and unit of the number, and the power of the modulus that it is
+    measured: ClassVar[tuple[str, str, int]]
+    time: Array
+    kind: str
+
+    def __post_init__(self):
+        name, unit, _ = self.measured
+        arrays.check_kind(self.kind)
+        arrays.store_temperature(self, "temperature")
+        arrays.store_columns(self, time=("s", False), **{name: (unit, False)})
+        arrays.sort_along(self, self.time)
+
     def __len__(self) -> int:
-        return self.storage.size
+        return self.time.size
 
-    @property
-    def complex_modulus(self) -> Complex:
-        """Storage + i loss [Pa], shape (N,)."""
-        return self.storage + 1j * self.loss
-
-    def chosen(self, points: npt.ArrayLike) -> "MasterCurve":
-        """Select points, by indices or by a mask of shape (N,)."""
-        return arrays.chosen(self, points)
-
-    def in_tension(self, poisson_ratio: float) -> "MasterCurve":
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged."""
-        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
+    def in_tension(self, poisson_ratio: float) -> Self:
+        """Convert a shear to a tensile modulus, 2 (1 + nu) G, or compliance, J/(2 (1 + nu))."""
+        name, _, power = self.measured
+        return arrays.in_tension(self, poisson_ratio, name, power=power)
 
 
 @dataclass(frozen=True, eq=False)
-class RelaxationTest:
+class RelaxationTest(_StepTest):
     """Modulus over time after a step of strain.
 
     Parameters
@@ -302,6 +318,8 @@ class RelaxationTest:
     [6000000.0, 3000000.0]
     """
 
+    measured: ClassVar = ("modulus", "Pa", 1)
+
     time: Array
     modulus: Array
     kind: str
@@ -309,22 +327,9 @@ class RelaxationTest:
     temperature: float | None = None
     source: Source = Source()
 
-    def __post_init__(self):
-        arrays.check_kind(self.kind)
-        arrays.store_temperature(self, "temperature")
-        arrays.store_columns(self, time=("s", False), modulus=("Pa", False))
-        arrays.sort_along(self, self.time)
-
-    def __len__(self) -> int:
-        return self.time.size
-
-    def in_tension(self, poisson_ratio: float) -> "RelaxationTest":
-        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged."""
-        return arrays.in_tension(self, poisson_ratio, "modulus")
-
 
 @dataclass(frozen=True, eq=False)
-class CreepTest:
+class CreepTest(_StepTest):
     """Compliance over time after a step of stress.
 
     Parameters
@@ -348,22 +353,11 @@ class CreepTest:
     [1e-06, 2e-06]
     """
 
+    measured: ClassVar = ("compliance", "1/Pa", -1)
+
     time: Array
     compliance: Array
     kind: str
     stress: float | None = None
     temperature: float | None = None
     source: Source = Source()
-
-    def __post_init__(self):
-        arrays.check_kind(self.kind)
-        arrays.store_temperature(self, "temperature")
-        arrays.store_columns(self, time=("s", False), compliance=("1/Pa", False))
-        arrays.sort_along(self, self.time)
-
-    def __len__(self) -> int:
-        return self.time.size
-
-    def in_tension(self, poisson_ratio: float) -> "CreepTest":
-        """Convert to the tensile compliance J / (2 (1 + nu)); a tensile one is unchanged."""
-        return arrays.in_tension(self, poisson_ratio, "compliance", power=-1)

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.lab.fit_report import FitReport
-from viscotack.lab.observed import Observed
+from viscotack.lab.fit.observed import Observed
+from viscotack.lab.fit.report import FitReport
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import FittedShift, TabulatedShift
 

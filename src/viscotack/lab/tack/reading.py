@@ -1,72 +1,59 @@
 """Read files of tack tests: detect the layout, join intervals, return records in SI.
 
 If a file lacks information, the error names the option of ``viscotack test read`` that supplies it;
-the parameters here have the same names, for example ``--force-unit`` and `force_unit`.
+the fields of :class:`TackOptions` have the same names, for example ``--force-unit`` and
+`force_unit`.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from types import ModuleType
+from typing import Any
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab import tables
+from viscotack.lab.formats import afm, ibw, jpk, jpk_text, nid, tables, text, workbook
+from viscotack.lab.formats.columns import Columns
+from viscotack.lab.formats.curve import Curve
+from viscotack.lab.formats.file import LabFile, format_of, load
+from viscotack.lab.formats.headings import POSITIONS, TACK
 from viscotack.lab.joining import kelvin_in_name
-from viscotack.lab.lab_file import LabFile, format_of, load, refuse_unknown
-from viscotack.lab.plain_layout import upright
+from viscotack.lab.options import TackOptions
+from viscotack.lab.sweeps import Source
+from viscotack.units import readable
 
-from . import (
-    afm_layout,
-    book_layout,
-    ibw_layout,
-    jpk_layout,
-    jpk_text_layout,
-    nid_layout,
-    text_layout,
-)
-from .grid import Given, heads_columns, record
-from .headings import factor, recognise
 from .record import TackRecord
 
 AnyPath = str | PathLike[str]
 
-# format -> module that reads its layout, in order of detection
-FORMATS: dict[str, ModuleType] = {
-    "afmformats": afm_layout,
-    "jpk-force": jpk_layout,
-    "jpk-text": jpk_text_layout,
-    "nid": nid_layout,
-    "ibw": ibw_layout,
-    "workbook": book_layout,
-    "text": text_layout,
+# formats of microscopes: test whether a file has it, and reader of its curves
+_MICROSCOPES: dict[
+    str, tuple[Callable[[LabFile], str | None], Callable[[LabFile, TackOptions], list[Curve]]]
+] = {
+    "afmformats": (afm.name, afm.curves),
+    "jpk-force": (jpk.name, lambda file, given: jpk.curves(file)),
+    "jpk-text": (jpk_text.name, lambda file, given: jpk_text.curves(file)),
+    "nid": (nid.name, lambda file, given: nid.curves(file)),
+    "ibw": (ibw.name, lambda file, given: ibw.curves(file)),
+}
+# format -> test whether a file has it, in order of detection
+FORMATS: dict[str, Callable[[LabFile], str | None]] = {
+    **{name: recognised for name, (recognised, _) in _MICROSCOPES.items()},
+    "workbook": lambda file: "workbook" if file.is_workbook else None,
+    "text": lambda file: None,
 }
 _INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
 # first bytes of formats that are neither text nor workbooks
-_RAW = (b"[DataSet]", ibw_layout.START, afm_layout.HDF)
+_RAW = (nid.MARK, ibw.START, afm.HDF)
+_INTO = {"gap": -1, "depth": 1, "travel": 0}
+_NEEDED = 20  # smallest number of rows needed to identify the parts of a test
 
 
-def read(
-    paths: AnyPath | Sequence[AnyPath],
-    *,
-    format: str | None = None,
-    force_unit: str | None = None,
-    length_unit: str | None = None,
-    time_unit: str | None = None,
-    force_column: str | None = None,
-    position_column: str | None = None,
-    time_column: str | None = None,
-    decimal: str | None = None,
-    nominal_speed: float | None = None,
-    spring_constant: float | None = None,
-    sensitivity: float | None = None,
-    temperature_in_name: bool = False,
-    where: str | None = None,
-) -> list[TackRecord]:
+def read(paths: AnyPath | Sequence[AnyPath], **options: Any) -> list[TackRecord]:
     r"""Read the records of tack tests, one per continuous period of time.
 
     Parameters
@@ -77,25 +64,8 @@ def read(
         .jpk-force, Asylum .ibw), or one that afmformats reads (maps of JPK, AFM Workshop, .h5;
         extra ``afm``). Files named ``..._Interval_7.csv`` are intervals of one test and are joined
         in the order of their numbers.
-    format : str, optional
-        One of :data:`FORMATS`; by default it is detected from the content.
-    force_unit, length_unit, time_unit : str, optional
-        Such as ``"mN"``, ``"um"`` and ``"s"``, if a heading has no unit. Grams are converted to
-        newtons.
-    force_column, position_column, time_column : str, optional
-        Heading or number (from 1) of the column to use, if there are several or none is recognised.
-    decimal : {".", ","}, optional
-        Decimal mark, if numbers such as ``1,234`` are ambiguous.
-    nominal_speed : float, optional
-        Set speed [m/s], if a file has no column of time.
-    spring_constant, sensitivity : float, optional
-        Spring constant [N/m] and deflection by signal [m/A] of a cantilever, if the format
-        ``afmformats`` needs them (text of NT-MDT).
-    temperature_in_name : bool
-        Read the temperature from the name of each file, as in ``probe_25C.csv``; by default from
-        a column or a header line with a unit, if there is one.
-    where : str, optional
-        Rows to read, by the heading and the content of a column: ``"Sample=A"``.
+    **options
+        Fields of :class:`viscotack.lab.TackOptions` by name.
 
     Raises
     ------
@@ -115,45 +85,17 @@ def read(
     >>> len(found), found.force.max().item(), found.into
     (41, 0.02, -1)
     """
-    given = Given(
-        force_unit,
-        length_unit,
-        time_unit,
-        force_column,
-        position_column,
-        time_column,
-        decimal,
-        nominal_speed,
-        spring_constant,
-        sensitivity,
-        temperature_in_name,
-        where,
-    )
-    _check(format, given)
+    given = TackOptions(**options)
     chosen = [paths] if isinstance(paths, str | PathLike) else list(paths)
     if not chosen:
         raise InputError("no file to read; give one or more paths")
     found: list[TackRecord] = []
     for group in _groups(chosen):
         if len(group) == 1:
-            found += _records(group[0][1], format, given)
+            found += _records(group[0][1], given)
         else:
-            found += _joined(group, format, given)
+            found += _joined(group, given)
     return found
-
-
-def _check(format: str | None, given: Given) -> None:
-    """Check the caller's options before the file."""
-    refuse_unknown(format, FORMATS)
-    if given.decimal not in (None, ".", ","):
-        raise InputError(f"--decimal must be . or , got {given.decimal!r}")
-    for unit, quantity in (
-        (given.force_unit, "force"),
-        (given.length_unit, "travel"),
-        (given.time_unit, "time"),
-    ):
-        if unit is not None:
-            factor(unit, quantity)
 
 
 def groups(paths: Sequence[AnyPath]) -> list[list[AnyPath]]:
@@ -165,15 +107,12 @@ def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
     groups: dict[tuple[str, str], list[tuple[int, AnyPath]]] = {}
     for count, path in enumerate(paths):
         match = _INTERVAL.fullmatch(Path(path).stem)
-        if match:
-            key, place = (str(Path(path).parent), match[1]), int(match[2])
-        else:
-            key, place = (str(path), f"\0{count}"), 0
-        groups.setdefault(key, []).append((place, path))
+        key = (str(Path(path).parent), match[1]) if match else (str(path), f"\0{count}")
+        groups.setdefault(key, []).append((int(match[2]) if match else 0, path))
     return [sorted(group, key=lambda item: item[0]) for group in groups.values()]
 
 
-def _joined(group: list[tuple[int, AnyPath]], format: str | None, given: Given) -> list[TackRecord]:
+def _joined(group: list[tuple[int, AnyPath]], given: TackOptions) -> list[TackRecord]:
     """Read the intervals of one test and join those with consecutive numbers."""
     stretches: list[list[TackRecord]] = []
     before = None
@@ -183,18 +122,14 @@ def _joined(group: list[tuple[int, AnyPath]], format: str | None, given: Given) 
             # an interval without data
             skipped.append(f"interval {number} is empty")
             continue
-        (one,) = _single(_records(path, format, given, few=True), path)
+        found = _records(path, given, few=True)
+        if len(found) != 1:
+            raise InputError(f"{path}: the interval has {len(found)} tables; expected one")
         if before is None or number != before + 1:
             stretches.append([])
-        stretches[-1].append(one)
+        stretches[-1] += found
         before = number
     return [_join(parts, tuple(skipped)) for parts in stretches]
-
-
-def _single(records: list[TackRecord], path: AnyPath) -> list[TackRecord]:
-    if len(records) != 1:
-        raise InputError(f"{path}: the interval has {len(records)} tables; expected one")
-    return records
 
 
 def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
@@ -211,50 +146,121 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
                 "intervals from the start of the test"
             )
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
-    return replace(
-        first,
-        time=np.concatenate([part.time for part in parts]),
-        force=np.concatenate([part.force for part in parts]),
-        position=np.concatenate([part.position for part in parts]),
-        contact_radius=_column(parts, "contact_radius"),
-        temperature=_column(parts, "temperature"),
-        source=first.source.noted(*said, *notes),
-    )
+    columns: dict[str, Any] = {}
+    for name in ("time", "force", "position", "contact_radius", "temperature"):
+        rows = [getattr(part, name) for part in parts]
+        # some intervals may lack a column
+        known = any(row is not None for row in rows)
+        pairs = zip(parts, rows, strict=True)
+        filled = [np.full(len(part), np.nan) if row is None else row for part, row in pairs]
+        columns[name] = np.concatenate(filled) if known else None
+    return replace(first, **columns, source=first.source.noted(*said, *notes))
 
 
-def _column(parts: list[TackRecord], name: str) -> Array | None:
-    """Join a column that some intervals may lack; None if all do."""
-    rows = [getattr(part, name) for part in parts]
-    if all(row is None for row in rows):
-        return None
-    pairs = zip(parts, rows, strict=True)
-    return np.concatenate([np.full(len(part), np.nan) if x is None else x for part, x in pairs])
-
-
-def _records(
-    path: AnyPath, format: str | None, given: Given, few: bool = False
-) -> list[TackRecord]:
+def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackRecord]:
+    """Return the records of a file; one of several intervals may have `few` rows."""
     file = load(path, raw=_RAW)
-    records = _records_of(file, format, given, few)
+    found = format_of(file, FORMATS, given.format, "text")
+    # a damaged number may overflow; the record rejects it with its name
+    with np.errstate(all="ignore"):
+        if found in _MICROSCOPES:
+            curves = _MICROSCOPES[found][1](file, given)
+            records = [_record(file, found, curve, curve.notes) for curve in curves]
+        else:
+            if not file.lines and not file.is_workbook:
+                raise file.error("the file is neither text nor a workbook; export it as text")
+            file = replace(file, notes=(*file.notes, *file.left_out))
+            if not given.names:
+                file = text.upright(file, TACK)
+            reader = workbook.tables if found == "workbook" else text.plain
+            read = tables.where(file, reader(file, TACK, given.names), given.where)
+            records = [_from_table(file, table, given, found, few) for table in read]
     if not given.temperature_in_name:
         return records
     kelvin = kelvin_in_name(file)
     return [replace(one, temperature=np.full(len(one), kelvin)) for one in records]
 
 
-def _records_of(file: LabFile, format: str | None, given: Given, few: bool) -> list[TackRecord]:
-    found = format_of(file, FORMATS, format, "text")
-    layout = FORMATS[found]
-    # a damaged number may overflow; the record rejects it with its name
-    with np.errstate(all="ignore"):
-        if layout is afm_layout:
-            return layout.records(file, given)
-        if layout not in (text_layout, book_layout):
-            return layout.records(file)
-        if not file.lines and not file.is_workbook:
-            raise file.error("the file is neither text nor an Excel workbook; export it as text")
-        file = replace(file, notes=(*file.notes, *file.left_out))
-        if not given.names:
-            file = upright(file, heads_columns, recognise)
-        read = tables.where(file, layout.grids(file, given.names), given.where)
-        return [record(file, table, given, found, few) for table in read]
+def _record(
+    file: LabFile, format: str, curve: Curve, notes: Sequence[str], **more: Any
+) -> TackRecord:
+    notes = [*file.notes, *notes]
+    if curve.stiffness:
+        rig = f"cantilever of {readable(curve.stiffness, 'N/m')}"
+        notes.append(f"{rig}, whose deflection is subtracted from the height")
+    try:
+        return TackRecord(
+            curve.time,
+            curve.force,
+            curve.position,
+            into=curve.into,
+            compliance=1 / curve.stiffness if curve.stiffness else 0.0,
+            source=Source(file.path, file.sha256, format, tuple(notes)),
+            **more,
+        )
+    except InputError as error:
+        raise file.error(str(error)) from None
+
+
+def _from_table(
+    file: LabFile, table: tables.Table, given: TackOptions, format: str, few: bool
+) -> TackRecord:
+    """Return the record in a table."""
+    columns = Columns(file, table, given, TACK)
+    known = ", ".join(repr(text) for text in table.headings if text)
+    if missing := set(given.names) - columns.names - {name.strip() for name in columns.names}:
+        raise file.error(f"no column has the heading {min(missing)!r}; the headings are {known}")
+    position = ["travel"] if given.position_column else [x for x in POSITIONS if x in columns]
+    for word, found in (("force", "force" in columns), ("position", position)):
+        if not found:
+            raise file.error(
+                f"no column of {word} was recognised (headings: {known}); set --{word}-column NAME"
+            )
+    if len(position) > 1:
+        both = " and ".join(f'"{columns.name(name)}"' for name in position)
+        raise file.error(f"two columns of position: {both}; set --position-column NAME")
+    force, way = columns.si("force"), columns.si(position[0])
+    heading = TACK.recognise(columns.name(position[0]), "")
+    kind = heading.quantity if heading and heading.quantity in POSITIONS else "travel"
+    time = columns.si("time") if "time" in columns else None
+    keep = columns.keep.copy()
+    more = {"contact_radius": _contact_radius(columns), "temperature": _temperature(columns)}
+    columns.refuse_contradiction("force", position[0], "time")
+    # what differs along a test, such as its parts, is no state that is pooled
+    tables.refuse_pooled(file, [table], [columns.columns_in_use], [range(len(table.rows))])
+    if lost := int(np.sum(~keep)):
+        columns.notes.append(f"{lost} rows without a number rejected")
+    needed = 1 if few else _NEEDED
+    if np.sum(keep) < needed:
+        raise file.error(
+            f"{np.sum(keep)} rows with a force and a position; at least {needed} are needed"
+        )
+    if time is None:
+        time = given.time_of(file, way, columns.notes)
+    curve = Curve(time[keep], force[keep], way[keep], _INTO[kind])
+    rows = {name: None if row is None else row[keep] for name, row in more.items()}
+    return _record(file, format, curve, columns.notes, **rows)
+
+
+def _contact_radius(columns: Columns) -> Array | None:
+    """Return the contact radius [m] from a column of radius, diameter or area, or None."""
+    if "contact_radius" in columns:
+        return columns.si("contact_radius")
+    if "contact_diameter" in columns:
+        return columns.si("contact_diameter") / 2
+    if "contact_area" not in columns:
+        return None
+    area = columns.si("contact_area")
+    if np.any(area < 0):
+        raise columns.file.error(f"a contact area must not be negative, got {np.nanmin(area):g}")
+    return np.sqrt(area / np.pi)
+
+
+def _temperature(columns: Columns) -> Array | None:
+    """Return the temperature of each row [K], or None, with a note, where it is unknown."""
+    try:
+        kelvins = columns.temperature()
+    except InputError as error:
+        columns.notes.append(f"temperature not read: {error}")
+        return None
+    return None if np.all(np.isnan(kelvins)) else kelvins

@@ -1,6 +1,6 @@
 """Options for the files of a tack tester or microscope."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -52,10 +52,10 @@ class Unit(Text):
 
     def read(self, value: Any, place: Place) -> str:
         """Return the unit, which must be one of the quantity."""
-        from viscotack.lab.tack.headings import factor
+        from viscotack.lab.formats.headings import UNITS, scale
 
         words = super().read(value, place)
-        factor(words, self.of)
+        scale(words, UNITS[self.of])
         return words
 
 
@@ -164,11 +164,10 @@ class Rig(Part):
     @property
     def reading(self) -> dict[str, Any]:
         """Keywords of :func:`viscotack.lab.tack.read`."""
-        units = ("force_unit", "length_unit", "time_unit")
-        columns = ("force_column", "position_column", "time_column", "decimal")
-        cantilever = ("nominal_speed", "spring_constant", "sensitivity")
-        names = ("format", *units, *columns, *cantilever, "temperature_in_name", "where")
-        return {name: getattr(self, name) for name in names}
+        from viscotack.lab import TackOptions
+
+        names = {each.name for each in fields(TackOptions)}
+        return {name: value for name, value in vars(self).items() if name in names}
 
     @property
     def evaluation(self) -> dict[str, Any]:

@@ -1,0 +1,1 @@
+"""Master curves and fits of material models to measurements."""

@@ -1,0 +1,305 @@
+r"""Fit a Prony series, with the number of arms chosen by an information criterion.
+
+The relaxation times lie on a logarithmic grid over the measured range. The non-negative moduli
+minimise the sum of squares of ln(measured/fitted) in a few Gauss-Newton steps, each a linear
+problem with bounds (:mod:`.nonnegative`). Creep is fitted in the same way by retardation times and
+interconverted exactly. The number of grid times is increased and the corrected Akaike criterion
+chooses. Arms of zero modulus are dropped. Intervals of the plateaus include all series on a dense
+grid (:mod:`.plateaus`).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError
+from viscotack.materials import Prony
+from viscotack.materials.conversion import RetardationSeries, relaxation_series
+from viscotack.materials.modes import maxwell
+
+from .errors import Errors, errors
+from .nonnegative import nonnegative
+from .observed import Observed, only
+from .plateaus import NAMES, Plateau, open_ends
+from .report import Fitted, Interval, information_criterion, scatter
+
+_MOST = 60  # arms
+_ENOUGH = 40  # smallest number of points to separate the scatter of a curve from its shape
+_REPEATABLE = 2e-3  # best repeatability of a laboratory; smaller residuals do not count
+_DENSE, _DENSEST = 4, 80  # times per decade on the grid of the intervals, and their maximum
+_MOVED = 12  # largest number of arms whose times are optimised
+_MADE = 120  # synthetic data sets to simulate the growth of the sum of squares
+_FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) relative to the smallest number
+
+
+def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, seed: int) -> Fitted:
+    """Fit a Prony series to measured numbers.
+
+    Parameters
+    ----------
+    data : Observed
+        Measured numbers.
+    arms : int or None
+        Number of relaxation times on the grid; None lets the criterion choose.
+    level : float
+        Confidence level of the intervals, in (0, 1).
+    draws : int
+        Number of bootstrap samples: the fitted numbers with random errors like the
+        residuals, fitted again on the same times. 0: no samples and no intervals.
+    seed : int
+        Of the random numbers.
+    """
+    if arms is not None and not 1 <= arms <= 4 * _MOST:
+        raise InputError(f"arms must be between 1 and {4 * _MOST}, got {arms}")
+    compared: list[tuple[str, float]] = []
+    if arms is None:
+        grids = _grids(data)
+        if not grids:
+            raise InputError(
+                f"{data.values.size} numbers are too few to choose the number of arms; give "
+                "arms, or fit a model with few constants"
+            )
+        criteria = [_criterion(data, *_fitted(data, grid, data.logs)) for grid in grids]
+        chosen = grids[int(np.argmin(criteria))]
+        order = np.argsort(criteria)[:4]
+        compared = [(f"{grids[i].size} arms", criteria[i]) for i in sorted(order)]
+    else:
+        chosen = _grid(data, arms)
+    times, weights = _fitted(data, chosen, data.logs)
+    if arms is not None and arms <= _MOVED:
+        times, weights = _moved(data, chosen, times, weights)
+    material = _material(data, times, weights)
+    residuals = data.weighed(data.residuals(material))
+    constants = int(np.count_nonzero(weights))
+    spread = scatter(residuals, constants)
+    intervals = tuple(
+        Interval(name, float(getattr(material, name)), np.nan, np.nan, unit="Pa") for name in NAMES
+    )
+    sample: tuple[Prony, ...] = ()
+    if draws:
+        known = errors(data, residuals, _slopes(data, times, weights))
+        spread = scatter(residuals, constants, known.words())
+        intervals = _plateaus(data, material, times, weights, known, level, seed)
+        sample = _bootstrap(data, times, weights, known, draws, seed)
+    return Fitted(
+        material=material,
+        intervals=intervals,
+        scatter=spread,
+        constants=constants,
+        grid=chosen.size,
+        # a number of grid times that the data choose counts as one constant
+        criterion=information_criterion(residuals, constants + (arms is None)),
+        compared=tuple(compared),
+        draws=sample,
+    )
+
+
+def with_noise(data: Observed) -> Observed:
+    """Return a copy with the noise of each part, estimated from a smooth fit.
+
+    Storage and loss modulus are fitted separately by a series each; the scatter about it is the
+    noise. At small loss angles the loss modulus is often ten times as noisy as the storage modulus;
+    with equal weights it would distort the fit of the storage modulus. Parts within a factor of 2
+    of each other have equal weights, and so do curves with few points, where noise and shape cannot
+    be separated.
+    """
+    if data.quantity != "complex modulus" or data.at.size < _ENOUGH:
+        return data
+    alone = [
+        fit_series(only(data, part), arms=None, level=0.9, draws=0, seed=0).scatter.deviation
+        for part in data.parts
+    ]
+    noise = np.maximum(alone, _REPEATABLE)
+    noise = noise / np.min(noise)
+    return replace(data, noise=noise) if np.max(noise) > 2 else data
+
+
+def _grid(data: Observed, arms: int) -> Array:
+    """Return the midpoints of equal logarithmic cells that extend beyond the measured range.
+
+    Arms beyond the ends are needed because faster relaxation than the fastest measurement still
+    contributes to it.
+    """
+    slow, fast = data.frequencies
+    decades = np.log10(fast / slow)
+    ends = np.array([-np.log10(fast) - 0.5, -np.log10(slow) + 0.5])
+    cell = (decades + 1) / arms
+    return 10 ** np.linspace(ends[0] + cell / 2, ends[1] - cell / 2, arms)
+
+
+def _grids(data: Observed) -> list[Array]:
+    """Return the grids to try: every size while small, then with increasing steps."""
+    counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
+    return [_grid(data, n) for n in counts if n + 3 < data.values.size]
+
+
+def _basis(data: Observed, times: Array) -> npt.NDArray:
+    """Return the contribution of each arm of unit modulus (or compliance), floor first."""
+    if data.in_frequency:
+        terms = maxwell(data.at[:, None] * times)
+        both = {"storage": (terms.real, 1.0), "loss": (terms.imag, 0.0)}
+        arms = np.concatenate([both[part][0] for part in data.parts])
+        floor = np.concatenate([np.full(data.at.size, both[part][1]) for part in data.parts])
+    else:
+        arms = np.exp(-data.at[:, None] / times)
+        if data.quantity == "creep":
+            arms = -np.expm1(-data.at[:, None] / times)
+        floor = np.ones(data.at.size)
+    return np.concatenate([floor[:, None], arms], axis=1)
+
+
+def _fitted(
+    data: Observed, times: Array, logs: Array, start: Array | None = None
+) -> tuple[Array, Array]:
+    """Return the times with a non-zero modulus, and the floor and these moduli, shape (n + 1,)."""
+    basis = _basis(data, times)
+    floor = _FLOOR * float(np.min(data.values[0]))
+    values = np.exp(logs)
+    base = floor * basis[:, 0]
+    noise = np.repeat(data.noise, data.at.size)
+    x = start
+    if x is None:
+        x = nonnegative(basis / (values * noise)[:, None], (1 - base / values) / noise)
+    for _ in range(8):
+        model = base + basis @ x
+        model = np.maximum(model, 1e-3 * values)  # avoids zero where no arm contributes yet
+        # ln(model + d) to first order in the change: Gauss-Newton with bounds
+        target = 1 + np.log(values / model) - base / model
+        new = nonnegative(basis / (model * noise)[:, None], target / noise)
+        change = np.max(np.abs(basis @ (new - x)) / model)
+        x = new
+        if change < 1e-6:
+            break
+    weights = x.copy()
+    weights[0] += floor
+    keep = weights[1:] > 0
+    return times[keep], np.concatenate([weights[:1], weights[1:][keep]])
+
+
+def _moved(data: Observed, grid: Array, times: Array, weights: Array) -> tuple[Array, Array]:
+    """Optimise few times and their weights, starting from those on a grid."""
+    if not times.size:
+        return times, weights
+    kept, found = times, weights
+    # an arm of zero modulus on the grid may contribute at another time
+    least = 1e-2 * float(np.max(weights[1:]))
+    times, weights = grid, np.full(grid.size + 1, least)
+    weights[0] = found[0]
+    weights[1 + np.searchsorted(grid, kept)] = np.maximum(found[1:], least)
+    count = times.size
+    noise = np.repeat(data.noise, data.at.size)
+    slow, fast = data.frequencies
+    low = np.concatenate((np.full(count, np.log(0.1 / fast)), np.full(count + 1, -np.inf)))
+    high = np.concatenate((np.full(count, np.log(10 / slow)), np.full(count + 1, np.inf)))
+
+    def parts(x: Array) -> tuple[Array, Array]:
+        return np.exp(x[:count]), np.exp(np.clip(x[count:], -700, 700))
+
+    def misfit(x: Array) -> Array:
+        where, sizes = parts(x)
+        model = np.maximum(_basis(data, where) @ sizes, 1e-300)
+        return np.clip((np.log(model) - data.logs) / noise, -50, 50)
+
+    start = np.clip(np.log(np.concatenate((times, weights))), low + 1e-9, high - 1e-9)
+    where, sizes = parts(least_squares(misfit, start, bounds=(low, high), max_nfev=400).x)
+    order = np.argsort(where)
+    where = where[order]
+    if np.any(np.diff(where) < 1e-3 * where[1:]):  # two times have merged
+        return kept, found
+    return where, np.concatenate((sizes[:1], sizes[1:][order]))
+
+
+def _material(data: Observed, times: Array, weights: Array) -> Prony:
+    arms = tuple(zip(weights[1:], times, strict=True))
+    if not arms:
+        raise InputError(
+            "the measured modulus does not rise with frequency (or fall with time), so a Prony "
+            "series cannot describe it"
+        )
+    if data.quantity == "creep":
+        series = RetardationSeries(
+            glassy_modulus=1 / weights[0], elements=arms, poisson_ratio=data.poisson_ratio
+        )
+        return relaxation_series(series)
+    return Prony(rubbery_modulus=weights[0], branches=arms, poisson_ratio=data.poisson_ratio)
+
+
+def _criterion(data: Observed, times: Array, weights: Array) -> float:
+    if times.size == 0:
+        return float("inf")
+    logs = np.log(np.maximum(_basis(data, times) @ weights, 1e-300))
+    residuals = data.weighed((data.logs - logs).reshape(data.values.shape))
+    return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
+
+
+def _slopes(data: Observed, times: Array, weights: Array) -> Array:
+    """Return the derivatives of ln(fitted value) by each weight, divided by the noise."""
+    basis = _basis(data, times)
+    return basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
+
+
+def _bootstrap(
+    data: Observed, times: Array, weights: Array, known: Errors, count: int, seed: int
+) -> tuple[Prony, ...]:
+    logs = np.log(_basis(data, times) @ weights)
+    noise = known.drawn(count, np.random.default_rng(seed)) * np.repeat(data.noise, data.at.size)
+    found = []
+    for each in noise:
+        kept, drawn = _fitted(data, times, logs + each)
+        if kept.size:
+            found.append(_material(data, kept, drawn))
+    return tuple(found)
+
+
+def _dense(data: Observed) -> Array:
+    """Return a grid so dense that additional times hardly change the fit."""
+    slow, fast = data.frequencies
+    beyond = 10**-0.5 if data.in_frequency else 1.0
+    count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
+    return np.geomspace(beyond / fast, 10**0.5 / slow, count)
+
+
+def _plateaus(
+    data: Observed,
+    material: Prony,
+    times: Array,
+    weights: Array,
+    known: Errors,
+    level: float,
+    seed: int,
+) -> tuple[Interval, ...]:
+    """Return the intervals of the plateaus; one-sided where a plateau was not measured."""
+    # with the fitted times, because a dense grid has not that of a single arm, and tails of loss
+    # tell the difference
+    basis = _basis(data, np.union1d(_dense(data), times))
+    logs = np.log(_basis(data, times) @ weights)
+    noise = np.repeat(data.noise, data.at.size)
+    # linearise the logarithm about the fit
+    columns = basis / (np.exp(logs) * noise)[:, None]
+    numbers = (1 + data.logs - logs) / noise
+    drawn = known.drawn(_MADE, np.random.default_rng(seed), sure=False)
+    # creep: the weights are compliances, and their sum is the rubbery compliance
+    creeping = data.quantity == "creep"
+    whole, floor = np.ones(basis.shape[1]), np.eye(basis.shape[1])[0]
+    opened = open_ends(data, material)
+    found = []
+    for name in NAMES:
+        quantity = Plateau(
+            columns, numbers, whole if (name == "glassy_modulus") != creeping else floor, drawn
+        )
+        tail = 1 - level if name in opened else (1 - level) / 2
+        ends = []
+        for side in (-1, 1):
+            if name in opened and side == (-1 if name == "rubbery_modulus" else 1):
+                ends.append(np.inf if side > 0 else 0.0)  # not measured
+            elif creeping:
+                compliance = quantity.end(-side, tail)
+                ends.append(1 / compliance if compliance > 0 else np.inf)
+            else:
+                ends.append(quantity.end(side, tail))
+        value = float(getattr(material, name))
+        found.append(Interval(name, value, min(ends[0], value), max(ends[1], value), unit="Pa"))
+    return tuple(found)

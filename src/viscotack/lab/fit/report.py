@@ -1,0 +1,246 @@
+"""Report of a fit: constants, intervals, scatter and cautions."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError
+
+from .observed import Observed
+
+# Difference of the criterion within which the data do not distinguish two models.
+ALIKE = 2.0
+_UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "modulus": "Pa", "tau0": "s"}
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A fitted quantity and its confidence interval.
+
+    Attributes
+    ----------
+    name : str
+        Name of the quantity, as in the material.
+    value : float
+        Fitted value, in SI.
+    low, high : float
+        Ends of the interval, in SI; 0 and inf where the data give no bound on that side. Both equal
+        the value if it was given instead of fitted, and are nan if no interval was
+        computed.
+    unit : str
+        SI unit, "1" for a pure number.
+    known : bool
+        Whether the quantity was given, not fitted.
+    """
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str = "1"
+    known: bool = False
+
+    @property
+    def told(self) -> bool:
+        """Whether an interval was computed."""
+        return not (np.isnan(self.low) or np.isnan(self.high))
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the data give a lower and an upper bound."""
+        return self.low > 0 and bool(np.isfinite(self.high))
+
+    def words(self) -> str:
+        """Format value, interval and unit as a line of text."""
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        line = f"{self.name:<16} {self.value:>11.5g}{unit}"
+        if self.known:
+            return f"{line}  given"
+        if not self.told:
+            return f"{line}  (no interval, because draws=0)"
+        if self.bounded:
+            return f"{line}  ({self.low:.5g} to {self.high:.5g})"
+        if self.low > 0:
+            return f"{line}  (at least {self.low:.4g}; no upper bound)"
+        if np.isfinite(self.high):
+            return f"{line}  (at most {self.high:.4g}; no lower bound)"
+        return f"{line}  (not bounded)"
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Distance between measured and fitted numbers, in natural logarithms.
+
+    Attributes
+    ----------
+    deviation : float
+        Standard deviation of one number, corrected for the number of constants.
+    degrees : int
+        Numbers minus constants.
+    shared : str
+        Correlation of the errors in words; empty for independent errors or if not computed.
+    """
+
+    deviation: float
+    degrees: int
+    shared: str = ""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Fitted:
+    """A fitted solid with the intervals of its constants and sampled solids.
+
+    Attributes
+    ----------
+    material : Material
+        The fitted solid, tensile.
+    intervals : tuple of Interval
+        Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
+    scatter : Scatter
+        Size of the residuals.
+    constants : int
+        Number of fitted constants.
+    criterion : float
+        Corrected Akaike information criterion; inf with too few numbers.
+    draws : tuple of Material
+        Solids sampled from the uncertainty of the fit, for bands and to propagate the uncertainty
+        to predictions.
+    compared : tuple of (str, float)
+        Alternatives that were fitted, with the criterion of each.
+    grid : int
+        For a Prony series, the number of relaxation times tried.
+    """
+
+    material: Any
+    intervals: tuple[Interval, ...]
+    scatter: Scatter
+    constants: int
+    criterion: float
+    draws: tuple[Any, ...]
+    compared: tuple[tuple[str, float], ...] = ()
+    grid: int = 0
+
+
+def scatter(residuals: Array, constants: int, shared: str = "") -> Scatter:
+    """Return the scatter of residuals of shape (P, N) after a fit of a number of constants."""
+    degrees = residuals.size - constants
+    return Scatter(float(np.sqrt(np.sum(residuals**2) / max(degrees, 1))), degrees, shared)
+
+
+def information_criterion(residuals: Array, constants: int, *, floor: float = 0.0) -> float:
+    """Return the corrected Akaike information criterion; infinite with too few numbers.
+
+    -2 ln(likelihood) + 2 K + 2 K (K + 1)/(M - K - 1) with M numbers and K constants, including the
+    scatter. Smaller is better; a difference of 10 is decisive. The scatter is at least `floor`, in
+    the unit of the residuals.
+    """
+    M, K = residuals.size, constants + 1
+    if M - K - 1 <= 0:
+        return float("inf")
+    return float(
+        M * np.log(np.mean(residuals**2) + floor**2 + 1e-30) + 2 * K + 2 * K * (K + 1) / (M - K - 1)
+    )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FitReport(Fitted):
+    """A material fitted to a measurement, returned by :func:`viscotack.lab.fit`.
+
+    Attributes
+    ----------
+    model : str
+        "power-law", "relaxation-power-law", "sls" or "prony".
+    observed : Observed
+        Fitted numbers.
+    level : float
+        Confidence level of the intervals and of `band`.
+    undetermined : tuple of str
+        Sentences on constants and ranges that the measurement does not determine.
+    cautions : tuple of str
+        Sentences on the quality of the fit.
+    """
+
+    model: str
+    observed: Observed
+    level: float
+    undetermined: tuple[str, ...]
+    cautions: tuple[str, ...]
+
+    @property
+    def residuals(self) -> Array:
+        """ln(measured/fitted), shape (P, N), one row per part of the quantity."""
+        return self.observed.residuals(self.material)
+
+    @property
+    def median_error(self) -> float:
+        """Median relative deviation of the fit from the data, over all numbers."""
+        return float(np.median(np.abs(np.expm1(-self.residuals))))
+
+    def band(self, at: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return the pointwise confidence band of the fitted quantity.
+
+        Parameters
+        ----------
+        at : array_like, shape (n,)
+            Angular frequencies [rad/s], or times [s], as in the measurement.
+
+        Returns
+        -------
+        low, high : ndarray, shape (P, n)
+            Limits at the level of the report, [Pa] or [1/Pa]. Outside the measured range they
+            show only the extrapolation of the model.
+        """
+        if not self.draws:
+            raise InputError("a band needs sampled solids; fit with draws=100, not draws=0")
+        curves = np.array([self.observed.predicted(solid, at) for solid in self.draws])
+        part = (1 - self.level) / 2
+        return np.quantile(curves, part, axis=0), np.quantile(curves, 1 - part, axis=0)
+
+    def interval(self, name: str) -> Interval:
+        """Return the interval of a quantity by its name."""
+        for found in self.intervals:
+            if found.name == name:
+                return found
+        raise InputError(f"no interval {name!r}; available: {[i.name for i in self.intervals]}")
+
+    def _scatters(self) -> str:
+        """Return the root mean square residual of each part, in words."""
+        each = np.sqrt(np.mean(self.residuals**2, axis=1))
+        pairs = zip(self.observed.parts, each, strict=True)
+        return ", ".join(f"{100 * value:.2g} % ({part})" for part, value in pairs)
+
+    def words(self) -> str:
+        """Format the report as lines of text."""
+        each = dict(self.compared)
+        least = min(each.values(), default=0.0)
+        alike = [x for x in each if self.model in each and each[x] <= least + ALIKE]
+        model = " or ".join([self.model, *(x for x in alike if x != self.model)])
+        model += ", undetermined" * (len(alike) > 1)
+        lines = [
+            f"{model}: {self.constants} constants on {self.observed.values.size} numbers, "
+            f"{_range(self.observed)}",
+            f"  {100 * self.level:.0f} % intervals:",
+            *(f"  {interval.words()}" for interval in self.intervals),
+            f"  scatter {self._scatters()}, median error {100 * self.median_error:.2g} %",
+        ]
+        if len(self.compared) > 1:
+            tried = ", ".join(f"{name} {value - least:+.1f}" for name, value in each.items())
+            lines.append(f"  criterion (AICc, above the best): {tried}")
+        lines += [f"  Not determined: {sentence}" for sentence in self.undetermined]
+        lines += [f"  Note: {sentence}" for sentence in self.cautions]
+        return "\n".join(lines)
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a constant of a material."""
+    return _UNITS.get(name, "1")
+
+
+def _range(data: Observed) -> str:
+    low, high = data.at[0], data.at[-1]
+    if data.in_frequency:
+        return f"{low / (2 * np.pi):.3g} to {high / (2 * np.pi):.3g} Hz"
+    return f"{data.quantity} from {low:.3g} to {high:.3g} s"

@@ -1,0 +1,325 @@
+r"""Shift factors from the overlap of neighbouring sweeps.
+
+Moduli may also move vertically between temperatures. The theory of rubber elasticity gives, from
+density and temperature,
+
+.. math:: b_T = \frac{\rho_0 T_0}{\rho T}, \qquad \rho \propto e^{-\alpha T}
+
+which is a few per cent per ten kelvin. A clamp or a gap that changes with temperature has an effect
+of the same size. By default moduli do not move: in sweeps that need no vertical shift a fitted one
+takes up noise and moves the horizontal shift. "auto" determines the vertical shift by both moduli
+together: the vertical shifts of all steps have a common size, fitted with them, which is the prior
+where curves are too straight to determine a shift. It also contributes to the uncertainty of
+horizontal shifts computed without vertical ones.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError
+from viscotack.lab.grouping import GAP, levels
+from viscotack.lab.sweeps import FrequencySweeps, ShiftTable
+from viscotack.materials.shift import TabulatedShift
+
+from .overlap import Curve, Hold, Step, free_vertical, step_between, vertical_at
+
+FEWEST = 4  # smallest number of points per temperature
+MOST = 200  # largest number of points per temperature; more are averaged without loss of accuracy
+BY = ("both", "storage", "loss", "tan")
+BEST = ("both", "auto")  # by, vertical: what shifts are compared with; uses most of the data
+THERMOMETER = 0.2  # K: standard uncertainty of a chamber's temperature
+
+
+def shift_factors(
+    sweeps: FrequencySweeps,
+    *,
+    reference_temperature: float,
+    by: str = "both",
+    vertical: str | float = "none",
+    temperature_uncertainty: float = THERMOMETER,
+) -> ShiftTable:
+    """Compute the shift of each temperature from the overlap of neighbouring sweeps.
+
+    Parameters
+    ----------
+    sweeps : FrequencySweeps
+        Two or more temperatures, each with four or more frequencies.
+    reference_temperature : float
+        T0 [K], within the temperatures of the sweeps. Between two sweeps the shift is
+        interpolated, and the table has no row at zero shift.
+    by : {"both", "storage", "loss", "tan"}
+        Which moduli must superpose. Both moduli carry most information: storage alone is flat on a
+        plateau, where an error of a few per cent appears as a shift by decades. The loss tangent is
+        independent of vertical shifts, which are then fitted afterwards.
+    vertical : {"auto", "none", "free"} or float
+        Allowed vertical shift, one factor for storage and loss: "none"; "auto", as far as
+        the data determine it, with a common size of all steps as prior; "free", each step
+        independently; or a coefficient of volume expansion [1/K], which gives the shift by density
+        and temperature of rubber elasticity.
+    temperature_uncertainty : float
+        Standard uncertainty of the temperature of each sweep [K].
+
+    Returns
+    -------
+    ShiftTable
+        With the standard deviation of each shift relative to the reference. It includes the scatter
+        of points and of blocks of points about the common curve, vertical shifts of the size seen
+        in the data, even where none was allowed, and the thermometer; with two moduli also the
+        difference to the shifts by both moduli with vertical shifts. It does not include the error
+        for a solid that does not superpose; see :func:`viscotack.lab.superposition`.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two temperatures, one of them has too few points, two neighbours
+        do not overlap, or the reference is outside the measured range.
+
+    Notes
+    -----
+    Points within 1 K have one temperature, their mean. More than 200 points of one temperature are
+    averaged over equal intervals of the logarithm of frequency.
+
+    Examples
+    --------
+    >>> omega = np.geomspace(1, 100, 10)
+    >>> hot = omega / 10
+    >>> sweeps = FrequencySweeps(
+    ...     np.repeat([293.15, 303.15], 10),
+    ...     np.tile(omega, 2),
+    ...     np.concatenate([1e6 * (1 + omega**0.5), 1e6 * (1 + hot**0.5)]),
+    ...     np.concatenate([4e5 * omega**0.5, 4e5 * hot**0.5]),
+    ...     "E",
+    ...     np.repeat([0, 1], 10),
+    ... )
+    >>> shifts = shift_factors(sweeps, reference_temperature=293.15)
+    >>> shifts.log10_shift.round(2).tolist()
+    [0.0, -1.0]
+    """
+    each = temperature_levels(sweeps)
+    return shifts_between(
+        np.array([float(np.mean(level.temperature)) for level in each]),
+        [curve(level) for level in each],
+        reference_temperature=reference_temperature,
+        by=by,
+        vertical=vertical,
+        temperature_uncertainty=temperature_uncertainty,
+    )
+
+
+def shifts_between(
+    temperature: Array,
+    curves: Sequence[Curve],
+    *,
+    reference_temperature: float,
+    by: str,
+    vertical: str | float,
+    temperature_uncertainty: float,
+) -> ShiftTable:
+    """Compute the shift of each curve, in frequency or in time; see :func:`shift_factors`.
+
+    Parameters
+    ----------
+    temperature : ndarray, shape (M,)
+        [K], ascending.
+    curves : sequence of Curve, M
+        All measured moduli, over log10 of frequency or minus log10 of time.
+    """
+    vertical = _checked_vertical(vertical)
+    if by not in BY:
+        raise InputError(f"by must be 'both', 'storage', 'loss' or 'tan', got {by!r}")
+    if not 0 <= temperature_uncertainty < 50:
+        raise InputError(
+            "temperature_uncertainty must lie between 0 and 50 K, got "
+            f"{temperature_uncertainty:g} K"
+        )
+    if len(curves) < 2:
+        raise InputError(
+            "a shift needs sweeps at two or more temperatures, got one; give a shift law "
+            "(--glass-transition, --wlf, --shift-file)"
+        )
+    if not temperature[0] - GAP <= reference_temperature <= temperature[-1] + GAP:
+        raise InputError(
+            f"--reference-temperature must lie between {temperature[0]:.2f} and "
+            f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; give a shift law to go "
+            "beyond (--glass-transition, --wlf, --shift-file)"
+        )
+    steps = steps_between(temperature, curves, by, vertical)
+    shift, up, deviation = _summed(steps, temperature, reference_temperature)
+    kelvin = _per_kelvin(temperature, shift, reference_temperature)
+    uncertainty = np.hypot(deviation, temperature_uncertainty * kelvin)
+    if (by, vertical) != BEST and len(curves[0].y) > 1:
+        # the uncertainty includes the difference to the shifts from all moduli
+        try:
+            most = steps_between(temperature, curves, *BEST)
+        except ValueError:
+            most = steps
+        other = _summed(most, temperature, reference_temperature)[0]
+        uncertainty = np.hypot(uncertainty, shift - other)
+    return ShiftTable(temperature, shift, uncertainty, None if vertical == "none" else up)
+
+
+def steps_between(
+    temperature: Array, curves: Sequence[Curve], by: str, vertical: str | float
+) -> list[Step]:
+    """Fit the displacement of each curve relative to its colder neighbour."""
+    holds = _holds(vertical, temperature, list(pairwise(curves)))
+    steps = []
+    for i, (colder, hotter) in enumerate(pairwise(curves)):
+        try:
+            steps.append(_step(colder, hotter, by, holds[i]))
+        except ValueError as error:
+            raise InputError(
+                f"sweeps at {temperature[i]:.2f} and {temperature[i + 1]:.2f} K: {error}"
+            ) from None
+    return steps
+
+
+def _step(colder: Curve, hotter: Curve, by: str, hold: Hold) -> Step:
+    if by != "tan":
+        return step_between(part(colder, by), part(hotter, by), hold)
+    step = step_between(part(colder, by), part(hotter, by), Hold())
+    return replace(step, vertical=vertical_at(colder, hotter, step.shift, hold))
+
+
+def part(curve: Curve, by: str) -> Curve:
+    """Return the part of a curve that must superpose."""
+    if by == "both":
+        return curve
+    storage, loss = curve.y
+    return Curve(curve.x, ({"storage": storage, "loss": loss, "tan": loss - storage}[by],))
+
+
+def _per_kelvin(temperature: Array, shift: Array, reference: float) -> Array:
+    """Return the change of each shift for an error of 1 K in its or the reference temperature."""
+    slope = np.gradient(shift, temperature)
+    inside = float(np.clip(reference, temperature[0], temperature[-1]))
+    both = np.hypot(slope, np.interp(inside, temperature, slope))
+    return np.where(np.abs(temperature - inside) <= GAP, 0.0, both)
+
+
+def _summed(
+    steps: Sequence[Step], temperature: Array, reference: float
+) -> tuple[Array, Array, Array]:
+    """Return shifts, vertical shifts and standard deviations relative to the reference."""
+    columns = np.array([[s.shift, s.vertical, s.variance, s.common] for s in steps])
+    sums = np.vstack((np.zeros(4), np.cumsum(columns, axis=0)))
+    inside = float(np.clip(reference, temperature[0], temperature[-1]))
+    shift, up = (
+        np.asarray(
+            TabulatedShift(inside, tuple(temperature), tuple(column)).log10_shift(temperature)
+        )
+        for column in sums[:, :2].T
+    )
+    variance, common = (
+        np.abs(column - np.interp(inside, temperature, column)) for column in sums[:, 2:].T
+    )
+    deviation = np.sqrt(variance + common**2)
+    # the reference itself, apart from round-off
+    return shift, up, np.where(deviation < 1e-6, 0.0, deviation)
+
+
+def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
+    """Return the points of each temperature, from cold to hot."""
+    if np.any(np.isnan(sweeps.temperature)):
+        raise InputError("the temperature of some points is unknown; set --temperature")
+    return [sweeps.chosen(points) for points in levels(sweeps.temperature)]
+
+
+def curve(level: FrequencySweeps) -> Curve:
+    """Return the points of one temperature as a curve in decades: storage and loss."""
+    order = np.argsort(level.angular_frequency, kind="stable")
+    x = np.log10(level.angular_frequency[order])
+    if x.size < FEWEST or np.ptp(x) < 0.1:
+        raise InputError(
+            f"{x.size} points at {np.mean(level.temperature):.2f} K, over "
+            f"{np.ptp(x):.1g} decades of frequency are too few to find a shift from overlap; "
+            "give a shift law (--wlf, --shift-file) or omit this temperature (--leave-out)"
+        )
+    return thinned(Curve(x, (np.log10(level.storage[order]), np.log10(level.loss[order]))))
+
+
+def thinned(curve: Curve) -> Curve:
+    """Average the points of a curve to at most MOST."""
+    if curve.x.size <= MOST:
+        return curve
+    stretch = (MOST * (curve.x - curve.x[0]) / (np.ptp(curve.x) * (1 + 1e-12))).astype(int)
+    _, stretch, count = np.unique(stretch, return_inverse=True, return_counts=True)
+    x, *y = (np.bincount(stretch, column) / count for column in (curve.x, *curve.y))
+    return Curve(x, tuple(y))
+
+
+_VERTICAL = ("none", "auto", "free")
+_USUAL = 0.02  # decades, 5 %: usual effect of gap, clamp and rubber elasticity between sweeps
+_SPREADS = np.geomspace(1e-4, 0.3, 80)  # decades
+
+
+def _checked_vertical(vertical: str | float) -> str | float:
+    """Return an item of _VERTICAL or an expansion coefficient [1/K]; raise an error otherwise."""
+    if isinstance(vertical, str) and vertical in _VERTICAL:
+        return vertical
+    if isinstance(vertical, bool | str) or not 0 <= float(vertical) < 0.01:
+        raise InputError(
+            f"vertical must be one of {', '.join(_VERTICAL)}, or the coefficient of volume "
+            f"expansion in 1/K, from 0 to 0.01 (about 6e-4 for a melt), got {vertical!r}"
+        )
+    return float(vertical)
+
+
+def _by_density(temperature: Array, expansion: float) -> Array:
+    """Return log10(rho T) up to a constant; differences are minus the vertical shift.
+
+    Parameters
+    ----------
+    temperature : ndarray
+        [K].
+    expansion : float
+        Coefficient of volume expansion [1/K], constant.
+    """
+    return np.log10(temperature) - expansion * temperature / np.log(10)
+
+
+def _holds(
+    vertical: str | float, temperature: Array, pairs: Sequence[tuple[Curve, Curve]]
+) -> list[Hold]:
+    """Return the prior of the vertical shift of each step.
+
+    Parameters
+    ----------
+    vertical : str or float
+        Output of :func:`_checked_vertical`.
+    temperature : ndarray, shape (n + 1,)
+        Of the curves [K], ascending.
+    pairs : sequence of (Curve, Curve), n
+        Neighbouring curves, with all measured moduli.
+    """
+    if vertical == "free":
+        return [Hold(0.0, np.inf) for _ in pairs]
+    law = np.zeros(len(pairs))
+    if not isinstance(vertical, str):
+        law = -np.diff(_by_density(temperature, vertical))
+    spread = _spread(law, pairs)
+    moves = vertical == "auto"
+    return [Hold(float(expected), spread, moves) for expected in law]
+
+
+def _spread(law: Array, pairs: Sequence[tuple[Curve, Curve]]) -> float:
+    """Return the standard deviation of vertical shifts about their expected values.
+
+    Root mean square under the likelihood of the steps' free fits and a half-normal
+    prior of the usual size.
+    """
+    cost = (_SPREADS / _USUAL) ** 2
+    for expected, (colder, hotter) in zip(law, pairs, strict=True):
+        try:
+            found, variance = free_vertical(colder, hotter)
+        except ValueError:
+            continue  # too straight to determine the vertical shift
+        total = variance + _SPREADS**2
+        cost += np.log(total) + (found - expected) ** 2 / total
+    # uniform in the spread, not in its logarithm
+    weight = np.exp(-(cost - np.min(cost)) / 2) * _SPREADS
+    return float(np.sqrt(np.sum(weight * _SPREADS**2) / np.sum(weight)))

@@ -1,0 +1,191 @@
+"""Fit laws of time-temperature shift (WLF, Arrhenius) to tables of shift factors."""
+
+import math
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError
+from viscotack.lab.sweeps import ShiftTable
+from viscotack.materials.shift import WLF, Arrhenius, FittedShift, wlf_decades
+
+_MISSED = 0.1  # decades: deviation from a row that is always tolerated
+_UNCERTAIN = 0.01  # decades: scatter of a shift in addition to its stated uncertainty
+
+
+def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
+    """Fit the WLF law to a table of shifts by weighted least squares.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        Three or more temperatures; shifts relative to any temperature.
+    reference_temperature : float
+        T0 of the law [K], not necessarily a row; c1 and c2 refer to it.
+
+    Returns
+    -------
+    FittedShift
+        Standard errors from the curvature and the larger of the stated and the fitted scatter.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than three rows, or the shifts have the wrong curvature; then fit
+        Arrhenius, or a part of the table.
+
+    Examples
+    --------
+    >>> wlf = WLF(reference_temperature=293.15, c1=8.86, c2=101.6)
+    >>> rows = np.array([273.15, 293.15, 313.15, 343.15])
+    >>> found = fit_wlf(ShiftTable(rows, wlf.log10_shift(rows), None), reference_temperature=293.15)
+    >>> round(found.law.c1, 4), round(found.law.c2, 3)
+    (8.86, 101.6)
+    """
+    if len(table) < 3:
+        raise InputError(f"a WLF law needs three or more temperatures, got {len(table)}")
+    above = table.temperature - reference_temperature
+    weight = 1 / _deviation(table)
+    coldest = min(float(np.min(above)), 0.0)
+
+    def shape(q: Array) -> tuple[Array, float, float]:
+        c1, c2 = math.exp(q[0]), math.exp(q[1]) - coldest
+        return wlf_decades(above, c1, c2), c1, c2
+
+    def residual(q: Array) -> Array:
+        # fit the zero as well: the table may have another reference temperature
+        return weight * (q[2] + shape(q)[0] - table.log10_shift)
+
+    offset = float(np.interp(reference_temperature, table.temperature, table.log10_shift))
+    starts = [
+        [math.log(c1), math.log(c2), offset] for c1 in (5.0, 17.0, 50.0) for c2 in (20.0, 100.0)
+    ]
+    limits = ([-3.0, -5.0, -np.inf], [math.log(1e4), math.log(1e5), np.inf])
+    best = min((least_squares(residual, s, bounds=limits) for s in starts), key=lambda f: f.cost)
+    values, c1, c2 = shape(best.x)
+    if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
+        raise InputError(
+            "the curvature of the shifts contradicts a WLF law; fit Arrhenius, or the part of the "
+            "table above the glass transition"
+        )
+    # chain rule from ln c1 and ln(c2 + coldest)
+    scale = np.array([c1, c2 + coldest])
+    error = scale * np.sqrt(np.diag(_covariance(best.jac, best.fun))[:2])
+    difference = table.log10_shift - best.x[2] - values
+    return _fit(
+        WLF(reference_temperature=reference_temperature, c1=c1, c2=c2), error, table, difference
+    )
+
+
+def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
+    """Fit the Arrhenius law to a table of shifts by weighted least squares.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        Two or more temperatures; shifts relative to any temperature.
+    reference_temperature : float
+        T0 of the law [K]; the activation energy does not depend on it.
+
+    Returns
+    -------
+    FittedShift
+        Law, standard errors and misfit.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two rows, or the shift rises with temperature.
+
+    Examples
+    --------
+    >>> rows = np.array([273.15, 293.15, 313.15])
+    >>> table = ShiftTable(rows, Arrhenius(293.15, 80e3).log10_shift(rows), None)
+    >>> round(fit_arrhenius(table, reference_temperature=293.15).law.activation_energy)
+    80000
+    """
+    if len(table) < 2:
+        raise InputError(f"an Arrhenius law needs two or more temperatures, got {len(table)}")
+    unit = np.asarray(Arrhenius(reference_temperature, 1.0).log10_shift(table.temperature))
+    weight = 1 / _deviation(table)
+    columns = np.column_stack((unit, np.ones(len(table))))
+    found, *_ = np.linalg.lstsq(columns * weight[:, None], table.log10_shift * weight, rcond=None)
+    if found[0] <= 0:
+        raise InputError(
+            f"the shift rises with temperature (activation energy {found[0]:.3g} J/mol); "
+            "log10 a_T must be positive where the solid is slower, at low temperature"
+        )
+    difference = table.log10_shift - columns @ found
+    covariance = _covariance(columns * weight[:, None], difference * weight)
+    error = np.sqrt(np.diag(covariance)[:1])
+    return _fit(Arrhenius(reference_temperature, float(found[0])), error, table, difference)
+
+
+def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShift | None:
+    """Return the WLF or Arrhenius law that fits a table better; None if neither fits.
+
+    Schwarz's criterion decides between the three constants of WLF (including the zero) and the two
+    of Arrhenius. A law is rejected if it deviates from a row by more than three standard deviations
+    and by more than 0.1 decades.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        Temperatures [K] and log10 a_T, with or without their uncertainty; 0.01 decades of
+        scatter are added to it.
+    reference_temperature : float
+        T0 of the law [K], not necessarily a row.
+
+    Returns
+    -------
+    FittedShift or None
+        Law, standard errors and misfit.
+
+    Examples
+    --------
+    >>> rows = np.array([273.15, 283.15, 293.15, 303.15, 313.15])
+    >>> table = ShiftTable(rows, Arrhenius(293.15, 80e3).log10_shift(rows), np.full(5, 0.02))
+    >>> type(nearest_law(table, reference_temperature=293.15).law).__name__
+    'Arrhenius'
+    """
+    fits = []
+    for kind, constants in ((fit_arrhenius, 2), (fit_wlf, 3)):
+        try:
+            found = kind(table, reference_temperature=reference_temperature)
+        except ValueError:
+            continue  # try the other law
+        off = _off(table, found.law) / _deviation(table)
+        if np.all(np.abs(off) < 3) or abs(found.worst[1]) < _MISSED:
+            fits.append((float(off @ off) + constants * math.log(len(table)), found))
+    return min(fits, key=lambda pair: pair[0])[1] if fits else None
+
+
+def _off(table: ShiftTable, law: WLF | Arrhenius) -> Array:
+    """Return log10 a_T of the table minus the law, with the fitted zero subtracted."""
+    difference = table.log10_shift - np.asarray(law.log10_shift(table.temperature))
+    weight = _deviation(table) ** -2.0
+    return difference - float(weight @ difference / np.sum(weight))
+
+
+def _deviation(table: ShiftTable) -> Array:
+    if table.uncertainty is None:
+        return np.full(len(table), _UNCERTAIN)
+    return np.hypot(table.uncertainty, _UNCERTAIN)
+
+
+def _covariance(jacobian: Array, residual: Array) -> Array:
+    """Return the covariance, scaled up if the scatter exceeds the stated uncertainty."""
+    freedom = residual.size - jacobian.shape[1]
+    excess = max(1.0, float(residual @ residual) / freedom) if freedom > 0 else 1.0
+    return np.asarray(excess * np.linalg.pinv(jacobian.T @ jacobian), dtype=float)
+
+
+def _fit(law: WLF | Arrhenius, error: Array, table: ShiftTable, difference: Array) -> FittedShift:
+    worst = int(np.argmax(np.abs(difference)))
+    return FittedShift(
+        law,
+        tuple(float(e) for e in error),
+        float(np.sqrt(np.mean(difference**2))),
+        (float(table.temperature[worst]), float(difference[worst])),
+    )

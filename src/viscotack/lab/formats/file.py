@@ -1,0 +1,187 @@
+"""Content of a laboratory file: bytes, text, lines, hash and notes."""
+
+import hashlib
+import io
+import re
+import shlex
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import chain
+from os import PathLike, fspath
+from zipfile import ZipFile
+
+from viscotack.errors import InputError
+from viscotack.files.bounded import check_unpacked, read_bytes
+
+from .headings import recognise
+
+LARGEST, LARGEST_UNPACKED = 50_000_000, 200_000_000  # bytes; sweeps are thousands of times smaller
+
+_MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+# of Chinese, Japanese, Korean and Russian computers; headings are in the first characters
+_CODE_PAGES, _HEADED = ("gb18030", "cp932", "cp949", "big5", "cp1251"), 20_000
+_POINTER = b"version https://git-lfs.github.com/spec/"
+# `str.splitlines` would also split at a dozen characters that exports do not use as line ends.
+_LINE_END = re.compile(r"\r\n|\n|\r")
+
+
+@dataclass(frozen=True)
+class LabFile:
+    """Content of one file; `lines` is empty for a workbook.
+
+    `rest` is the text after the last line end. It may be truncated and is not read.
+    """
+
+    path: str
+    content: bytes
+    lines: tuple[str, ...]
+    notes: tuple[str, ...]
+    rest: str = ""
+
+    @property
+    def sha256(self) -> str:
+        """Hash of the bytes, in hexadecimal."""
+        return hashlib.sha256(self.content).hexdigest()
+
+    @property
+    def is_workbook(self) -> bool:
+        """Whether the bytes begin like an Excel file, old (OLE) or new (zip)."""
+        return self.content.startswith((b"\xd0\xcf\x11\xe0", b"PK\x03\x04"))
+
+    @property
+    def is_record(self) -> bool:
+        """Whether the text begins like JSON."""
+        return next(filter(None, map(str.strip, chain(self.lines, [self.rest]))), "")[:1] == "{"
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """Note on a last line without a line end."""
+        if not self.rest:
+            return ()
+        return (
+            f"line {len(self.lines) + 1}, the last, has no line end and may be truncated in the "
+            f"middle of a number: ignored ({self.rest.strip()[:40]!r}); end the file with a line "
+            "end to keep it",
+        )
+
+    def error(self, what: str, line: int | None = None) -> InputError:
+        """Return an error that names the file and, if given, the line or row."""
+        rows = self.is_workbook or self.is_record
+        place = "" if line is None else f", {'row' if rows else 'line'} {line}"
+        return InputError(f"{self.path}{place}: {what}")
+
+    def command(self, flags: str) -> str:
+        """Return an example of a command that reads the file with further options."""
+        name = shlex.quote(self.path)
+        return f"for example: viscotack material fit {name} --poisson-ratio 0.5 {flags}"
+
+
+def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
+    """Read the bytes and lines of a file.
+
+    Parameters
+    ----------
+    path : path-like
+        Path of the file.
+    raw : tuple of bytes
+        First bytes of binary formats other than workbooks; such files are not split into lines.
+
+    Raises
+    ------
+    ValueError
+        If the file is empty, larger than 50 MB, or neither text nor a workbook.
+    OSError
+        If the file cannot be opened.
+
+    Notes
+    -----
+    A last line without a line end may be truncated in the middle of a number, which cannot be
+    detected. It is ignored, and a note states so.
+    """
+    name = fspath(path)
+    content = read_bytes(path, LARGEST)
+    file = LabFile(name, content, (), ())
+    if not content.strip():
+        raise file.error("the file is empty")
+    if content.startswith(_POINTER):
+        raise file.error("a pointer of Git LFS, not the file itself; fetch it with git lfs pull")
+    if file.is_workbook or content.startswith(raw):
+        return file
+    text, encoding = _decoded(file)
+    if "\0" in text:
+        raise file.error("the file is neither text nor an Excel workbook; export it as text")
+    *lines, last = _LINE_END.split(text)
+    notes = () if encoding == "utf-8" else (f"text in {encoding}",)
+    return LabFile(name, content, tuple(lines), notes, last)
+
+
+def _decoded(file: LabFile) -> tuple[str, str]:
+    content = file.content
+    encoding = next((name for mark, name in _MARKS if content.startswith(mark)), None)
+    if encoding is None and b"\0" in content[:200]:
+        # UTF-16 without byte order mark: every other byte of Latin text is 0
+        encoding = "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
+    if encoding and encoding.startswith("utf-16") and len(content) % 2:
+        # an incomplete character at the end: the text before it is complete
+        content = content[:-1]
+    try:
+        return content.decode(encoding or "utf-8"), encoding or "utf-8"
+    except UnicodeDecodeError as error:
+        if encoding is None:
+            return _by_code_page(content)
+        raise file.error(
+            f"the bytes after {error.start} are not {encoding} text; the file is truncated or "
+            "damaged"
+        ) from None
+
+
+def _by_code_page(content: bytes) -> tuple[str, str]:
+    """Decode text of an unknown code page: the one in which most headings have a meaning.
+
+    Two letters of Latin text beside each other are rarely both accented, and bytes of other
+    alphabets read as Latin letters have no meaning as a heading. Without such a heading the text is
+    Latin; old exports encode the degree sign in one byte.
+    """
+
+    def known(text: str) -> int:
+        cells = re.split(r"[\t;,\r\n]", text[:_HEADED])
+        return sum(not cell.isascii() and recognise(cell) is not None for cell in cells)
+
+    found = [(content.decode("latin-1"), "latin-1")]
+    for name in _CODE_PAGES:
+        with suppress(UnicodeDecodeError):
+            found.append((content.decode(name), name))
+    return max(found, key=lambda pair: known(pair[0]))
+
+
+def unpacked(file: LabFile) -> dict[str, bytes]:
+    """Return the files in an archive by name; refuse one of more than 200 MB."""
+    content = io.BytesIO(file.content)
+    try:
+        check_unpacked(content, LARGEST_UNPACKED)
+        with ZipFile(content) as parts:
+            return {part: parts.read(part) for part in parts.namelist()}
+    except MemoryError:
+        raise
+    except Exception as error:
+        # The library raises many undocumented errors for damaged archives.
+        raise file.error(
+            f"the archive cannot be read; it may be truncated or damaged: {error}"
+        ) from None
+
+
+def format_of(
+    file: LabFile,
+    formats: Mapping[str, Callable[[LabFile], str | None]],
+    said: str | None,
+    otherwise: str,
+) -> str:
+    """Return the format given by the caller, or the first whose test recognises the file.
+
+    `otherwise` is the format whose reader raises the error for unrecognised files.
+    """
+    if said is not None and said not in formats:
+        raise InputError(f"--format must be one of {', '.join(formats)}, got {said!r}")
+    found = (recognised(file) for recognised in dict.fromkeys(formats.values()))
+    return said or next(filter(None, found), otherwise)

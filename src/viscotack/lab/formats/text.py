@@ -1,0 +1,454 @@
+"""Layouts of text files: where headings, units and rows of cells are.
+
+Cells are separated by commas, semicolons, tabs or spaces. A plain table has headings, units beside
+or below them, and rows; the instrument may repeat the headings above each of its intervals. The
+two-row tables of pyvisco (``f, E_stor, E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``), exports of
+Anton Paar (one file per interval), Instron Bluehill, Zwick testXpert, texture analysers and
+nanoindenters are plain. Others consist of blocks, each with a count of points, headings, units and
+rows:
+
+- TA TRIOS: steps after a line ``[step]``, with ``Number of points``, and rows labelled
+  (``Variables``, ``data point 1``) or not. An export of one step may lack ``[step]``; it begins
+  with ``Filename``.
+- Anton Paar RheoCompass: intervals, which in every language of the instrument begin with a line of
+  a label and two integers, number and count of points. The headings follow after a second label.
+  The first column is empty; some exports omit it in the rows.
+
+Wide tables have the sweeps of several temperatures side by side; the temperature is in a line above
+its columns (``20 °C`` above ``G', G''``), or in each heading (``G' 20 °C [Pa]``).
+"""
+
+import csv
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from viscotack.errors import InputError
+
+from .file import LabFile
+from .headings import MATERIAL, Vocabulary, is_unit, recognise
+from .numbers import is_number
+from .tables import (
+    Row,
+    Table,
+    holds,
+    numbered,
+    numeric,
+    stated_temperature,
+    tabulated,
+    under,
+    without_waves,
+)
+
+LOOKED = 300  # lines searched for the headings
+_FEWEST, _MOST_ROWS = 3, 50  # numbers in a row of a table on its side, and its rows
+_SEPARATORS = ("\t", ";", ",", None)
+_PYVISCO = {"E_stor", "E_loss", "G_stor", "G_loss", "E_relax", "G_relax", "log_aT"}
+_STEP, _COUNTED, _STEP_LOOKED = "[step]", "number of points", 500
+_LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
+_WHOLE = re.compile(r"\s*[0-9]+(\.0)?\s*")  # workbooks have floats
+_GEOMETRY = re.compile("g[eé]om[eé]tr", re.IGNORECASE)
+_WITHIN = re.compile(
+    r"(?P<before>.*?[^\s,;@_-])[\s,;@_]*(?:at\s+|T\s*=\s*)?"
+    r"(?P<label>[+-]?[0-9]+(?:[.,][0-9]+)?\s*(?:°C|ºC|℃|oC|degC|C|K))(?P<after>[\s\[(/].*)?"
+)
+# line of the headings, separator, headings
+Found = tuple[int, str | None, list[str]]
+
+
+def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
+    """Split a line into cells; quoted cells may contain the separator."""
+    if separator is None:
+        return text.split() or [""]
+    if separator == "\t" or '"' not in text:
+        return text.split(separator)
+    try:
+        row = next(csv.reader([text], delimiter=separator, strict=True, skipinitialspace=True))
+        return row or [""]
+    except (csv.Error, StopIteration):
+        raise file.error("a quotation mark is not closed; add the closing one", number) from None
+
+
+def _separators(text: str) -> list[str | None]:
+    """Return the possible separators of a line; None for spaces."""
+    marks: list[str | None] = [m for m in _SEPARATORS if m is not None and m in text]
+    # a line with tabs has no other cells between blanks
+    return marks if "\t" in text.strip() else [*marks, None]
+
+
+def is_comment(text: str) -> bool:
+    """Return whether a line is a comment."""
+    return text.lstrip().startswith(("#", "%"))
+
+
+def geometry(rows: Sequence[Sequence[str]]) -> str:
+    """Return the rows that describe the geometry, as text."""
+    texts = (" ".join(row) for row in rows)
+    return " ".join(text for text in texts if _GEOMETRY.search(text))
+
+
+# ---- plain tables ------------------------------------------------------------------------------
+
+
+def is_plain(file: LabFile) -> str | None:
+    """Return the name of the format, or None if no line looks like headings of a material test."""
+    found = _headings(file, MATERIAL)
+    if found is None:
+        return None
+    return "pyvisco" if _PYVISCO & {heading.strip() for heading in found[2]} else "csv"
+
+
+def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table]:
+    """Return the table of a file, or one table for each line that repeats the headings.
+
+    `names` are the headings or numbers of columns given by the caller.
+
+    Raises
+    ------
+    ValueError
+        If no line looks like headings, or a row has not one cell per heading.
+    """
+    found = _headings(file, words, names) or _by_number(file, names)
+    found = found or (_headings(file, words) if names else None)
+    if found is None:
+        raise _no_headings(file, words)
+    line, separator, headings = found
+    above = [[text.lstrip("#% ")] for text in file.lines[: max(line - 1, 0)]]
+    stated = {"words": geometry(above), "temperature": stated_temperature(above)}
+    # an instrument repeats the headings above each of its intervals
+    same = file.lines[line - 1].strip()
+    starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
+    starts = starts if line else [0]
+    tables = []
+    for start, end in zip(starts, [*(i - 1 for i in starts[1:]), len(file.lines)], strict=True):
+        units, rows = _below(file, range(start, end), separator)
+        tables.append(tabulated(file, words, headings, units, rows, **stated))
+    return tables
+
+
+def _below(
+    file: LabFile, lines: range, separator: str | None
+) -> tuple[Sequence[str] | None, list[Row]]:
+    """Return the units, if a row contains them, and the numbered rows (from 0).
+
+    A comment of units below headings in a comment is a row of units.
+    """
+    commented = lines.start > 0 and is_comment(file.lines[lines.start - 1])
+    rows: list[Row] = []
+    for i in lines:
+        text = file.lines[i]
+        if text.strip() and not is_comment(text):
+            rows.append((i + 1, cells(file, text, i + 1, separator)))
+        elif commented and not rows:
+            row = cells(file, text.strip().lstrip("#% "), i + 1, separator)
+            if any(is_unit(cell) for cell in row if cell.strip()):
+                rows.append((i + 1, row))
+    if lines.stop < len(file.lines):
+        # text above the next headings: "Result: ...", "Interval: 2"
+        while rows and rows[-1][1][0].rstrip().endswith(":"):
+            rows.pop()
+    return under(rows)
+
+
+def _no_headings(file: LabFile, words: Vocabulary) -> InputError:
+    """Describe a file in which no line looks like headings."""
+    first = next((line.strip() for line in file.lines if line.strip()), "")
+    if words.recognise(first.lstrip("#% "), "") is not None:
+        return file.error(f"{first!r} is the only column; a test needs two or more in one file")
+    line, _, row = _first_line(file, words, numeric, sure=True) or (0, None, [])
+    choose = ""
+    if len(row) > 1:
+        example = words.example(file.path, row)
+        choose = f"; {len(row)} columns of numbers begin at line {line}: {example}"
+    return file.error(
+        f"none of the first {LOOKED} lines looks like headings; expected names such as "
+        f"{words.usual} with units beside or below them; the file begins {first[:60]!r}{choose}"
+    )
+
+
+def _headings(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> Found | None:
+    return _first_line(file, words, lambda row: words.heads(row, names), bool(names))
+
+
+def _by_number(file: LabFile, names: Sequence[str]) -> Found | None:
+    """Return the line above the first row of numbers, for columns chosen by number."""
+    found = _first_line(file, MATERIAL, lambda row: holds(row, names), sure=True)
+    return None if found is None else (found[0] - 1, found[1], numbered(found[2]))
+
+
+def _first_line(
+    file: LabFile, words: Vocabulary, heads: Callable[[list[str]], bool], sure: bool = False
+) -> Found | None:
+    """Return the first line that `heads` accepts.
+
+    Unless `sure`, most cells of a line split at spaces must have a meaning; otherwise it is a
+    sentence.
+    """
+    for count, text in enumerate(file.lines[:LOOKED], start=1):
+        for separator in _separators(text):
+            try:
+                row = cells(file, text.lstrip("#% "), count, separator)
+            except ValueError:
+                continue
+            if not heads(row):
+                continue
+            known = sum(words.recognise(cell, "") is not None for cell in row)
+            if separator or sure or 2 * known > len(row):
+                return count, separator, row
+    return None
+
+
+def upright(file: LabFile, words: Vocabulary) -> LabFile:
+    """Return a file with columns in place of rows, if its headings stand one below the other."""
+    if file.is_workbook or _headings(file, words) is not None:
+        return file
+    for separator in filter(None, _SEPARATORS):
+        split = [(i, text.split(separator)) for i, text in enumerate(file.lines)]
+        rows = [(i, row) for i, row in split if sum(map(is_number, row)) >= _FEWEST]
+        if not 1 < len(rows) <= _MOST_ROWS or len({len(row) for _, row in rows}) > 1:
+            continue
+        columns = [list(column) for column in zip(*(row for _, row in rows), strict=True)]
+        if words.heads(columns[0]):
+            above = file.lines[: rows[0][0]]
+            lines = (*above, *(separator.join(column) for column in columns))
+            notes = (*file.notes, "rows and columns of the table exchanged")
+            return replace(file, lines=lines, notes=notes)
+    return file
+
+
+# ---- blocks with a count of points: TRIOS, RheoCompass -----------------------------------------
+
+
+def is_trios(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file has no step."""
+    return "trios" if _steps(file) else None
+
+
+def trios(file: LabFile, *_: object) -> list[Table]:
+    """Return the table of each step of a TRIOS export that has one."""
+    starts = _steps(file)
+    if not starts:
+        raise file.error(f"expected a line {_STEP!r} before each table")
+    separator = "\t" if any("\t" in text for text in file.lines) else ","
+    rows: list[Row] = [
+        (number, cells(file, text, number, separator) if number > starts[0] else [text])
+        for number, text in enumerate(file.lines, start=1)
+    ]
+    above = [text.split(separator) for text in file.lines[: starts[0] or _STEP_LOOKED]]
+    return _blocks(file, rows, starts, above)
+
+
+def _steps(file: LabFile) -> list[int]:
+    """Return the lines after which a step begins."""
+
+    def first_cell(text: str) -> str:
+        return re.split("[,\t]", text, maxsplit=1)[0].strip().casefold()
+
+    starts = [
+        i
+        for i, text in enumerate(file.lines)
+        if "[" in text and text.strip().strip('",').casefold() == _STEP
+    ]
+    if not starts and file.lines and first_cell(file.lines[0]) == "filename":
+        starts = [0 for text in file.lines[:_STEP_LOOKED] if first_cell(text) == "variables"][:1]
+    return starts
+
+
+def is_rheocompass(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file has no interval."""
+    return None if _interval_separator(file) is None else "rheocompass"
+
+
+def rheocompass(file: LabFile, *_: object) -> list[Table]:
+    """Return the table of each interval of a RheoCompass export."""
+    separator = _interval_separator(file)
+    if separator is None:
+        raise file.error(
+            "expected intervals that begin with 'Interval and data points:', a number and a count"
+        )
+    return intervals(
+        file,
+        [(i, cells(file, text, i, separator)) for i, text in enumerate(file.lines, start=1)],
+    )
+
+
+def intervals(file: LabFile, rows: Sequence[Row]) -> list[Table]:
+    """Return the table of each interval in the rows of a file or a sheet."""
+    starts = [i for i, (_, row) in enumerate(rows) if begins_interval(row)]
+    return _blocks(file, rows, starts, [row for _, row in rows[: starts[0]]])
+
+
+def _interval_separator(file: LabFile) -> str | None:
+    for text in filter(lambda text: ":" in text, file.lines):
+        for separator in ("\t", ";", ","):
+            if separator in text and begins_interval(text.split(separator)):
+                return separator
+    return None
+
+
+def begins_interval(row: Sequence[str]) -> bool:
+    """Return whether a row has a label and two integers: an interval and its count of points."""
+    return (
+        len(row) >= 3
+        and _LABEL.fullmatch(row[0]) is not None
+        and _WHOLE.fullmatch(row[1]) is not None
+        and _WHOLE.fullmatch(row[2]) is not None
+        and not any(cell.strip() for cell in row[3:])
+    )
+
+
+def _blocks(
+    file: LabFile, rows: Sequence[Row], starts: Sequence[int], above: Sequence[Sequence[str]]
+) -> list[Table]:
+    """Return the table of each block that has one; `above` is the text before all blocks.
+
+    Raises
+    ------
+    ValueError
+        If a block has points but no headings or units, a row has not one cell per heading, or the
+        number of rows differs from the stated count.
+    """
+    shared = {"words": geometry(above), "temperature": stated_temperature(above)}
+    ends = [*starts[1:], len(rows)]
+    tables = (
+        _block(file, rows[start:end], shared) for start, end in zip(starts, ends, strict=True)
+    )
+    return [table for table in tables if table is not None]
+
+
+def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Table | None:
+    line, begin = rows[0]
+    counted = begin[2] if begins_interval(begin) else None
+    for _, row in rows:
+        if row[0].strip().casefold() == _COUNTED and len(row) > 1:
+            counted = row[1]
+    if counted is not None and _WHOLE.fullmatch(counted) is None:
+        raise file.error(f"expected the number of points, got {counted!r}", line)
+    count = None if counted is None else int(float(counted))
+    at = next((i for i, (_, row) in enumerate(rows) if MATERIAL.heads(row)), None)
+    if at is None:
+        if count:
+            raise file.error(f"expected headings above the {count} points", line)
+        return None
+    below: list[Row] = []
+    for number, row in rows[at + 1 :]:
+        if any(map(str.strip, row)) and not _LABEL.fullmatch(row[0]):
+            below.append((number, row))
+        elif below and any(map(is_number, below[-1][1])):
+            break
+    units, data = under(below)
+    headings, beside = list(rows[at][1]), list(units or ())
+    if _LABEL.fullmatch(headings[0]):
+        # skip the label in front of the headings
+        headings[0] = ""
+        if data and all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
+            headings, beside = headings[1:], beside[1:]
+    notes = ()
+    found = len(data)
+    if data and 1 < len(data[0][1]) < len(headings):
+        # at the time of the step, ratios are undefined and the last cells are missing
+        notes = (f"line {data.pop(0)[0]} rejected: it lacks cells at the beginning of the step",)
+    stated = shared | {"notes": notes}
+    own = stated_temperature([row for _, row in rows[:at]])
+    stated |= {} if own is None else {"temperature": own}
+    table = tabulated(file, MATERIAL, headings, beside, data, **stated)
+    found -= len(data) - len(without_waves(table).rows)
+    if count not in (None, found):
+        raise file.error(
+            f"the block states {count} points but has {found}; the file is truncated or edited",
+            line,
+        )
+    return table
+
+
+# ---- sweeps side by side -----------------------------------------------------------------------
+
+
+def is_wide(file: LabFile) -> str | None:
+    """Return the name of the format, or None if there are no side-by-side sweeps."""
+    return "wide" if _side_by_side(file) is not None else None
+
+
+def wide(file: LabFile, *_: object) -> list[Table]:
+    """Return a table for each temperature; columns without one are common to all sweeps."""
+    found = _side_by_side(file)
+    if found is None:
+        raise file.error("expected columns of several temperatures side by side, under '20 °C'")
+    line, separator, headings, labels = found
+    units, rows = _below(file, range(line, len(file.lines)), separator)
+    whole = tabulated(file, MATERIAL, headings, units, rows)
+    shared = [i for i, label in enumerate(labels) if not label]
+    tables = []
+    for label in dict.fromkeys(filter(None, labels)):
+        own = [i for i, other in enumerate(labels) if other == label]
+        columns = [*shared, *own]
+        tables.append(
+            Table(
+                tuple(whole.headings[i] for i in columns),
+                tuple(whole.units[i] for i in columns),
+                tuple(
+                    (line, tuple(row[i] for i in columns))
+                    for line, row in whole.rows
+                    if any(row[i] for i in own)
+                ),
+                label=label,
+                notes=(f"the columns under {label!r} are a separate sweep",),
+            )
+        )
+    return tables
+
+
+def _side_by_side(file: LabFile) -> tuple[int, str | None, list[str], list[str]] | None:
+    """Return line, separator, headings without temperatures, and the label of each column."""
+    above: dict[str | None, list[str]] = {}
+    for number, text in enumerate(file.lines[:LOOKED], start=1):
+        for separator in filter(None, _separators(text)):
+            try:
+                row = [cell.strip() for cell in cells(file, text.lstrip("#% "), number, separator)]
+            except ValueError:
+                continue
+            for headings, labels in (_within(row), (row, _above(row, above.get(separator, [])))):
+                if _each_has_its_own(headings, labels):
+                    return number, separator, headings, labels
+            if any(row):
+                above[separator] = row
+    return None
+
+
+def _within(row: list[str]) -> tuple[list[str], list[str]]:
+    """Split headings into the part without temperature, and the temperatures."""
+    headings, labels = [], []
+    for cell in row:
+        match = _WITHIN.fullmatch(cell)
+        bare = f"{match['before']} {(match['after'] or '').strip()}".strip() if match else cell
+        known = match is not None and recognise(cell) is None and recognise(bare) is not None
+        headings.append(bare if known else cell)
+        labels.append(match["label"].strip() if match is not None and known else "")
+    return headings, labels
+
+
+def _above(row: list[str], labels: list[str]) -> list[str]:
+    """Return the label above each column, or above the nearest column to the left."""
+    found, current = [], ""
+    for i in range(len(row)):
+        current = (labels[i] if i < len(labels) else "") or current
+        found.append(current)
+    return found
+
+
+def _each_has_its_own(headings: list[str], labels: list[str]) -> bool:
+    """Return whether every temperature has its own columns, all with the same quantities."""
+    columns: dict[str, list[str]] = {}
+    for heading, label in zip(headings, labels, strict=True):
+        known = recognise(heading)
+        if known is not None:
+            columns.setdefault(label, []).append(known.quantity)
+        elif heading and label:
+            return False
+    columns.pop("", None)
+    groups = list(columns.values())
+    return (
+        len(groups) > 1
+        and all(group == groups[0] for group in groups)
+        and len(set(groups[0])) == len(groups[0])
+    )

@@ -1,0 +1,105 @@
+"""Layout of TA Instruments TRIOS exports as JSON.
+
+Results are either rows of named cells, with headers that give each column its words and unit
+(``Results / Original / ColumnHeaders, Rows``), or tables with a list of columns and a list of rows
+(``Experiment / Results / DataSet / Data``). The rows of one step form one table.
+"""
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from viscotack.errors import InputError
+
+from .file import LabFile
+from .headings import MATERIAL
+from .tables import Table, tabulated
+
+_STEPS = ("Results Step Id", "Procedure Step Id")
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the text does not begin like JSON."""
+    return "trios-json" if file.is_record else None
+
+
+def tables(file: LabFile, *_: object) -> list[Table]:
+    """Return the table of each step that has one.
+
+    Raises
+    ------
+    ValueError
+        If the text is not JSON, or contains no table of a TRIOS export.
+    """
+    # keep numbers as written, so that damaged ones are detected as in text files
+    text = "\n".join(file.lines) + file.rest
+    try:
+        record = json.loads(text, parse_float=str, parse_int=str)
+        return list(_tables(file, record))
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:
+        raise file.error(
+            f"the JSON cannot be read; it may be truncated or damaged: {error}"
+        ) from None
+    except (KeyError, TypeError, AttributeError, IndexError) as error:
+        raise file.error(
+            f"expected tables of a TRIOS export, Results with ColumnHeaders and Rows; {error!r} is "
+            "missing or has another type"
+        ) from None
+
+
+def _tables(file: LabFile, record: dict[str, Any]) -> Iterator[Table]:
+    words = " ".join(_geometry(record))
+    results = record.get("Experiment", record).get("Results")
+    if not results:
+        raise file.error("the file has no Results; expected a TRIOS export as JSON")
+    if isinstance(results, list):
+        for data in (data["Data"] for result in results for data in result["DataSet"]):
+            columns = data["columns"]
+            names = [column["name"] for column in columns]
+            units = [column.get("unit") or "" for column in columns]
+            rows = [(i, list(map(_text, row))) for i, row in enumerate(data["values"], start=1)]
+            yield tabulated(file, MATERIAL, names, units, rows, words=words)
+        return
+    # prefer original to user-processed results, as TRIOS does
+    section = results.get("Original") or results.get("Processed") or results
+    headers = section["ColumnHeaders"]
+    steps: dict[str, list[tuple[int, dict[str, str]]]] = {}
+    for number, row in enumerate(section["Rows"], start=1):
+        if unknown := row.keys() - headers.keys():
+            raise file.error(f"a cell {min(unknown)!r} without an entry in ColumnHeaders", number)
+        step = next((str(row[key]) for key in _STEPS if key in row), "")
+        cells = {key: _text(row.get(key)) for key in headers}
+        steps.setdefault(step, []).append((number, cells))
+    for step in steps.values():
+        # drop columns that the step did not measure
+        own = [key for key in headers if any(cells[key] for _, cells in step)]
+        yield tabulated(
+            file,
+            MATERIAL,
+            [headers[key].get("DisplayName") or key for key in own],
+            [(headers[key].get("Unit") or {}).get("Name") or "" for key in own],
+            [(number, [cells[key] for key in own]) for number, cells in step],
+            words=words,
+        )
+
+
+def _text(cell: Any) -> str:
+    if isinstance(cell, dict | list):
+        raise TypeError("each cell must be a number or a text")
+    return "" if cell is None else str(cell)
+
+
+def _geometry(record: Any) -> Iterator[str]:
+    """Yield the words on the geometry, from anywhere in the configuration."""
+    if isinstance(record, dict):
+        for key, value in record.items():
+            if key.startswith("Geometry"):
+                found = value.get("Name") if isinstance(value, dict) else value
+                yield found if isinstance(found, str) else ""
+            elif key not in ("Rows", "values"):
+                yield from _geometry(value)
+    elif isinstance(record, list):
+        for value in record:
+            yield from _geometry(value)

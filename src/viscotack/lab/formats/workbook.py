@@ -1,0 +1,180 @@
+"""Layout of workbooks: Netzsch Gabo Eplexor, Zwick testXpert, and similar sheets.
+
+A row of headings, a row of units, then rows of numbers. Old workbooks (.xls) need xlrd, new ones
+(.xlsx) need openpyxl; both are installed by the extra ``lab``.
+"""
+
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from importlib import import_module
+from itertools import zip_longest
+from typing import Any
+
+from viscotack.errors import InputError, install_command
+from viscotack.files.bounded import check_unpacked
+
+from .file import LARGEST_UNPACKED, LabFile
+from .headings import MATERIAL, Vocabulary
+from .numbers import is_number
+from .tables import Table, holds, numbered, numeric, stated_temperature, tabulated, under
+from .text import begins_interval, geometry, intervals
+
+_SHEET = "Exported Data"
+_LOOKED = 50  # rows in which the headings are looked for
+# Largest sheet; one stray cell in the last row would otherwise make a million empty rows.
+MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
+Cells = list[list[str]]
+
+
+def is_workbook(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file is not a workbook."""
+    if not file.is_workbook:
+        return None
+    # old workbooks store sheet names as plain bytes, new ones compressed
+    return "eplexor" if _SHEET.encode() in file.content else "workbook"
+
+
+def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table]:
+    """Return the tables of all sheets, first that of the sheet ``Exported Data``.
+
+    `names` are the headings or numbers of columns given by the caller.
+
+    Raises
+    ------
+    ValueError
+        If the workbook cannot be read, or no sheet has headings.
+    ImportError
+        If the library for workbooks is not installed.
+    """
+    found = sheets(file)
+    # a sheet of details states the geometry
+    details = geometry([row for rows in found.values() for row in rows[:_LOOKED]])
+    tables = []
+    for title in sorted(found, key=lambda title: title != _SHEET):
+        parts = _of_sheet(file, words, found[title], names)
+        tables += [replace(each, sheet=title, words=each.words or details) for each in parts]
+    if not tables:
+        numbers = (row for rows in found.values() for row in rows[:_LOOKED] if numeric(row))
+        first = next(numbers, [])
+        choose = f"; choose columns by number, {words.example(file.path, first)}"
+        raise file.error(
+            f"no sheet has headings such as {words.usual} in its first {_LOOKED} rows; the "
+            f"sheets are {', '.join(map(repr, found))}{choose * (len(first) > 1)}"
+        )
+    return tables
+
+
+def _of_sheet(file: LabFile, words: Vocabulary, rows: Cells, names: Sequence[str]) -> list[Table]:
+    def heads(rows: Cells, names: Sequence[str] = ()) -> int | None:
+        return next((i for i, row in enumerate(rows) if words.heads(row, names)), None)
+
+    if len(rows) <= _LOOKED and heads(rows) is None:
+        on_its_side = [list(column) for column in zip(*rows, strict=True)]
+        rows = on_its_side if heads(on_its_side) is not None else rows
+    numbered_rows = list(enumerate(rows, start=1))
+    at = heads(rows[:_LOOKED], names)
+    if at and words is MATERIAL and begins_interval(rows[at - 1]):
+        return intervals(file, numbered_rows)
+    if at is None:
+        first = next((i for i, row in enumerate(rows[:_LOOKED]) if holds(row, names)), None)
+        if first is None:
+            return _of_sheet(file, words, rows, ()) if names else []
+        return [tabulated(file, words, numbered(rows[first]), None, numbered_rows[first:])]
+    stated = stated_temperature(rows[:at])
+
+    def begins_again(row: list[str]) -> bool:
+        return sum(map(bool, row)) > 1 and not any(map(is_number, row)) and words.heads(row)
+
+    # further rows of headings begin further tables
+    starts = [at, *(i for i in range(at + 1, len(rows)) if begins_again(rows[i]))]
+    found = []
+    for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
+        block = numbered_rows[start + 1 : end]
+        while end < len(rows) and block and not any(map(is_number, block[-1][1])):
+            block.pop()
+        units, data = under(block)
+        found.append(tabulated(file, words, rows[start], units, data, temperature=stated))
+    return found
+
+
+def sheets(file: LabFile) -> dict[str, Cells]:
+    """Return the rows of every sheet of a workbook, as text.
+
+    Raises
+    ------
+    ValueError
+        If the workbook cannot be read.
+    ImportError
+        If the library for workbooks is not installed.
+    """
+    if not file.is_workbook:
+        raise file.error("expected an Excel workbook")
+    old = file.content.startswith(b"\xd0\xcf")
+    try:
+        return dict(_old(file.content) if old else _new(file.content))
+    except ImportError as error:
+        raise ImportError(
+            f"workbooks need {error.name}; install it with: {install_command('lab')}"
+        ) from None
+    except MemoryError:
+        raise
+    except Exception as error:
+        # The library raises many undocumented errors for damaged workbooks.
+        raise file.error(
+            f"the workbook cannot be read; it may be truncated or damaged: {error}"
+        ) from None
+
+
+def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
+    xlrd = import_module("xlrd")
+    book = xlrd.open_workbook(file_contents=content, logfile=io.StringIO())
+    for sheet in book.sheets():
+        _check_size(sheet.nrows, sheet.ncols)
+        yield sheet.name, [[_text(v) for v in sheet.row_values(r)] for r in range(sheet.nrows)]
+
+
+def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
+    openpyxl = import_module("openpyxl")
+    check_unpacked(io.BytesIO(content), LARGEST_UNPACKED)
+    # Programs that write workbooks without computing them omit the values of formulas; an empty
+    # cell would otherwise be interpreted as a missing point.
+    values, formulas = (
+        openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=only)
+        for only in (True, False)
+    )
+    for sheet in values.worksheets:
+        rows = [
+            [
+                _text(formula if value is None else value)
+                for value, formula in zip(*pair, strict=False)
+            ]
+            for pair in zip_longest(_rows(sheet), _rows(formulas[sheet.title]), fillvalue=())
+        ]
+        width = max(map(len, rows), default=0)
+        yield sheet.title, [row + [""] * (width - len(row)) for row in rows]
+
+
+def _rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
+    """Yield the rows of a sheet, whatever size it states, and refuse it where it is too large."""
+    sheet.reset_dimensions()
+    width = 0
+    for count, row in enumerate(sheet.iter_rows(values_only=True), start=1):
+        width = max(width, len(row))
+        _check_size(count, width)
+        yield row
+
+
+def _check_size(rows: int, columns: int) -> None:
+    if rows > MOST_ROWS or columns > MOST_COLUMNS or rows * columns > MOST_CELLS:
+        raise InputError(
+            f"a sheet has more than {MOST_ROWS:,} rows, {MOST_COLUMNS} columns or {MOST_CELLS:,} "
+            "cells; export the relevant part as CSV"
+        )
+
+
+def _text(value: Any) -> str:
+    """Return a cell as text that reads back as the same number."""
+    if value is None:
+        return ""
+    return repr(float(value)) if isinstance(value, int | float) else str(value)
