@@ -1,6 +1,5 @@
 """Plans of campaigns: cases and settings, from a TOML file or a CSV file."""
 
-import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
@@ -20,15 +19,29 @@ from viscotack.rough import read_rough_case
 
 from ..units import parse
 from .case import CaseSettings
-from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
-from .identity import digest
 from .listed import Listed
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
 # Tables and blocks of a file.
 _Read = tuple[dict[str, Any], list[tuple[str, Any]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One case of a plan.
+
+    Attributes
+    ----------
+    name : str
+        By the content of its problem: equal problems have equal names.
+    inputs : dict
+        The numbers that state it, by column.
+    """
+
+    name: str
+    inputs: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -39,8 +52,8 @@ class Plan:
     ----------
     kind : Kind
         What the inputs mean.
-    cases : Cases
-        Without repetitions; any iterable of cases is taken.
+    cases : tuple of Case
+        Without repetitions.
     settings : CaseSettings
         How they are solved.
     base : dict or None
@@ -51,30 +64,19 @@ class Plan:
         Why the first of the points that were rejected was.
     source : str
         Text of the file; "" for a plan made otherwise.
-    suffix : str
-        Its ending, ".toml" or ".csv".
     shard : str or None
         Which part of the whole plan this is, "3/20".
     """
 
     kind: Kind
-    cases: Cases
+    cases: tuple[Case, ...]
     settings: CaseSettings
     base: dict[str, Any] | None = None
     rejected: int = 0
     repeated: int = 0
     refusal: str = ""
     source: str = ""
-    suffix: str = ".toml"
     shard: str | None = None
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.cases, Cases):
-            object.__setattr__(self, "cases", Cases.of(self.cases))
-
-    def problem(self, case: Case) -> str:
-        """Return the problem of a case as JSON, as it is sent to a worker."""
-        return json.dumps(to_dict(self.kind.problem(case.inputs)))
 
 
 def read_plan(
@@ -130,7 +132,7 @@ def read_plan(
     kind, base = _kind(path, tables, blocks, files)
     settings = _settings(path, tables.get("settings", {}), changed)
     plan = _planned(str(path), kind, blocks, settings, base)
-    return replace(plan, source=source, suffix=".csv" if is_csv else ".toml")
+    return replace(plan, source=source)
 
 
 def _from_csv(path: Path, source: str) -> _Read:
@@ -257,14 +259,14 @@ def _of_problem(
     _check_own(problem, settings)
     names = _inputs(key, block)
     check_exponent(problem, names)
-    kind = kind_of_problem(problem, names, settings.nouns())
+    kind = kind_of_problem(problem, names, settings.nouns)
     return _planned("the plan", kind, [(key, block)], settings, to_dict(problem))
 
 
 def _check_own(problem: Any, settings: CaseSettings) -> None:
     """Refuse a problem of user-defined classes without the files that define them."""
     try:
-        from_dict(to_dict(problem), settings.nouns())
+        from_dict(to_dict(problem), settings.nouns)
     except InputError as error:
         parts = (type(part) for part in vars(problem).values())
         own = [
@@ -286,20 +288,22 @@ def _planned(
     base: dict[str, Any] | None,
 ) -> Plan:
     tally = Tally()
-    stated = Cases.of(_stated(where, kind, blocks, tally))
-    cases = stated.first_of_each()
-    if not len(cases):
+    cases: dict[str, Case] = {}
+    for case in _stated(where, kind, blocks, tally):
+        tally.stated += 1
+        cases.setdefault(case.name, case)
+    if not cases:
         raise InputError(
             f"{where}: none of its {tally.rejected} points is a contact, so there is nothing to "
             f"run. The first: {tally.why}"
         )
     return Plan(
         kind=kind,
-        cases=cases,
+        cases=tuple(cases.values()),
         settings=settings,
         base=base,
         rejected=tally.rejected,
-        repeated=len(stated) - len(cases),
+        repeated=tally.stated - len(cases),
         refusal=tally.why,
     )
 
@@ -497,8 +501,6 @@ def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSetting
     if not isinstance(given, dict) or given.keys() - set(names):
         raise InputError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
     values = dict(given) | dict(changed)
-    if "own" in values:
-        values["own_sha256"] = tuple(map(digest, values["own"]))
     for name, field in cards(CaseSettings).items():
         if name in values:
             try:
