@@ -86,7 +86,7 @@ def _cells(row: Row, widths: Mapping[str, int]) -> Iterator[Any]:
 
 
 def _write_parquet(rows: Iterable[Row], widths: Mapping[str, int], path: Target) -> None:
-    pa = arrow("--parquet writes a table")
+    pa = arrow()
     schema = pa.unify_schemas(
         [table.schema for table in _tables(rows, widths)], promote_options="permissive"
     )
