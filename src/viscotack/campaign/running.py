@@ -25,6 +25,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from functools import cache, partial
 from math import prod
+from operator import methodcaller
 from pathlib import Path
 from time import monotonic, perf_counter, sleep
 from typing import Any
@@ -200,7 +201,9 @@ class _Run:
         self.suspects: deque[Case] = deque()
         self.deaths: Counter[str] = Counter()
         self.flying: dict[Future[list[Answer]], tuple[list[Case], float]] = {}
-        self.size, self.crashed, self.solved, self.stored, self.busy = 1, 0, 0, 0, 0.0
+        self.rows: list[dict[str, Any]] = []
+        self.size, self.crashed, self.stored, self.busy = 1, 0, 0, 0.0
+        self.solved, self.why = None in self.ended.values(), "no reason is known"
         self.began = self.reported = monotonic()
         self.slots, self.asked = 1, threading.Event()
 
@@ -219,6 +222,7 @@ class _Run:
                     while len(self.flying) < self.slots and (batch := self._next()):
                         future = self._submitted(executor, batch)
                         self.flying[future] = batch, monotonic()
+                    self._store()  # while the workers go on
                     if not self.flying:
                         if self.asked.is_set() or not (self.todo or self.suspects):
                             executor.shutdown()
@@ -226,12 +230,15 @@ class _Run:
                         sleep(_LOOK)  # until there is a worker
                         continue
                     done = set(wait(self.flying, _LOOK, FIRST_COMPLETED).done)
-                    if any(map(_is_broken, done)):
+                    is_broken = any(map(_is_broken, done))
+                    if is_broken:
                         wait(self.flying, _BREAKS)  # all of them break
                         done = set(self.flying)
+                    self._collect(done)
+                    if is_broken:
+                        self._store()
                         executor.shutdown(wait=False)
                         executor = make()
-                    self._collect(done)
         except BaseException:
             if isinstance(executor, Processes):
                 executor.kill()
@@ -273,9 +280,8 @@ class _Run:
         return [self.suspects.popleft()] if self.suspects and not self.flying else []
 
     def _collect(self, done: set[Future[list["Answer"]]]) -> None:
-        """Store the answers that came; put back what was not done or lost."""
+        """Take the answers that came; put back what was not done or lost."""
         was_alone, has_died, wrong = len(self.flying) == 1, False, None
-        rows: list[dict[str, Any]] = []
         for future in done:
             batch, begun = self.flying.pop(future)
             is_lost = future.cancelled() or not future.done()
@@ -283,7 +289,8 @@ class _Run:
             if error is None:
                 answers = future.result()
                 self.size = min(2 * len(answers), _MOST)
-                rows += map(self._row, batch, answers)
+                for case, answer in zip(batch, answers, strict=False):
+                    self._take(case, answer)
                 self.todo.extendleft(reversed(batch[len(answers) :]))
             elif isinstance(error, CancelledError):
                 self.todo.extendleft(reversed(batch))
@@ -291,22 +298,19 @@ class _Run:
                 has_died = True
                 self.suspects += batch
                 if len(batch) == 1 and was_alone:
-                    rows += self._died(self.suspects[-1], monotonic() - begun, error)
+                    self._died(self.suspects[-1], monotonic() - begun, error)
             else:
                 wrong = error
-        self._store(rows)
         self.crashed += has_died
-        if wrong is not None:
-            raise wrong
-        if self.crashed >= _CRASHES and not any(why is None for why in self.ended.values()):
-            why = rows[-1]["reason"] if rows else "their workers died"
-            raise AllCrashed(
-                f"the first cases have all crashed, the last one: {why}; the run was ended, for "
-                "the fault is not in the cases"
+        if wrong is not None or (self.crashed >= _CRASHES and not self.solved):
+            self._store()
+            raise wrong or AllCrashed(
+                f"the first cases have all crashed or killed their workers; {self.why}; the run "
+                "was ended, for the fault is not in the cases"
             )
 
-    def _died(self, case: Case, took: float, error: BaseException) -> list[dict[str, Any]]:
-        """Return the row of a case that has killed its worker twice, or has hung."""
+    def _died(self, case: Case, took: float, error: BaseException) -> None:
+        """Give up a case that was alone when its worker died, if it hung or did so twice."""
         self.deaths[case.name] += 1
         limit = self.plan.settings.time_limit
         if took > 2 * limit + _GRACE:
@@ -314,30 +318,34 @@ class _Run:
         elif self.deaths[case.name] == 2:
             end = Answer(None, "worker died", f"its worker was killed, alone: {error}", took)
         else:
-            return []
+            return
         self.suspects.remove(case)
-        return [self._row(case, end)]
+        self._take(case, end)
 
-    def _row(self, case: Case, answer: "Answer") -> dict[str, Any]:
+    def _take(self, case: Case, answer: "Answer") -> None:
+        """Make the row of a case that has ended; it waits to be stored."""
         self.cost_left -= self._cost(case)
         self.cost_done += self._cost(case)
         self.busy += answer.wall_time_s
         self.crashed += answer.failure in PASSING
+        self.solved |= answer.row is not None
         facts: dict[str, Any] = {"name": case.name, **case.inputs}
         if answer.row is None:
+            self.why = answer.reason
             found = {"failure": answer.failure, "reason": answer.reason}
             found |= {"versions": words(identity())}
         else:
             # a row repeats inputs that went through the problem, which may cost their last digit
             found = answer.row | facts
-        return facts | found | {"wall_time_s": answer.wall_time_s}
+        self.rows.append(facts | found | {"wall_time_s": answer.wall_time_s})
 
-    def _store(self, rows: list[dict[str, Any]]) -> None:
-        """Store rows, and count them as done afterwards."""
-        if rows:
-            self.store.add(rows)
-            self.ended |= {row["name"]: row.get("failure") for row in rows}
-            self.stored += len(rows)
+    def _store(self) -> None:
+        """Store what has ended, and count it as done afterwards."""
+        if self.rows:
+            self.store.add(self.rows)
+            self.ended |= {row["name"]: row.get("failure") for row in self.rows}
+            self.stored += len(self.rows)
+            self.rows = []
         if self.report is not None and monotonic() - self.reported > _REPORT:
             self.reported = monotonic()
             self.report(self.progress())
@@ -375,7 +383,8 @@ def attempt(work: Work, kind: Kind, inputs: Mapping[str, float], settings: CaseS
     began = perf_counter()
     row, failure, reason = None, "", ""
     try:
-        row = work(kind.problem(inputs), settings)
+        found = work(kind.problem(inputs), settings)
+        row = json.loads(json.dumps(found, default=methodcaller("item")))  # numbers of NumPy too
     except MemoryError as error:
         failure, reason = "memory limit", f"more memory than its limit: {error}"
     except Unsolved as error:
@@ -407,9 +416,10 @@ def _read(statement: str) -> tuple[Kind, CaseSettings]:
             "when viscotack is changed. What is stored is safe: run again"
         )
     with tempfile.TemporaryDirectory(prefix="viscotack-") as folder:
-        for name, source in facts["own"].items():
-            Path(folder, name).write_text(source, encoding="utf-8")
-        own = tuple(str(Path(folder, name)) for name in facts["own"])
+        own = [Path(folder, str(i), name) for i, (name, _) in enumerate(facts["own"])]
+        for path, (_, source) in zip(own, facts["own"], strict=True):
+            path.parent.mkdir()
+            path.write_text(source, encoding="utf-8")
         settings = CaseSettings(**facts["settings"] | {"own": own})
         also = settings.nouns  # read while the files are there
     return restored_kind(facts["kind"], facts["problem"], facts["names"], also), settings

@@ -15,7 +15,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
-from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -102,7 +101,7 @@ class Store:
             "kind": plan.kind.name,
             "problem": plan.base,
             "settings": asdict(plan.settings),
-            "own": {Path(path).name: read_text(path) for path in plan.settings.own},
+            "own": [(Path(path).name, read_text(path)) for path in plan.settings.own],
             "shard": plan.shard,
             "rejected": plan.rejected,
             "repeated": plan.repeated,
@@ -160,13 +159,13 @@ class Store:
         """
         facts, cases = self.facts, self.cases()
         given = {read_text(path): str(Path(path).resolve()) for path in own}
-        for name, source in facts["own"].items():
+        for name, source in facts["own"]:
             if source not in given:
                 raise InputError(
                     f"{self.folder} was planned with {name}, Python that would be executed: permit "
                     f"it as it was then, --with {name} on the command line, own=[...] in Python"
                 )
-        files = tuple(given[source] for source in facts["own"].values())
+        files = tuple(given[source] for _, source in facts["own"])
         settings = replace(self.settings, own=files)
         names = {name for case in cases for name in case.inputs}
         return Plan(
@@ -185,15 +184,7 @@ class Store:
         with self.database() as db:
             db.executemany(
                 ADD,
-                (
-                    (
-                        row["name"],
-                        row.get("failure"),
-                        row.get("reason"),
-                        json.dumps(row, default=methodcaller("item")),  # a number of NumPy's
-                    )
-                    for row in rows
-                ),
+                ((r["name"], r.get("failure"), r.get("reason"), json.dumps(r)) for r in rows),
             )
 
     def ended(self) -> dict[str, str | None]:
@@ -337,17 +328,20 @@ def locked(folder: Path) -> Iterator[None]:
     FolderInUse
         If another run holds it.
     """
-    held = sqlite3.connect(folder / "lock", timeout=0, isolation_level=None)
+    held = None
     try:
-        try:
-            held.execute("BEGIN EXCLUSIVE")
-        except sqlite3.OperationalError as error:
-            if error.sqlite_errorcode != sqlite3.SQLITE_BUSY:
-                raise OSError(f"cannot lock {folder}: {error}") from error
-            raise FolderInUse(
-                f"{folder} is in use by another run{_holder(folder)}; wait for it, or give "
-                "another --out"
-            ) from None
+        held = sqlite3.connect(folder / "lock", timeout=0, isolation_level=None)
+        held.execute("BEGIN EXCLUSIVE")
+    except sqlite3.OperationalError as error:
+        if held is not None:
+            held.close()
+        if error.sqlite_errorcode != sqlite3.SQLITE_BUSY:
+            raise OSError(f"cannot lock {folder}: {error}") from error
+        raise FolderInUse(
+            f"{folder} is in use by another run{_holder(folder)}; wait for it, or give another "
+            "--out"
+        ) from None
+    try:
         yield
     finally:
         held.close()
