@@ -1,16 +1,13 @@
-"""Stand-ins for the solution of a case, importable by workers, and a crew within this process."""
+"""Stand-ins for the solution of a case, importable by workers, and an executor in this process."""
 
 import ctypes
-import json
 import os
 import signal
-from contextlib import contextmanager
-from pathlib import Path
+from concurrent.futures import BrokenExecutor, Executor, Future
 from time import sleep
 
 from viscotack import InputError
 from viscotack.campaign import Store, read_plan
-from viscotack.campaign.case import Lost, attempt
 
 
 def plan_of(folder, cases=20, text="", own=()):
@@ -44,77 +41,50 @@ def picky(problem, settings):
     return stand_in(problem, settings)
 
 
-def tell_that_it_began():
-    """Leave a file by the number of this process, where somebody waits for it."""
-    if folder := os.environ.get("CAMPAIGN_TEST_BEGAN"):
-        Path(folder, str(os.getpid())).touch()
-
-
-def waiting(problem, settings):
-    """Wait in C, where no exception reaches."""
-    tell_that_it_began()
-    ctypes.CDLL(None).sleep(1000)
-
-
 def interrupting(problem, settings):
-    """Press ctrl-C in one case; only for a crew within the process."""
+    """Press ctrl-C in one case; only within this process."""
     if problem.rate == 7:
         os.kill(os.getpid(), signal.SIGINT)
+    return stand_in(problem, settings)
+
+
+def dangerous(problem, settings):
+    """Kill the worker, hang in C, or take much memory, by the rate."""
+    if problem.rate == 2:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if problem.rate == 3:
+        ctypes.PyDLL(None).sleep(1000)
+    if problem.rate == 4:
+        bytearray(2_000_000_000)
     return stand_in(problem, settings)
 
 
 def told(folder):
     """Return all that a campaign says, but for wall times."""
     store = Store(folder)
-    tables = [table.to_pylist() for table in (store.results(), store.failures())]
+    tables = [list(store.results()), list(store.failures())]
     for row in (row for table in tables for row in table):
         row.pop("wall_time_s")
     return *tables, store.cases(), store.settings
 
 
-def finished(store):
-    """Return the names of the cases with a result, and the failures by name of the others."""
-    failed = {row["name"]: row["failure"] for row in store.failures().to_pylist()}
-    return {row["name"] for row in store.results().to_pylist()}, failed
+class Inline(Executor):
+    """An executor that does each batch when it is submitted; some rates kill it."""
 
+    def __init__(self, deaths=()):
+        self.deaths, self.done, self.lost = deaths, [], []
 
-class InlineCrew:
-    """A crew that does each case when it is handed in; `deaths` names the rates that kill it."""
+    def __call__(self):
+        """Return an executor that is not broken."""
+        return self
 
-    def __init__(self, workers=2, deaths=(), blame=True):
-        self.count, self.deaths, self.blame = workers, list(deaths), blame
-        self.done, self.alone, self.waiting = [], [], []
-
-    def room(self):
-        return 2 * self.count + 1 - len(self.waiting)
-
-    def hand(self, number, problem):
-        rate = json.loads(problem)["groups"].get("rate")
-        if rate in self.deaths:
-            self.deaths.remove(rate)
-            self.alone.append(not self.waiting)
-            self.waiting.append((number, Lost("its worker process died", blame=self.blame)))
-            return
-        self.done.append(rate)
-        self.waiting.append((number, attempt(self.work, problem, self.settings)))
-
-    def collect(self, seconds):
-        return [self.waiting.pop(0)] if self.waiting else []
-
-    def workers(self):
-        return self.count
-
-
-def employ(monkeypatch, crew):
-    """Let `run` use this crew in place of processes."""
-    from importlib import import_module
-
-    @contextmanager
-    def local(work, settings, workers):
-        crew.work, crew.settings = work, settings
-        crew.waiting.clear()
-        yield crew
-
-    # the package has a function of the same name as the module
-    monkeypatch.setattr(import_module("viscotack.campaign.running"), "local", local)
-    return crew
+    def submit(self, function, work, statement, batch):
+        future, rates = Future(), [case.inputs["rate"] for case in batch]
+        if set(rates) & set(self.deaths):
+            self.lost.append(rates)
+            future.set_exception(BrokenExecutor("a process died"))
+            return future
+        answers = function(work, statement, batch)
+        self.done += rates[: len(answers)]
+        future.set_result(answers)
+        return future

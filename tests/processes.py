@@ -39,13 +39,3 @@ def children(process):
     """Return the processes that a process has started."""
     found = Path(f"/proc/{process}/task").glob("*/children")
     return [int(word) for path in found for word in path.read_text().split()]
-
-
-class Clock:
-    """A clock that stands in the place of `monotonic`, and goes when it is told to."""
-
-    def __init__(self):
-        self.now = 1000.0
-
-    def __call__(self):
-        return self.now

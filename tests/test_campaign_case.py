@@ -1,5 +1,4 @@
 import importlib
-import json
 from itertools import count
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 import synthetic
 import viscotack as vt
 import viscotack.campaign
-import viscotack.pool
 from viscotack import (
     Apart,
     Approach,
@@ -18,16 +16,12 @@ from viscotack import (
     Retract,
     pull_off,
     pull_off_force,
-    to_dict,
 )
 from viscotack.campaign import CaseSettings, measure
-from viscotack.campaign.case import (
-    KEY_SHARES,
-    attempt,
-    curve,
-)
+from viscotack.campaign.case import KEY_SHARES, curve
+from viscotack.campaign.columns import kind_of_problem
+from viscotack.campaign.running import attempt
 
-PROBLEM = json.dumps(to_dict(synthetic.GROUPS))
 QUICK = CaseSettings(accuracy=0.02, until="pull-off")
 
 
@@ -59,14 +53,15 @@ def test_key_points_and_trajectory_lie_on_the_curve():
 def test_a_case_that_marches_too_long_ends_by_itself(monkeypatch):
     # on a clock that goes on by a hundredth of a second whenever somebody looks at it
     ticks = count(100.0, 0.01)
-    for module in ("campaign.case", "clock"):
+    for module in ("campaign.running", "clock"):
         monkeypatch.setattr(
             importlib.import_module(f"viscotack.{module}"), "perf_counter", ticks.__next__
         )
-    answer = attempt(measure, PROBLEM, CaseSettings(accuracy=2e-4, time_limit=0.2))
+    kind = kind_of_problem(synthetic.GROUPS, {"tabor"})
+    settings = CaseSettings(accuracy=2e-4, time_limit=0.2)
+    answer = attempt(measure, kind, {"tabor": synthetic.GROUPS.tabor}, settings)
     assert (answer.failure, answer.reason) == ("time limit", "took more than 0.2 s")
     assert 0.2 <= answer.wall_time_s < 0.3
-    assert "viscotack" in answer.versions and "source" in answer.versions
 
 
 @pytest.mark.parametrize("deeper_first", [True, False])

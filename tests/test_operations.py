@@ -65,7 +65,6 @@ NOT_DRAWN = {
     "campaign merge": [{"folders": ["one", "two"], "out": "both"}],
     "campaign run": [{"plan": "plan.toml", "out": "study", "workers": 2}],
     "campaign status": [{"folder": "study"}],
-    "campaign verify": [{"folder": "study"}],
     "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
     "identify dwell": [RATES],
     "identify rates": [RATES, RATES | {"thickness": "300 um", "bonded": 0.49}],

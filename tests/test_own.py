@@ -113,7 +113,7 @@ rounded-cone.rounding = 20e-6
     )
     done = run(read_plan(plan, own=files_of_own), tmp_path / "study", workers=1)
     assert (done.done, done.failed) == (2, 0)
-    rows = Store(tmp_path / "study").results().to_pylist()
+    rows = list(Store(tmp_path / "study").results())
     assert all(row["largest_contact_radius_m"] > 0 for row in rows)
     assert [row["interface.steepness"] for row in rows] == [2.0, 3.0]
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2

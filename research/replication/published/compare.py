@@ -71,7 +71,7 @@ def simulated(
     with open(folder / "cases.csv", "w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows([INPUTS, *cases])
     run(read_plan(folder / "cases.csv", accuracy=accuracy), folder / "runs", workers=workers)
-    found = {inputs_of(row): row for row in Store(folder / "runs").results().to_pylist()}
+    found = {inputs_of(row): row for row in Store(folder / "runs").results()}
     missing = [case for case in cases if case not in found]
     if missing:
         words = dict(zip(INPUTS, missing[0], strict=True))

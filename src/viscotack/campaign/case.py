@@ -4,11 +4,8 @@ A row contains the numbers of ``viscotack.summary``, key points of the curve and
 trajectory, about a thousandth of the size of a result.
 """
 
-import json
-from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from time import perf_counter
+from functools import cached_property
 from typing import Annotated, Any, cast
 
 import numpy as np
@@ -20,16 +17,14 @@ from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.methods import solve
 from viscotack.problem import RoughCase
-from viscotack.problem.nouns import known
-from viscotack.problem.record import from_dict
+from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
 from viscotack.result.parts import spans
 from viscotack.rough import problem_of, pull, stickiness
-from viscotack.system import peak_memory
 
 from ..result import Outcome, Result
-from .identity import OwnChanged, identity, nouns_of, words
+from .identity import identity, words
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
@@ -54,13 +49,11 @@ class CaseSettings:
         needed for the work of separation.
     time_limit : float
         Time limit of a case [s]; a longer case is a failure. If it does not end by itself, its
-        process is killed some seconds later.
+        process is ended after twice this time.
     memory_limit : float
-        Memory limit of a case [bytes], in addition to the idle worker.
+        Memory limit of a case [bytes], in addition to the idle worker; kept on Linux.
     own : tuple of str
         Python files with user-defined laws, materials, shapes and observables.
-    own_sha256 : tuple of str
-        Their hashes when the campaign was planned; () if they were not stored.
 
     Examples
     --------
@@ -79,102 +72,21 @@ class CaseSettings:
         Quantity("byte", "M", "most memory of a case beside its worker", above=0, example="400 MB"),
     ] = 400e6
     own: tuple[str, ...] = ()
-    own_sha256: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.until not in ("detached", "pull-off"):
             raise InputError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
         conform(self)
-        for name in ("own", "own_sha256"):
-            object.__setattr__(self, name, tuple(str(word) for word in getattr(self, name)))
+        object.__setattr__(self, "own", tuple(map(str, self.own)))
 
+    @cached_property
     def nouns(self) -> tuple[Any, ...]:
-        """Return the user-defined classes; OwnChanged if a file was edited since the planning."""
-        return nouns_of(self.own, self.own_sha256)
-
-
-Work = Callable[[Any, CaseSettings], dict[str, Any]]
-
-
-@dataclass(frozen=True)
-class Answer:
-    """Answer of a worker: a row, or the reason of a failure.
-
-    Attributes
-    ----------
-    row : dict or None
-        Numbers, words and lists of numbers by column.
-    failure, reason : str
-        Kind of failure, such as "refused" or "time limit", and a sentence; "" with a row.
-    wall_time_s : float
-        Time of the case in the worker [s].
-    peak_memory : float
-        Largest resident memory that the worker has had [bytes].
-    versions : str
-        Of what was running, as one word of text; "" where the worker could not say.
-    """
-
-    row: dict[str, Any] | None
-    failure: str
-    reason: str
-    wall_time_s: float
-    peak_memory: float
-    versions: str = ""
-
-
-@dataclass(frozen=True)
-class Lost:
-    """A case without an answer, because its worker was lost.
-
-    Attributes
-    ----------
-    reason : str
-        How the worker was lost.
-    blame : bool
-        Whether the case may be the cause, because its process ran no other case. False if a whole
-        machine of a cluster was lost.
-    """
-
-    reason: str
-    blame: bool = True
+        """The user-defined classes, which are read once."""
+        return own_nouns(self.own)
 
 
 class Unsolved(Exception):
     """A simulation that stopped before its end, with the reason."""
-
-
-def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
-    """Run one case; exceptions become failures.
-
-    Limits are enforced by the work itself and by the supervisor of this process.
-
-    Parameters
-    ----------
-    work : callable
-        Returns the row of a problem; :func:`measure`, or a stand-in.
-    problem : str
-        The record of a problem as JSON.
-    settings : CaseSettings
-        Passed on to the work.
-    """
-    began = perf_counter()
-    row, failure, reason = None, "", ""
-    try:
-        row = work(from_dict(json.loads(problem), settings.nouns(), beside=Path), settings)
-    except MemoryError as error:
-        failure, reason = "memory limit", f"the machine has no more memory: {error}"
-    except Unsolved as error:
-        failure, reason = "stopped", str(error)
-    except OwnChanged as error:
-        failure, reason = "crashed", str(error)
-    except InputError as error:
-        failure, reason = "refused", str(error)
-    except (Exception, SystemExit) as error:
-        failure, reason = "crashed", f"{type(error).__name__}: {error}"
-    took = perf_counter() - began
-    if failure in ("stopped", "refused") and took > settings.time_limit:
-        failure, reason = "time limit", f"took more than {settings.time_limit:g} s"
-    return Answer(row, failure, reason, took, peak_memory(), words(identity()))
 
 
 def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
@@ -221,7 +133,7 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     if result.outcome is Outcome.STOPPED:
         raise Unsolved(result.status)
     found = pull_off(result)
-    answer = summary(result, known(settings.nouns()).observables)
+    answer = summary(result, known(settings.nouns).observables)
     errors, cost = answer["error_estimate"] or {}, answer["statistics"]
     row = {name: value for name, value in answer.items() if name not in _LEFT_OUT}
     row |= {"error_estimate": errors.get("force"), "error_estimate_work": errors.get("work")}

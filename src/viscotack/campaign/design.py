@@ -88,8 +88,9 @@ def check_number(cases: int) -> None:
 
 @dataclass
 class Tally:
-    """Counts points that are not run, and keeps why the first of them is not."""
+    """Counts cases as stated and points that are not run; keeps why the first is not."""
 
+    stated: int = 0
     rejected: int = 0
     why: str = ""
 

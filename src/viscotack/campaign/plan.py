@@ -1,9 +1,9 @@
 """Plans of campaigns: cases and settings, from a TOML file or a CSV file."""
 
-import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -19,15 +19,27 @@ from viscotack.rough import read_rough_case
 
 from ..units import parse
 from .case import CaseSettings
-from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
-from .identity import digest
 from .listed import Listed
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
-# Tables and blocks of a file.
-_Read = tuple[dict[str, Any], list[tuple[str, Any]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One case of a plan.
+
+    Attributes
+    ----------
+    name : str
+        By the content of its problem: equal problems have equal names.
+    inputs : dict
+        The numbers that state it, by column.
+    """
+
+    name: str
+    inputs: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -38,8 +50,8 @@ class Plan:
     ----------
     kind : Kind
         What the inputs mean.
-    cases : Cases
-        Without repetitions; any iterable of cases is taken.
+    cases : tuple of Case
+        Without repetitions.
     settings : CaseSettings
         How they are solved.
     base : dict or None
@@ -50,30 +62,19 @@ class Plan:
         Why the first of the points that were rejected was.
     source : str
         Text of the file; "" for a plan made otherwise.
-    suffix : str
-        Its ending, ".toml" or ".csv".
     shard : str or None
         Which part of the whole plan this is, "3/20".
     """
 
     kind: Kind
-    cases: Cases
+    cases: tuple[Case, ...]
     settings: CaseSettings
     base: dict[str, Any] | None = None
     rejected: int = 0
     repeated: int = 0
     refusal: str = ""
     source: str = ""
-    suffix: str = ".toml"
     shard: str | None = None
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.cases, Cases):
-            object.__setattr__(self, "cases", Cases.of(self.cases))
-
-    def problem(self, case: Case) -> str:
-        """Return the problem of a case as JSON, as it is sent to a worker."""
-        return json.dumps(to_dict(self.kind.problem(case.inputs)))
 
 
 def read_plan(
@@ -115,43 +116,57 @@ def read_plan(
     >>> len(plan.cases), plan.settings.accuracy
     (1, 0.02)
     """
-    path = Path(path)
-    changed = {name: value for name, value in changed.items() if value is not None}
+    path, settings = Path(path), {name: v for name, v in changed.items() if v is not None}
     source = read_text(path)
-    is_csv = path.suffix == ".csv"
-    tables, blocks = (_from_csv if is_csv else _from_toml)(path, source)
-    if "temperature" in changed:
-        if is_csv:
-            raise InputError(f"{path} states cases without dimensions, which have no temperature")
-        tables["temperature"] = changed.pop("temperature")
-    if files := _permitted(path, tables, own):
-        changed["own"] = files
-    kind, base = _kind(path, tables, blocks, files)
-    settings = _settings(path, tables.get("settings", {}), changed)
-    plan = _planned(str(path), kind, blocks, settings, base)
-    return replace(plan, source=source, suffix=".csv" if is_csv else ".toml")
+    with _placed(str(path)):
+        if path.suffix == ".csv":
+            rows = Listed(path, source)
+            tables: dict[str, Any] = {"kind": kind_of_columns(set(rows.names))}
+            blocks: list[tuple[str, Any]] = [("list", rows)]
+        else:
+            tables = parse_toml(source, path)
+            if unknown := tables.keys() - set(_KEYS):
+                raise InputError(
+                    f"unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
+                )
+            blocks = _blocks(path, tables)
+        if "temperature" in settings:
+            tables["temperature"] = settings.pop("temperature")
+        if files := _permitted(path, tables, own):
+            settings["own"] = files
+        kind, base = _kind(path, tables, blocks, own_nouns(files))
+        settings = _settings(tables.get("settings", {}), settings)
+    return _planned(str(path), kind, blocks, settings, base, source)
 
 
-def _from_csv(path: Path, source: str) -> _Read:
-    rows = Listed(path, source)
+@contextmanager
+def _placed(where: str, file: str = "") -> Iterator[None]:
+    """Put a place before what is wrong, unless a place in this file or in another one is there."""
     try:
-        return {"kind": kind_of_columns(set(rows.names))}, [("list", rows)]
-    except ValueError as error:
-        raise InputError(f"{path}: {error}") from None
+        yield
+    except (ValueError, TypeError) as error:
+        is_placed = str(error).startswith((where, file or where))
+        raise InputError(str(error) if is_placed else f"{where}: {error}") from None
 
 
-def _from_toml(path: Path, source: str) -> _Read:
-    tables = parse_toml(source, path)
-    unknown = tables.keys() - set(_KEYS)
-    if unknown:
-        raise InputError(
-            f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
-        )
-    blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
-    blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
-    if not blocks:
-        raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
-    return tables, blocks
+def _blocks(path: Path, tables: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """Return the blocks that state cases, those of lists as the rows of their files."""
+    found: list[tuple[str, Any]] = []
+    for key in ("grid", "list", "fill"):
+        blocks = tables.get(key, [])
+        if not isinstance(blocks, list) or not all(isinstance(b, dict) for b in blocks):
+            raise InputError(f"write [[{key}]] with two brackets; there may be several")
+        for block in blocks:
+            if key == "list":
+                if block.keys() != {"file"}:
+                    raise InputError('[[list]]: needs file = "cases.csv" and nothing else')
+                file = path.parent / str(block["file"])
+                found.append((key, Listed(file, read_text(file))))
+            else:
+                found.append((key, _flat(block)))
+    if not found:
+        raise InputError("no [[grid]], [[list]] or [[fill]]: there is nothing to run")
+    return found
 
 
 def space_filling(
@@ -253,16 +268,20 @@ def _of_problem(
 ) -> Plan:
     settings = settings or CaseSettings()
     _check_own(problem, settings)
-    names = _inputs(key, block)
-    check_exponent(problem, names)
-    kind = kind_of_problem(problem, names, settings.nouns())
+    kind = _kind_over(problem, [(key, block)], settings.nouns)
     return _planned("the plan", kind, [(key, block)], settings, to_dict(problem))
+
+
+def _kind_over(problem: Any, blocks: list[tuple[str, Any]], also: tuple[Any, ...]) -> Kind:
+    names = {name for key, block in blocks for name in _inputs(key, block)}
+    check_exponent(problem, names)
+    return kind_of_problem(problem, names, also)
 
 
 def _check_own(problem: Any, settings: CaseSettings) -> None:
     """Refuse a problem of user-defined classes without the files that define them."""
     try:
-        from_dict(to_dict(problem), settings.nouns(), beside=Path)
+        from_dict(to_dict(problem), settings.nouns, beside=Path)
     except InputError as error:
         parts = (type(part) for part in vars(problem).values())
         own = [
@@ -282,23 +301,27 @@ def _planned(
     blocks: list[tuple[str, Any]],
     settings: CaseSettings,
     base: dict[str, Any] | None,
+    source: str = "",
 ) -> Plan:
     tally = Tally()
-    stated = Cases.of(_stated(where, kind, blocks, tally))
-    cases = stated.first_of_each()
-    if not len(cases):
+    cases: dict[str, Case] = {}
+    for case in _stated(where, kind, blocks, tally):
+        tally.stated += 1
+        cases.setdefault(case.name, case)
+    if not cases:
         raise InputError(
             f"{where}: none of its {tally.rejected} points is a contact, so there is nothing to "
             f"run. The first: {tally.why}"
         )
     return Plan(
         kind=kind,
-        cases=cases,
+        cases=tuple(cases.values()),
         settings=settings,
         base=base,
         rejected=tally.rejected,
-        repeated=len(stated) - len(cases),
+        repeated=tally.stated - len(cases),
         refusal=tally.why,
+        source=source,
     )
 
 
@@ -313,65 +336,29 @@ def restored_kind(
     return KINDS[name]
 
 
-def _listed(path: Path, block: Mapping[str, Any]) -> Listed:
-    if block.keys() != {"file"}:
-        raise InputError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
-    file = path.parent / str(block["file"])
-    return Listed(file, read_text(file))
-
-
-def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
-    blocks = tables.get(key, [])
-    if not isinstance(blocks, list) or not all(isinstance(b, dict) for b in blocks):
-        raise InputError(f"{path}: write [[{key}]] with two brackets; there may be several")
-    return blocks
-
-
 def _kind(
-    path: Path,
-    tables: Mapping[str, Any],
-    blocks: list[tuple[str, Any]],
-    own: tuple[str, ...],
+    path: Path, tables: Mapping[str, Any], blocks: list[tuple[str, Any]], also: tuple[Any, ...]
 ) -> tuple[Kind, dict[str, Any] | None]:
-    if "problem" in tables:
-        if "kind" in tables:
-            raise InputError(f"{path}: kind and problem exclude each other; leave one out")
-        also = own_nouns(own)
-        problem = _base(path, path.parent / str(tables["problem"]), tables, also)
-        names = {name for key, block in blocks for name in _inputs(key, block)}
-        try:
-            check_exponent(problem, names)
-            return kind_of_problem(problem, names, also), to_dict(problem)
-        except ValueError as error:
-            raise InputError(f"{path}: {error}") from None
+    """Return the kind of the cases, and the record of their base problem."""
+    if "problem" not in tables:
+        if "temperature" in tables:
+            raise InputError("temperature goes with problem, whose material it shifts")
+        if (name := tables.get("kind", "sphere")) not in KINDS:
+            raise InputError(f"kind must be one of {', '.join(KINDS)}, got {name!r}")
+        return KINDS[name], None
+    if "kind" in tables:
+        raise InputError("kind and problem exclude each other; leave one out")
+    file, kelvin = path.parent / str(tables["problem"]), None
     if "temperature" in tables:
-        raise InputError(f"{path}: temperature goes with problem, whose material it shifts")
-    name = tables.get("kind", "sphere")
-    if name not in KINDS:
-        raise InputError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
-    return KINDS[name], None
-
-
-def _base(path: Path, file: Path, tables: Mapping[str, Any], also: tuple[Any, ...]) -> Any:
-    """Return the problem of a file, a case or a rough surface."""
-    kelvin = _temperature(path, tables)
+        with _placed('temperature, such as "20 degC"'):
+            kelvin = parse(tables["temperature"], "K")
     if "surface" not in read_toml(file):
-        return read_case(file, also=also, temperature=kelvin)
-    if kelvin is not None:
-        raise InputError(
-            f"{path}: a rough surface states the temperature of its material in its own file"
-        )
-    return read_rough_case(file, also=also)
-
-
-def _temperature(path: Path, tables: Mapping[str, Any]) -> float | None:
-    """Return the temperature of the base problem's material [K]; that of its file where None."""
-    if "temperature" not in tables:
-        return None
-    try:
-        return parse(tables["temperature"], "K")
-    except ValueError as error:
-        raise InputError(f'{path}: temperature: {error}; write "20 degC"') from None
+        problem = read_case(file, also=also, temperature=kelvin)
+    elif kelvin is None:
+        problem = read_rough_case(file, also=also)
+    else:
+        raise InputError("a rough surface states the temperature of its material in its own file")
+    return _kind_over(problem, blocks, also), to_dict(problem)
 
 
 def _permitted(
@@ -380,12 +367,12 @@ def _permitted(
     """List the Python files of a campaign; those that the plan names must be permitted."""
     files = tables.get("with", [])
     if not isinstance(files, list) or not all(isinstance(file, str) for file in files):
-        raise InputError(f'{path}: with must be a list of files, with = ["my_laws.py"]')
+        raise InputError('with must be a list of files, with = ["my_laws.py"]')
     named = [str((path.parent / file).resolve()) for file in files]
     given = [str(Path(file).resolve()) for file in own]
     if missing := [file for file in named if file not in given]:
         raise InputError(
-            f"{path} names Python that would be executed: permit it, "
+            "it names Python that would be executed: permit it, "
             f"{' '.join(f'--with {file}' for file in missing)} on the command line, own=[...] in "
             "Python"
         )
@@ -393,10 +380,10 @@ def _permitted(
 
 
 def _inputs(key: str, block: Any) -> set[str]:
-    """Return the names of the inputs of a block; a dotted path may be written as tables."""
+    """Return the names of the inputs of a block."""
     if key == "list":
         return set(block.names)
-    return set(_flat(block)) - ({"cases", "method", "seed"} if key == "fill" else set())
+    return set(block) - ({"cases", "method", "seed"} if key == "fill" else set())
 
 
 def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -414,19 +401,20 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 def _stated(where: str, kind: Kind, blocks: list[tuple[str, Any]], tally: Tally) -> Iterator[Case]:
     """Yield the cases of all blocks, in their order."""
     for number, (key, block) in enumerate(blocks, 1):
-        try:
+        place = f"{where}, block {number} ([[{key}]])"
+        with _placed(place, str(getattr(block, "path", ""))):
             kind.check(_inputs(key, block))
             for row in _rows(kind, key, block, tally):
                 yield Case(run_id(kind.problem(row)), row)
-        except (ValueError, TypeError) as error:
-            text, place = str(error), f"{where}, block {number} ([[{key}]])"
-            is_placed = text.startswith((where, str(getattr(block, "path", where))))
-            raise InputError(text if is_placed else f"{place}: {text}") from None
 
 
 def _rows(kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
     if key == "list":
-        return _checked(block, kind)
+        for line, row in block:
+            with _placed(f"{block.path}, line {line}"):
+                kind.problem(row)
+            yield row
+        return
 
     def refusal(row: dict[str, float]) -> str:
         try:
@@ -437,9 +425,10 @@ def _rows(kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, 
             return str(error)
         return "" if is_contact else "there is no relaxed contact to begin with"
 
-    values = _flat(block)
+    values = dict(block)
     if key == "grid":
-        return accepted(grid(_read(kind, values)), refusal, None, tally)
+        yield from accepted(grid(_read(kind, values)), refusal, None, tally)
+        return
     cases, method = values.pop("cases", None), values.pop("method", "sobol")
     seed = values.pop("seed", 0)
     if not _is_whole(cases) or cases < 1 or not _is_whole(seed) or seed < 0:
@@ -447,7 +436,7 @@ def _rows(kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, 
     # The dimensions of the sequence follow the kind, not the order in which a file was written.
     ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
     points = fill(_read(kind, ordered), cases=cases, method=method, seed=seed)
-    return accepted(points, refusal, cases, tally)
+    yield from accepted(points, refusal, cases, tally)
 
 
 def _is_whole(number: Any) -> bool:
@@ -457,53 +446,36 @@ def _is_whole(number: Any) -> bool:
 def _read(kind: Kind, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return values, lists and ranges with their text as numbers, each within its card's range."""
 
-    def number(name: str, given: Any) -> Any:
-        entry = kind.inputs.get(name)
-        if isinstance(given, str) and not kind.in_si:
-            raise InputError(
-                f"{name} must be a number, and without a unit, for cases of kind {kind.name!r} are "
-                f"dimensionless; got {given!r}"
-            )
-        if isinstance(given, str) and entry is not None:
-            try:
-                given = parse(given, entry.unit)
-            except InputError as error:
-                raise InputError(f"{name}: {error}") from None
-        is_number = isinstance(given, int | float) and not isinstance(given, bool)
-        return entry.card.checked(name, given, entry.unit) if entry and is_number else given
-
     def read(name: str, given: Any) -> Any:
         if isinstance(given, Mapping):
             kept = ("count", "weights")
             return {key: v if key in kept else read(name, v) for key, v in given.items()}
-        return [number(name, v) for v in given] if isinstance(given, list) else number(name, given)
+        if isinstance(given, list):
+            return [read(name, v) for v in given]
+        entry = kind.inputs.get(name)
+        if isinstance(given, str):
+            if not kind.in_si:
+                raise InputError(
+                    f"{name} must be a number, and without a unit, for cases of kind {kind.name!r} "
+                    f"are dimensionless; got {given!r}"
+                )
+            if entry is not None:
+                with _placed(name):
+                    given = parse(given, entry.unit)
+        is_number = isinstance(given, int | float) and not isinstance(given, bool)
+        return entry.card.checked(name, given, entry.unit) if entry and is_number else given
 
     return {name: read(name, given) for name, given in values.items()}
 
 
-def _checked(rows: Listed, kind: Kind) -> Iterator[dict[str, float]]:
-    for line, row in rows:
-        try:
-            kind.problem(row)
-        except ValueError as error:
-            raise InputError(f"{rows.path}, line {line}: {error}") from None
-        yield row
-
-
-def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSettings:
-    names = [field.name for field in fields(CaseSettings) if not field.name.startswith("own")]
+def _settings(given: Any, changed: Mapping[str, Any]) -> CaseSettings:
+    names = [field.name for field in fields(CaseSettings) if field.name != "own"]
     if not isinstance(given, dict) or given.keys() - set(names):
-        raise InputError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
-    values = dict(given) | dict(changed)
-    if "own" in values:
-        values["own_sha256"] = tuple(map(digest, values["own"]))
-    for name, field in cards(CaseSettings).items():
-        if name in values:
-            try:
-                values[name] = parse(values[name], field.card.unit)
-            except InputError as error:
-                raise InputError(f"{path}, [settings] {name}: {error}") from None
-    try:
+        raise InputError(f"[settings]: may have {', '.join(names)}, got {given!r}")
+    values = given | dict(changed)
+    with _placed("[settings]"):
+        for name, field in cards(CaseSettings).items():
+            if name in values:
+                with _placed(name):
+                    values[name] = parse(values[name], field.card.unit)
         return CaseSettings(**values)
-    except ValueError as error:
-        raise InputError(f"{path}, [settings]: {error}") from None

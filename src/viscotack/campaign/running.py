@@ -1,40 +1,60 @@
-"""Run the missing cases of a plan, longest first, and store the results as they arrive."""
+"""Run the missing cases of a plan, longest first, on an executor, and store rows as they come.
 
+Cases go to the workers in batches that take a quarter of a second, so that many small ones cost
+little. Where a worker dies, its executor is replaced, and the cases that were under way are done
+again at the end, one at a time: one that kills its worker alone, twice, has failed.
+"""
+
+import faulthandler
+import json
 import signal
+import sys
+import tempfile
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from functools import cache, partial
+from math import prod
+from operator import methodcaller
 from pathlib import Path
-from time import perf_counter
-from typing import Any, Protocol
-
-import numpy as np
-import numpy.typing as npt
+from time import monotonic, perf_counter, sleep
+from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.files.arrow import arrow
-from viscotack.files.lock import locked
-from viscotack.pool import NoWorker
+from viscotack.system import Processes, begin_worker
 
-from .case import Answer, Lost, Work, measure
-from .cases import PASSING, Cases
-from .cluster import Gone, Security, check_installed, cluster
+from .case import CaseSettings, Unsolved, measure
 from .columns import Kind
-from .identity import identity, words
-from .local import local
-from .plan import Plan
-from .store import Store
+from .identity import difference, identity, words
+from .plan import Case, Plan, restored_kind
+from .store import PASSING, Store, locked
 
-# Number of waiting cases that are stored immediately.
-_PART = 1000
-# Number of crashed cases, without any solved one, after which the run stops.
+Work = Callable[[Any, CaseSettings], dict[str, Any]]
+
+# Time after which a worker hands in the cases of a batch that it has done [s], and its most cases.
+_BATCH, _MOST = 0.25, 200
+# Cases that have crashed, without any solved one, after which the run stops.
 _CRASHES = 20
-# Longest wait for a case to come back before the clock is looked at [s].
-_LOOK = 0.25
-# Number of processes, and of machines, that a case may lose; the last attempt runs alone.
-_LIVES, _DEPARTURES = 3, 20
+# Longest wait for an answer before the clock is looked at, and time between two reports [s].
+_LOOK, _REPORT = 0.25, 0.5
+# Seconds beyond twice the time limit after which a worker ends itself with a case that hangs.
+_GRACE = 5.0
+# Time in which the futures of a broken executor end [s].
+_BREAKS = 30.0
+
+
+class NoWorker(RuntimeError):
+    """No worker can run the cases."""
 
 
 class AllCrashed(RuntimeError):
@@ -59,8 +79,6 @@ class Progress:
         Time of this run [s].
     worker_use : float
         Share of that time in which the workers were at a case; it counts their start.
-    peak_memory : float
-        Largest resident memory that a worker has had [bytes]; 0 where unknown.
     stopped : bool
         The run was asked to stop, and ends when the cases in flight are done.
     """
@@ -72,7 +90,6 @@ class Progress:
     remaining_s: float | None = None
     elapsed_s: float = 0.0
     worker_use: float = 0.0
-    peak_memory: float = 0.0
     stopped: bool = False
 
 
@@ -81,11 +98,9 @@ def run(
     folder: str | Path,
     *,
     own: Iterable[str | Path] = (),
-    workers: int = 1,
-    scheduler: str | None = None,
-    security: Security | None = None,
+    workers: int | Callable[[], int] = 1,
+    executor: Callable[[], Executor] | None = None,
     retry: bool = False,
-    store_every: float = 2.0,
     work: Work = measure,
     report: Callable[[Progress], None] | None = None,
 ) -> Progress:
@@ -100,20 +115,18 @@ def run(
     own : iterable of path
         Python files that may be executed, to go on with a campaign that was planned with them; of
         a plan `read_plan` was given them.
-    workers : int
-        Processes on this machine.
-    scheduler : str, optional
-        Address of a Dask scheduler, ``"tcp://host:8786"``, whose workers do the cases instead.
-    security : Security, optional
-        Certificates for a scheduler at ``"tls://host:8786"``.
+    workers : int or callable
+        Cases that run at a time: processes of this machine, or threads of the executor; a function
+        where their number changes.
+    executor : callable, optional
+        Returns an executor of ``concurrent.futures`` that runs the cases in place of processes of
+        this machine, such as :class:`Dask`. It is called again when an executor has broken.
     retry : bool
         Also run the cases that have failed. Those that crashed or whose worker died are always run.
-    store_every : float
-        Time between two parts of the store [s]: what a crash can cost.
     work : callable
         Returns the row of a problem; a stand-in must be importable by the workers.
     report : callable, optional
-        Called with a :class:`Progress` at every such time.
+        Called with a :class:`Progress` twice a second.
 
     Returns
     -------
@@ -144,235 +157,285 @@ def run(
     1
     """
     folder = Path(folder)
-    if workers < 1:
+    if isinstance(workers, int) and workers < 1:
         raise InputError(f"workers must be at least 1, got {workers}")
     if plan is None:
         Store(folder)  # refuses a folder without a campaign before a lock is left in it
-    arrow()  # what is not installed is said before a folder is made
-    if scheduler is not None:
-        check_installed()
     folder.mkdir(parents=True, exist_ok=True)
-    with locked(folder) as hold:
-        _check_whole(folder)
-        store = Store(folder, hold) if plan is None else Store.create(folder, plan, hold)
-        store.tidy()
-        this = _Run(
-            store,
-            store.plan(own) if plan is None else plan,
-            report=report,
-            retry=retry,
-            store_every=store_every,
-        )
-        if not this.left():
+    with locked(folder):
+        store = Store(folder) if plan is None else Store.create(folder, plan)
+        this = _Run(store, plan or store.plan(own), work, retry=retry, report=report)
+        if not this.todo:
             return this.progress()
-        settings = this.plan.settings
-        settings.nouns()  # rejects user-defined files that have been edited
-        number = store.note_run(scheduler=scheduler, workers=workers, to_run=this.left())
-        count = min(workers, this.left())
-        hired = (
-            local(work, settings, count)
-            if scheduler is None
-            else cluster(work, settings, scheduler, security)
-        )
-        with hired as crew:
-            end = this.go(crew)
-        store.note_run(
-            number,
-            elapsed_s=round(end.elapsed_s, 2),
-            done=end.done,
-            failed=end.failed,
-            worker_use=round(end.worker_use, 3),
-            peak_memory_MB=round(end.peak_memory / 1e6, 1),
-            stopped=end.stopped,
-        )
+        count = (lambda: workers) if isinstance(workers, int) else workers
+        if executor is None:
+            executor = partial(_processes, min(count(), len(this.todo)), this.plan.settings)
+        number = store.note_run(to_run=len(this.todo))
+        end = this.go(executor, count)
+        store.note_run(number, **asdict(end))
         return end
 
 
-def _check_whole(folder: Path) -> None:
-    """Refuse the folder of an interrupted merge: the missing cases are in other folders."""
-    if (folder / "provenance.json").exists() and (begun := Store(folder).merging):
-        raise InputError(
-            f"{folder} holds a merge of {', '.join(begun)} that has not ended; merge them again "
-            "into it"
-        )
-
-
-class Crew(Protocol):
-    """Workers that take cases by number, here or on a cluster, and bring back answers or a loss."""
-
-    def room(self) -> int:
-        """Return how many more cases may be submitted; NoWorker if there is no worker."""
-        ...
-
-    def hand(self, number: int, problem: str) -> None:
-        """Give a case, with an identifier of the caller, to a worker with capacity."""
-        ...
-
-    def collect(self, seconds: float) -> list[tuple[int, Answer | Lost]]:
-        """Return the answers that arrived, after waiting at most the given time [s]."""
-        ...
-
-    def workers(self) -> int:
-        """Return the number of cases run in parallel."""
-        ...
-
-
 class _Run:
-    """State of one run: cases to do, running cases, and rows to store.
-
-    Cases are numbers here, their places in the plan.
-    """
+    """State of one run: cases to do, cases in flight, and how those of the plan stand."""
 
     def __init__(
         self,
         store: Store,
         plan: Plan,
+        work: Work,
         *,
-        report: Callable[[Progress], None] | None,
         retry: bool,
-        store_every: float,
+        report: Callable[[Progress], None] | None,
     ) -> None:
-        self.store, self.plan, self.report = store, plan, report
-        self.store_every = store_every
-        self.standing = store.standing(plan.cases)
-        kept = self.standing.done if retry else self.standing.done | self.standing.lasting
-        left = np.flatnonzero(~kept)
-        self.cost = expected_costs(plan.kind, plan.cases)
-        # The longest first, so that no worker is left alone with a long one at the end.
-        self.todo = left[np.argsort(-self.cost[left], kind="stable")]
-        self.next = 0
-        self.cost_left, self.cost_done = float(self.cost[left].sum()), 0.0
-        # What was lost is done again: first among the others, then after them and alone.
-        self.again: deque[int] = deque()
-        self.suspects: deque[int] = deque()
-        self.losses: Counter[tuple[int, bool]] = Counter()
-        self.flying: set[int] = set()
-        self.crashed = 0
+        self.store, self.plan, self.work, self.report = store, plan, work, report
+        self.statement = _stated(store)
+        ended = store.ended()
+        self.ended = {case.name: ended[case.name] for case in plan.cases if case.name in ended}
+        again = {name for name, why in self.ended.items() if why and (retry or why in PASSING)}
+        left = [c for c in plan.cases if c.name not in self.ended or c.name in again]
+        # the longest first, so that no worker is left alone with a long one at the end
+        self.todo = deque(sorted(left, key=self._cost, reverse=True))
+        self.cost_left, self.cost_done = sum(map(self._cost, left)), 0.0
+        # those that were under way when a worker died, and how often one did alone
+        self.suspects: deque[Case] = deque()
+        self.deaths: Counter[str] = Counter()
+        self.flying: dict[Future[list[Answer]], tuple[list[Case], float]] = {}
         self.rows: list[dict[str, Any]] = []
-        self.reasons: list[dict[str, Any]] = []
-        self.began = self.stored_at = perf_counter()
-        self.stored, self.busy, self.peak = 0, 0.0, 0.0
-        self.workers, self.asked = 1, threading.Event()
+        self.size, self.crashed, self.stored, self.busy = 1, 0, 0, 0.0
+        self.solved, self.why = None in self.ended.values(), "no reason is known"
+        self.began = self.reported = monotonic()
+        self.slots, self.asked = 1, threading.Event()
 
-    def left(self) -> int:
-        """Count the cases that have not been submitted yet."""
-        return len(self.todo) - self.next + len(self.again) + len(self.suspects)
+    def _cost(self, case: Case) -> float:
+        powers = self.plan.kind.cost
+        known = (name for name in powers if name in case.inputs)
+        return prod(max(abs(case.inputs[name]), 1e-3) ** powers[name] for name in known)
 
-    def go(self, crew: Crew) -> Progress:
+    def go(self, make: Callable[[], Executor], workers: Callable[[], int]) -> Progress:
         """Do the cases; return when all are stored, or those in flight after a ctrl-C."""
-        with _asked_to_stop(self.asked):
-            try:
-                while self._hand_out(crew) or self.flying:
-                    for number, answer in crew.collect(_LOOK):
-                        self._collect(number, answer)
-                    due = perf_counter() - self.stored_at > self.store_every
-                    if due or self._waiting() >= _PART:
+        executor = make()
+        try:
+            with _asked_to_stop(self.asked):
+                while True:
+                    self.slots = workers()
+                    while len(self.flying) < self.slots and (batch := self._next()):
+                        future = self._submitted(executor, batch)
+                        self.flying[future] = batch, monotonic()
+                    self._store()  # while the workers go on
+                    if not self.flying:
+                        if self.asked.is_set() or not (self.todo or self.suspects):
+                            executor.shutdown()
+                            return self.progress()
+                        sleep(_LOOK)  # until there is a worker
+                        continue
+                    done = set(wait(self.flying, _LOOK, FIRST_COMPLETED).done)
+                    is_broken = any(map(_is_broken, done))
+                    if is_broken:
+                        wait(self.flying, _BREAKS)  # all of them break
+                        done = set(self.flying)
+                    self._collect(done)
+                    if is_broken:
                         self._store()
-            except (KeyboardInterrupt, Gone, NoWorker):
-                self._store()
-                raise
-            self._store()
-        return self.progress()
+                        executor.shutdown(wait=False)
+                        executor = make()
+        except BaseException:
+            if isinstance(executor, Processes):
+                executor.kill()
+            else:
+                executor.shutdown(wait=False)
+            raise
 
     def progress(self) -> Progress:
         """Return how far the run is."""
-        elapsed = perf_counter() - self.began
-        known = self.stored and self.cost_done
+        elapsed = monotonic() - self.began
+        failed = sum(why is not None for why in self.ended.values())
+        left = max(self.cost_left, 0.0)
         return Progress(
             cases=len(self.plan.cases),
-            done=int(self.standing.done.sum()),
-            failed=int(self.standing.failed.sum()),
-            rate=self.stored / elapsed,
-            remaining_s=self.cost_left * elapsed / self.cost_done if known else None,
+            done=len(self.ended) - failed,
+            failed=failed,
+            rate=self.stored / elapsed if elapsed else 0.0,
+            remaining_s=left * elapsed / self.cost_done if self.cost_done else None,
             elapsed_s=elapsed,
-            worker_use=self.busy / (elapsed * self.workers),
-            peak_memory=self.peak,
+            worker_use=self.busy / (elapsed * max(self.slots, 1)) if elapsed else 0.0,
             stopped=self.asked.is_set(),
         )
 
-    def _hand_out(self, crew: Crew) -> bool:
-        """Give the crew as many cases as it accepts; return whether any are left."""
-        if self.asked.is_set() or not self.left():
-            return False
-        room = crew.room()
-        self.workers = crew.workers()
-        while room > 0 and (number := self._next()) is not None:
-            room -= 1
-            self.flying.add(number)
-            crew.hand(number, self.plan.problem(self.plan.cases[number]))
-        return True
+    def _submitted(self, executor: Executor, batch: list[Case]) -> "Future[list[Answer]]":
+        try:
+            return executor.submit(solve, self.work, self.statement, batch)
+        except BrokenExecutor:  # it has just broken, without this batch
+            future: Future[list[Answer]] = Future()
+            future.cancel()
+            future.set_running_or_notify_cancel()
+            return future
 
-    def _next(self) -> int | None:
-        """Return the next case; None while one that may kill its worker is, or is to be, alone."""
-        if self.again:
-            return self.again.popleft()
-        if self.next < len(self.todo):
-            self.next += 1
-            return int(self.todo[self.next - 1])
-        if self.suspects and not self.flying:
-            return self.suspects.popleft()
-        return None
+    def _next(self) -> list[Case]:
+        """Return the next batch; none while one that may kill its worker is, or is to be, alone."""
+        if self.asked.is_set():
+            return []
+        if self.todo:
+            return [self.todo.popleft() for _ in range(min(self.size, len(self.todo)))]
+        return [self.suspects.popleft()] if self.suspects and not self.flying else []
 
-    def _collect(self, number: int, answer: Answer | Lost) -> None:
-        self.flying.remove(number)
-        if isinstance(answer, Answer):
-            self._take(number, answer)
-            return
-        self.losses[number, answer.blame] += 1
-        lost, most = self.losses[number, answer.blame], _LIVES if answer.blame else _DEPARTURES
-        if lost >= most:
-            self._take(number, Answer(None, "worker died", answer.reason, 0.0, 0.0))
-        elif answer.blame and lost == most - 1:
-            self.suspects.append(number)
-        else:
-            self.again.append(number)
-
-    def _take(self, number: int, answer: Answer) -> None:
-        self.cost_left -= self.cost[number]
-        self.cost_done += self.cost[number]
-        self.busy += answer.wall_time_s
-        self.peak = max(self.peak, answer.peak_memory)
-        case = self.plan.cases[number]
-        facts: dict[str, Any] = {"name": case.name, **case.inputs}
-        if answer.row is not None:
-            # A row repeats inputs that went through the problem, which may cost their last digit.
-            self.rows.append(facts | answer.row | facts | {"wall_time_s": answer.wall_time_s})
-        else:
-            why = {"failure": answer.failure, "reason": answer.reason}
-            why |= {"versions": answer.versions or words(identity())}
-            self.reasons.append(facts | why | {"wall_time_s": answer.wall_time_s})
-            self.crashed += answer.failure in PASSING
-        if self.crashed >= _CRASHES and not (self.rows or self.standing.done.any()):
-            raise AllCrashed(
-                f"the first {self.crashed} cases have all crashed, the last with {answer.reason}; "
-                "the run was ended, for the fault is not in the cases"
+    def _collect(self, done: set[Future[list["Answer"]]]) -> None:
+        """Take the answers that came; put back what was not done or lost."""
+        was_alone, has_died, wrong = len(self.flying) == 1, False, None
+        for future in done:
+            batch, begun = self.flying.pop(future)
+            is_lost = future.cancelled() or not future.done()
+            error = CancelledError() if is_lost else future.exception()
+            if error is None:
+                answers = future.result()
+                self.size = min(2 * len(answers), _MOST)
+                for case, answer in zip(batch, answers, strict=False):
+                    self._take(case, answer)
+                self.todo.extendleft(reversed(batch[len(answers) :]))
+            elif isinstance(error, CancelledError):
+                self.todo.extendleft(reversed(batch))
+            elif isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker":
+                has_died = True
+                self.suspects += batch
+                if len(batch) == 1 and was_alone:
+                    self._died(self.suspects[-1], monotonic() - begun, error)
+            else:
+                wrong = error
+        self.crashed += has_died
+        if wrong is not None or (self.crashed >= _CRASHES and not self.solved):
+            self._store()
+            raise wrong or AllCrashed(
+                f"the first cases have all crashed or killed their workers; {self.why}; the run "
+                "was ended, for the fault is not in the cases"
             )
 
-    def _waiting(self) -> int:
-        return len(self.rows) + len(self.reasons)
+    def _died(self, case: Case, took: float, error: BaseException) -> None:
+        """Give up a case that was alone when its worker died, if it hung or did so twice."""
+        self.deaths[case.name] += 1
+        limit = self.plan.settings.time_limit
+        if took > 2 * limit + _GRACE:
+            end = Answer(None, "time limit", f"took more than {limit:g} s and did not end", took)
+        elif self.deaths[case.name] == 2:
+            end = Answer(None, "worker died", f"its worker was killed, alone: {error}", took)
+        else:
+            return
+        self.suspects.remove(case)
+        self._take(case, end)
+
+    def _take(self, case: Case, answer: "Answer") -> None:
+        """Make the row of a case that has ended; it waits to be stored."""
+        self.cost_left -= self._cost(case)
+        self.cost_done += self._cost(case)
+        self.busy += answer.wall_time_s
+        self.crashed += answer.failure in PASSING
+        self.solved |= answer.row is not None
+        facts: dict[str, Any] = {"name": case.name, **case.inputs}
+        if answer.row is None:
+            self.why = answer.reason
+            found = {"failure": answer.failure, "reason": answer.reason}
+            found |= {"versions": words(identity())}
+        else:
+            # a row repeats inputs that went through the problem, which may cost their last digit
+            found = answer.row | facts
+        self.rows.append(facts | found | {"wall_time_s": answer.wall_time_s})
 
     def _store(self) -> None:
-        """Store the waiting results, and count them as done afterwards."""
-        if self._waiting():
-            rows, reasons, self.rows, self.reasons = self.rows, self.reasons, [], []
-            self.store.add(rows, reasons)
-            self.standing.note(self.plan.cases, rows, reasons)
-            self.stored += len(rows) + len(reasons)
-        else:
-            self.store.confirm()
-        self.stored_at = perf_counter()
-        if self.report is not None:
+        """Store what has ended, and count it as done afterwards."""
+        if self.rows:
+            self.store.add(self.rows)
+            self.ended |= {row["name"]: row.get("failure") for row in self.rows}
+            self.stored += len(self.rows)
+            self.rows = []
+        if self.report is not None and monotonic() - self.reported > _REPORT:
+            self.reported = monotonic()
             self.report(self.progress())
 
 
-def expected_costs(kind: Kind, cases: Cases) -> npt.NDArray[np.float64]:
-    """Return the expected times of cases beside one another; no unit."""
-    found = np.ones(len(cases))
-    for name, power in kind.cost.items():
-        if name in cases.columns:
-            values = np.maximum(np.abs(cases.columns[name]), 1e-3) ** power
-            found *= np.where(np.isnan(values), 1.0, values)
-    return found
+@dataclass(frozen=True)
+class Answer:
+    """Answer of a worker about a case: a row, or the kind of failure and its reason."""
+
+    row: dict[str, Any] | None
+    failure: str
+    reason: str
+    wall_time_s: float
+
+
+def solve(work: Work, statement: str, batch: list[Case]) -> list[Answer]:
+    """Do the first cases of a batch in a worker, as many as end in its time."""
+    kind, settings = _read(statement)
+    began, answers = perf_counter(), []
+    for case in batch:
+        # a thread of C ends the process, whatever it does, and says where it was
+        longest = 2 * settings.time_limit + _GRACE
+        faulthandler.dump_traceback_later(longest, exit=True, file=sys.__stderr__ or 2)
+        try:
+            answers.append(attempt(work, kind, case.inputs, settings))
+        finally:
+            faulthandler.cancel_dump_traceback_later()
+        if perf_counter() - began > _BATCH:
+            break
+    return answers
+
+
+def attempt(work: Work, kind: Kind, inputs: Mapping[str, float], settings: CaseSettings) -> Answer:
+    """Do one case; exceptions become failures."""
+    began = perf_counter()
+    row, failure, reason = None, "", ""
+    try:
+        found = work(kind.problem(inputs), settings)
+        row = json.loads(json.dumps(found, default=methodcaller("item")))  # numbers of NumPy too
+    except MemoryError as error:
+        failure, reason = "memory limit", f"more memory than its limit: {error}"
+    except Unsolved as error:
+        failure, reason = "stopped", str(error)
+    except InputError as error:
+        failure, reason = "refused", str(error)
+    except (Exception, SystemExit) as error:
+        failure, reason = "crashed", f"{type(error).__name__}: {error}"
+    took = perf_counter() - began
+    if failure in ("stopped", "refused") and took > settings.time_limit:
+        failure, reason = "time limit", f"took more than {settings.time_limit:g} s"
+    return Answer(row, failure, reason, took)
+
+
+def _stated(store: Store) -> str:
+    """Return what workers need to know of a campaign, as text."""
+    names = sorted({name for case in store.cases() for name in case.inputs})
+    facts = {name: store.facts[name] for name in ("kind", "problem", "settings", "own")}
+    return json.dumps(facts | {"names": names, "identity": identity()})
+
+
+@cache
+def _read(statement: str) -> tuple[Kind, CaseSettings]:
+    """Return kind and settings in a worker, whose own copies of user-defined files are executed."""
+    facts = json.loads(statement)
+    if told := difference(identity(), facts["identity"]):
+        raise NoWorker(
+            f"a worker is of another program ({told}); it needs the same versions, and a run ends "
+            "when viscotack is changed. What is stored is safe: run again"
+        )
+    with tempfile.TemporaryDirectory(prefix="viscotack-") as folder:
+        own = [Path(folder, str(i), name) for i, (name, _) in enumerate(facts["own"])]
+        for path, (_, source) in zip(own, facts["own"], strict=True):
+            path.parent.mkdir()
+            path.write_text(source, encoding="utf-8")
+        settings = CaseSettings(**facts["settings"] | {"own": own})
+        also = settings.nouns  # read while the files are there
+    return restored_kind(facts["kind"], facts["problem"], facts["names"], also), settings
+
+
+def _processes(workers: int, settings: CaseSettings) -> Processes:
+    return Processes(workers, _begin, (settings.memory_limit,))
+
+
+def _begin(memory: float) -> None:
+    begin_worker(memory)  # with what this module needs, its memory is counted at rest
+
+
+def _is_broken(future: Future[Any]) -> bool:
+    """Return whether an executor has broken, as a future says."""
+    return future.cancelled() or isinstance(future.exception(), BrokenExecutor)
 
 
 @contextmanager

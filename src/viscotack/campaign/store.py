@@ -1,64 +1,64 @@
-"""Storage of a campaign in a folder: plan, settings, provenance, results and failures.
+"""The database of a campaign, ``study.db`` in its folder: plan, cases, results, failures, runs.
 
-::
-
-    plan.toml or plan.csv     the plan as it was given
-    cases.parquet             name and inputs of every case
-    provenance.json           kind, settings, and who ran it when with which versions; the hashes
-                              of all files, under a seal of its own
-    results/*.parquet         a row per solved case
-    failures/*.parquet        a row per case without a result, with the reason
-    lock                      held while a run writes
+The runner alone writes, a transaction for the cases that have ended since the last one; everybody
+else may read meanwhile. The journal is a rollback journal, which also works on a network file
+system and in a folder that may only be read.
 """
 
-import hashlib
+import json
 import os
 import platform
 import socket
+import sqlite3
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager
-from dataclasses import asdict, replace
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from viscotack.errors import InputError
-from viscotack.files.arrow import arrow
-from viscotack.files.bounded import LARGEST_PART
-from viscotack.files.lock import Hold
-from viscotack.files.parquet import read_parquet
-from viscotack.files.whole import remove_drafts, write_whole
-from viscotack.version import __version__
+from viscotack.files.text import read_text
 
 from .case import CaseSettings
-from .cases import Cases, Names, Standing
-from .identity import digest, identity, permitted
-from .ordering import Ordered, in_order, names_of
-from .parts import Ledger, Parts, parquet
-from .plan import Plan, restored_kind
-from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
+from .identity import identity
+from .plan import Case, Plan, restored_kind
 
-_TABLES = ("results", "failures")
-_FILES = ("cases.parquet", "plan.toml", "plan.csv")
-# Names that are words of Python at a time, and cases that are written at a time.
-_SLICE, _WRITTEN = 20_000, 50_000
+_FORMAT = 1
+_SCHEMA = (
+    "CREATE TABLE facts (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
+    "CREATE TABLE cases (name TEXT PRIMARY KEY, place INTEGER NOT NULL, inputs TEXT NOT NULL)",
+    "CREATE TABLE results (name TEXT PRIMARY KEY, failure TEXT, reason TEXT, row TEXT NOT NULL)",
+    "CREATE TABLE runs (number INTEGER PRIMARY KEY, facts TEXT NOT NULL)",
+    f"PRAGMA user_version = {_FORMAT}",
+)
+# What is stored for a case first counts, but a failure for what comes after it.
+ADD = (
+    "INSERT INTO results VALUES (?, ?, ?, ?) ON CONFLICT (name) DO UPDATE SET failure = "
+    "excluded.failure, reason = excluded.reason, row = excluded.row WHERE results.failure NOTNULL"
+)
+# Time for which a writer waits for readers, and they for it [s].
+_PATIENCE = 600.0
+# Rows that are read at a time; the writer waits no longer than for these.
+_ROWS = 1000
+# Failures that another run may not meet: it tries their cases again.
+PASSING = ("crashed", "worker died")
 # Settings that change the numbers of a result, and so must be the same for all of a folder.
-_PHYSICAL = ("accuracy", "until")
+PHYSICAL = ("accuracy", "until")
+
+
+class FolderInUse(InputError):
+    """Another run writes to the folder."""
 
 
 class Store:
-    """Folder of a campaign; :func:`run` writes it.
+    """The stored campaign of a folder; :func:`run` writes it.
 
     Parameters
     ----------
     folder : path
-        As ``viscotack campaign run --out`` made it. Reading needs no lock, also while a run writes.
-    hold : Hold, optional
-        The lock of who writes, who confirms it before every change.
+        As ``viscotack campaign run --out`` made it. It may be read while a run writes.
 
     Raises
     ------
@@ -66,107 +66,83 @@ class Store:
         If there is no such folder.
     ValueError
         If it holds no campaign, a damaged one, or one of a newer version.
+
+    Attributes
+    ----------
+    facts : dict
+        ``kind``, ``problem``, ``settings``, ``own``, ``shard``, ``rejected``, ``repeated`` and
+        ``plan``, as stored.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], hold: Hold | None = None) -> None:
-        self.folder, self._hold = Path(folder), hold
-        self._provenance = read_provenance(self.folder)
-        self._parts = {
-            name: Parts(self.folder / name, partial(self._ledger, name), partial(self._note, name))
-            for name in _TABLES
-        }
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+        if not self.folder.is_dir():
+            raise FileNotFoundError(2, "No such folder", str(folder))
+        self.path = self.folder / "study.db"
+        if not self.path.exists():
+            raise InputError(f"{folder} holds no campaign: it has no study.db")
+        with self.database() as db:
+            if not _has_tables(db, self.path):
+                raise InputError(f"{folder} holds no campaign: its study.db has no plan")
+            found = db.execute("SELECT name, value FROM facts").fetchall()
+        self.facts: dict[str, Any] = {name: json.loads(value) for name, value in found}
 
     @classmethod
-    def create(
-        cls, folder: str | os.PathLike[str], plan: Plan, hold: Hold | None = None, **facts: Any
-    ) -> "Store":
-        """Return the store for a plan, new or with the results of an earlier plan.
-
-        The caller holds the lock of the folder; further facts are kept in the provenance.
+    def create(cls, folder: str | os.PathLike[str], plan: Plan) -> "Store":
+        """Store a plan in a folder, new or with the results of an earlier plan.
 
         Raises
         ------
         ValueError
-            If the folder holds cases of another kind, accuracy or shard, or of user-defined files
-            that have been edited since.
+            If the folder holds cases of another kind, accuracy or shard, or of other user-defined
+            files.
         """
         stated = {
             "kind": plan.kind.name,
             "problem": plan.base,
             "settings": asdict(plan.settings),
+            "own": [(Path(path).name, read_text(path)) for path in plan.settings.own],
+            "shard": plan.shard,
             "rejected": plan.rejected,
             "repeated": plan.repeated,
-            "shard": plan.shard,
-        } | facts
-        files = {f"plan{plan.suffix}": plan.source.encode()} if plan.source else {}
-        return cls._begun(Path(folder), stated, plan.cases, files, hold)
-
-    @classmethod
-    def merged(
-        cls, folder: Path, stores: Sequence["Store"], cases: Cases, hold: Hold, names: list[str]
-    ) -> "Store":
-        """Begin the store of a merge of campaigns, whose problem is not built for that.
-
-        Errors as of `create`; the caller holds the lock of the folder.
-        """
-        given = stores[0].provenance
-        stated = {name: given[name] for name in ("kind", "problem", "settings")}
-        stated |= {"rejected": given["rejected"], "repeated": given["repeated"]}
-        stated |= {"shard": None, "merging": names}
-        return cls._begun(folder, stated, cases, {}, hold)
-
-    @classmethod
-    def _begun(
-        cls,
-        folder: Path,
-        stated: dict[str, Any],
-        cases: Cases,
-        sources: dict[str, bytes],
-        hold: Hold | None,
-    ) -> "Store":
-        _refuse_links(folder)
-        header: dict[str, Any] = {
-            "format": FORMAT,
-            "format_version": FORMAT_VERSION,
-            "runs": [],
-            "parts": {name: Ledger().record() for name in _TABLES},
-            "lost": [],
-        } | stated
-        if (folder / "provenance.json").exists():
-            old = read_provenance(folder)
-            _check_same(folder, old, header)
-            header |= {name: old[name] for name in ("runs", "parts", "lost")}
-        files = {"cases.parquet": parquet(lambda: _tables_of_cases(cases)), **sources}
-        hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
-        if hold is not None:
-            hold.confirm()
-        # Until both are written either counts: at any instant the folder is in order.
-        known = {name: hash_of(folder / name) for name in files}
-        header["files"] = {
-            name: list(dict.fromkeys([new, *filter(None, [known[name]])]))
-            for name, new in hashes.items()
+            "plan": plan.source,
         }
-        write_provenance(folder, header)
-        for name in (name for name in files if known[name] != hashes[name]):
-            write_whole(folder / name, files[name])
-        header["files"] = {name: [new] for name, new in hashes.items()}
-        write_provenance(folder, header)
-        return cls(folder, hold)
+        facts = json.loads(json.dumps(stated))  # as they are when they are read
+        shard, shards = numbers_of(plan.shard) if plan.shard else (1, 1)
+        with created(Path(folder)) as db:
+            old = db.execute("SELECT name, value FROM facts").fetchall()
+            if old:
+                check_same(str(folder), {n: json.loads(v) for n, v in old}, "the plan", facts)
+            db.execute("DELETE FROM facts")
+            db.executemany(
+                "INSERT INTO facts VALUES (?, ?)", ((n, json.dumps(v)) for n, v in facts.items())
+            )
+            db.execute("DELETE FROM cases")
+            db.executemany(
+                "INSERT INTO cases VALUES (?, ?, ?)",
+                (
+                    (case.name, i * shards + shard, json.dumps(case.inputs))
+                    for i, case in enumerate(plan.cases)
+                ),
+            )
+        return cls(folder)
+
+    @contextmanager
+    def database(self) -> Iterator[sqlite3.Connection]:
+        """Open the database; what the block writes is kept whole, or not at all."""
+        with _opened(self.path) as db:
+            yield db
 
     @property
     def settings(self) -> CaseSettings:
         """How the cases are solved."""
-        return CaseSettings(**self._provenance["settings"])
+        return CaseSettings(**self.facts["settings"])
 
-    @property
-    def merging(self) -> list[str]:
-        """The folders of a merge that has not ended; [] for a campaign that is whole."""
-        return self._provenance.get("merging", [])
-
-    @property
-    def provenance(self) -> Mapping[str, Any]:
-        """Kind, settings and runs, as in provenance.json."""
-        return self._provenance
+    def cases(self) -> list[Case]:
+        """Return the planned cases; nothing is executed."""
+        with self.database() as db:
+            found = db.execute("SELECT name, inputs FROM cases ORDER BY place")
+            return [Case(name, json.loads(inputs)) for name, inputs in found]
 
     def plan(self, own: Iterable[str | os.PathLike[str]] = ()) -> Plan:
         """Build the stored plan, so that a run can go on without the file it came from.
@@ -179,232 +155,218 @@ class Store:
         Raises
         ------
         InputError
-            If it was planned with other files, or a file has been edited since.
+            If one of them is missing, or has been edited since.
         """
-        given, settings = self._provenance, self.settings
-        files = permitted(settings.own, settings.own_sha256, map(Path, own), self.folder)
-        settings = replace(settings, own=files)
-        cases = self.cases()
+        facts, cases = self.facts, self.cases()
+        given = {read_text(path): str(Path(path).resolve()) for path in own}
+        for name, source in facts["own"]:
+            if source not in given:
+                raise InputError(
+                    f"{self.folder} was planned with {name}, Python that would be executed: permit "
+                    f"it as it was then, --with {name} on the command line, own=[...] in Python"
+                )
+        files = tuple(given[source] for _, source in facts["own"])
+        settings = replace(self.settings, own=files)
+        names = {name for case in cases for name in case.inputs}
         return Plan(
-            kind=restored_kind(given["kind"], given["problem"], cases.columns, settings.nouns()),
-            cases=cases,
+            kind=restored_kind(facts["kind"], facts["problem"], names, settings.nouns),
+            cases=tuple(cases),
             settings=settings,
-            base=given["problem"],
-            rejected=given["rejected"],
-            repeated=given["repeated"],
-            shard=given.get("shard"),
+            base=facts["problem"],
+            rejected=facts["rejected"],
+            repeated=facts["repeated"],
+            source=facts["plan"],
+            shard=facts["shard"],
         )
 
-    def tidy(self) -> None:
-        """Clean up after a killed run, and delete removed parts; the caller holds a lock.
+    def add(self, rows: Iterable[Mapping[str, Any]]) -> None:
+        """Store the rows of cases that have ended; those of failures have a ``failure``."""
+        with self.database() as db:
+            db.executemany(
+                ADD,
+                ((r["name"], r.get("failure"), r.get("reason"), json.dumps(r)) for r in rows),
+            )
 
-        Nothing is removed that a run of this campaign has not written.
-        """
-        _refuse_links(self.folder)
-        for name, parts in self._parts.items():
-            parts.settle()
-            if missing := parts.forget_missing():
-                lost = [f"{name}/{part.name} with {part.rows} rows" for part in missing]
-                self._write(lost=[*self._provenance["lost"], *lost])
-        remove_drafts(self.folder)
+    def ended(self) -> dict[str, str | None]:
+        """Return the names of the cases that have ended, with the kind of failure or None."""
+        with self.database() as db:
+            return dict(db.execute("SELECT name, failure FROM results"))
 
-    def confirm(self) -> None:
-        """Renew the lock of the running campaign; FolderInUse if it was removed."""
-        if self._hold is not None:
-            self._hold.confirm()
+    def counts(self) -> tuple[int, int, int]:
+        """Return the number of cases of the plan, with a result, and with a failure."""
+        with self.database() as db:
+            found = db.execute(
+                "SELECT count(*), count(results.name) - count(failure), count(failure) "
+                "FROM cases LEFT JOIN results USING (name)"
+            )
+            return found.fetchone()
 
-    def add(
-        self, results: Sequence[Mapping[str, Any]], failures: Sequence[Mapping[str, Any]]
-    ) -> None:
-        """Store rows durably; the caller holds the lock."""
-        self._parts["results"].append(results)
-        self._parts["failures"].append(failures)
+    def reasons(self) -> Counter[tuple[str, str]]:
+        """Return how often each failure was met, with its reason."""
+        with self.database() as db:
+            found = db.execute(
+                "SELECT failure, reason, count(*) FROM results WHERE failure IS NOT NULL "
+                "GROUP BY failure, reason"
+            )
+            return Counter({(failure, reason): count for failure, reason, count in found})
+
+    def results(self) -> "Rows":
+        """Return the rows of the solved cases, in the order of the plan."""
+        return Rows(self, "failure IS NULL")
+
+    def failures(self) -> "Rows":
+        """Return the rows of the failed cases, in the order of the plan."""
+        return Rows(self, "failure IS NOT NULL")
+
+    def runs(self) -> list[dict[str, Any]]:
+        """Return when, where and with which versions the cases were run."""
+        with self.database() as db:
+            found = db.execute("SELECT facts FROM runs ORDER BY number")
+            return [json.loads(facts) for (facts,) in found]
 
     def note_run(self, number: int | None = None, **facts: Any) -> int:
-        """Add a run with its machine and versions to the provenance, or facts to one; its number.
-
-        The caller holds the lock.
-        """
-        runs = [dict(run) for run in self._provenance["runs"]]
-        if number is None:
-            runs.append(
-                {
+        """Store that a run begins, with its machine and versions, or facts of one; its number."""
+        with self.database() as db:
+            if number is None:
+                began = {
                     "began": datetime.now(UTC).isoformat(timespec="seconds"),
                     "host": socket.gethostname(),
                     "process": os.getpid(),
                     "platform": platform.platform(),
-                    "python": platform.python_version(),
-                    "viscotack": __version__,
                     "identity": identity(),
                 }
-            )
-            number = len(runs) - 1
-        runs[number] |= facts
-        self._note_settled(runs=runs)
-        return number
-
-    def note_merged(self, runs: list[dict[str, Any]]) -> None:
-        """Keep the runs of the campaigns that this one is whole of; the caller holds the lock."""
-        self._note_settled(runs=runs, merging=[])
-
-    def _note_settled(self, **facts: Any) -> None:
-        # what was written last is there: no part is only coming any more
-        for parts in self._parts.values():
-            parts.settle()
-        self._write(**facts)
-
-    def standing(self, cases: Cases) -> Standing:
-        """Return the state of the cases, from the stored files."""
-        standing = Standing.of(len(cases))
-        standing.note_results(cases.places(self._names("results")))
-        for table in self._parts["failures"].tables(["name", "failure"]):
-            names, failures = (table.column(n).to_pylist() for n in ("name", "failure"))
-            standing.note_failures(cases.places(names), failures)
-        return standing
-
-    def reasons(self) -> Counter[tuple[str, str]]:
-        """Return how often each failure was met, with its reason, by cases that have no result."""
-        found: Counter[tuple[str, str]] = Counter()
-        with self.ordered_failures() as failures:
-            for table in failures.chunks():
-                kinds, whys = (table.column(name).to_pylist() for name in ("failure", "reason"))
-                found.update(zip(kinds, whys, strict=True))
-        return found
-
-    def results(self) -> Any:
-        """Return the results as a pyarrow.Table, a row per case, in the order of the plan."""
-        with self.ordered_results() as ordered:
-            return ordered.table()
-
-    def failures(self) -> Any:
-        """Return the failures as a pyarrow.Table, without cases that were solved later."""
-        with self.ordered_failures() as ordered:
-            return ordered.table()
-
-    def ordered_results(self) -> AbstractContextManager[Ordered]:
-        """Hold the results in the order of the plan, however many; see `ordering.in_order`.
-
-        Of two rows of a case the first counts: what was stored is not run again.
-        """
-        cases, names = self.cases(), self._names("results")
-        return self._in_order("results", cases, names, np.arange(len(names)))
-
-    def ordered_failures(self) -> AbstractContextManager[Ordered]:
-        """Hold the last failure of every case without a result, in the order of the plan."""
-        cases, names = self.cases(), self._names("failures")
-        each, places = np.unique(names, return_inverse=True)
-        solved = self.standing(Cases(each, {})).done[places]
-        return self._in_order("failures", cases, names, np.flatnonzero(~solved)[::-1])
-
-    def _names(self, table: str) -> Names:
-        return names_of(self._parts[table].tables(["name"]))
-
-    def _in_order(
-        self, table: str, cases: Cases, names: Names, counts: Any
-    ) -> AbstractContextManager[Ordered]:
-        return in_order(self._parts[table].tables, names, cases, counts)
-
-    def parts(self) -> dict[str, Parts]:
-        """Return the tables by the names of their directories."""
-        return self._parts
-
-    def files(self) -> dict[str, list[str]]:
-        """Return the other files, with the hashes that each may have."""
-        return self._provenance.get("files", {})
-
-    def lost(self) -> list[str]:
-        """Return sentences for parts that were removed, whose cases are run again."""
-        lost = self._provenance.get("lost", [])
-        return [f"{self.folder}/{words} was removed by somebody" for words in lost]
-
-    def cases(self) -> Cases:
-        """Read the planned cases; nothing is executed."""
-        path = self.folder / "cases.parquet"
-        try:
-            hashes = self.files().get(path.name) or [str(hash_of(path))]
-            present = hash_of(path)
-            table = read_parquet(path, present if present in hashes else hashes[0])
-        except FileNotFoundError:
-            raise InputError(
-                f"{self.folder} has lost its cases.parquet; run again with the plan"
-            ) from None
-        # in slices: a million words of Python's would be 150 MB
-        names = names_of(table.to_batches(max_chunksize=_SLICE))
-        inputs = {
-            name: table.column(name).to_numpy(zero_copy_only=False)
-            for name in table.column_names
-            if name != "name"
-        }
-        return Cases(names, inputs)
-
-    def _ledger(self, name: str) -> Ledger:
-        """Return the ledger of a table: of who writes the one it has, else that on the disk."""
-        if self._hold is None:
-            self._provenance = read_provenance(self.folder)
-        try:
-            return Ledger.of(self._provenance["parts"][name])
-        except (KeyError, TypeError) as error:
-            raise InputError(f"{self.folder}/provenance.json is damaged: {error}") from None
-
-    def _note(self, name: str, ledger: Ledger) -> None:
-        self._write(parts={**self._provenance["parts"], name: ledger.record()})
-
-    def _write(self, **changed: Any) -> None:
-        self.confirm()
-        self._provenance = {**self._provenance, **changed}
-        write_provenance(self.folder, self._provenance)
+                text = json.dumps(began | facts)
+                found = db.execute("INSERT INTO runs (facts) VALUES (?) RETURNING number", (text,))
+                return found.fetchone()[0]
+            (text,) = db.execute("SELECT facts FROM runs WHERE number = ?", (number,)).fetchone()
+            text = json.dumps(json.loads(text) | facts)
+            db.execute("UPDATE runs SET facts = ? WHERE number = ?", (text, number))
+            return number
 
 
-def _refuse_links(folder: Path) -> None:
-    """Refuse a folder in which a file to be written is a symbolic link."""
-    for name in (*_TABLES, "provenance.json", *_FILES):
-        if (folder / name).is_symlink():
-            raise InputError(
-                f"{folder / name} is a symbolic link, and a campaign writes into its own folder "
-                "only; put the file or folder itself there"
-            )
+@dataclass(frozen=True)
+class Rows:
+    """Rows of a table of a store, as dictionaries; read whenever they are gone through.
+
+    Rows of cases that are not in the plan any more come last.
+    """
+
+    store: Store
+    condition: str
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        with self.store.database() as db:
+            numbers = db.execute(
+                "SELECT results.rowid FROM results LEFT JOIN cases USING (name) "
+                f"WHERE {self.condition} ORDER BY place IS NULL, place, name"
+            ).fetchall()
+        for begin in range(0, len(numbers), _ROWS):
+            some = [number for (number,) in numbers[begin : begin + _ROWS]]
+            with self.store.database() as db:
+                found = dict(
+                    db.execute(
+                        f"SELECT rowid, row FROM results WHERE {self.condition} "
+                        f"AND rowid IN ({', '.join(map(str, some))})"
+                    )
+                )
+            yield from (json.loads(found[number]) for number in some if number in found)
+
+    def __len__(self) -> int:
+        with self.store.database() as db:
+            return db.execute(f"SELECT count(*) FROM results WHERE {self.condition}").fetchone()[0]
 
 
-def table_of_cases(cases: Cases) -> Any:
-    """Return cases as a table: name and inputs, with nothing where a case has no such input."""
-    pa = arrow()
-    columns: dict[str, Any] = {"name": pa.array(cases.names).cast(pa.string())}
-    for name, values in cases.columns.items():
-        columns[name] = pa.array(values, pa.float64(), from_pandas=True)  # no number is no entry
-    return pa.table(columns)
+@contextmanager
+def created(folder: Path) -> Iterator[sqlite3.Connection]:
+    """Open the database of a folder, which is made where there is none; as `Store.database`."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with _opened(folder / "study.db", "rwc") as db:
+        db.execute("BEGIN IMMEDIATE")
+        for statement in () if _has_tables(db, folder / "study.db") else _SCHEMA:
+            db.execute(statement)
+        yield db
 
 
-def _tables_of_cases(cases: Cases) -> Iterator[Any]:
-    """Yield cases as tables of some of them: a million in one table take 100 MB more."""
-    for begin in range(0, max(1, len(cases)), _WRITTEN):
-        yield table_of_cases(cases[begin : begin + _WRITTEN])
+def _has_tables(db: sqlite3.Connection, path: Path) -> bool:
+    """Return whether a database has the tables of a campaign; refuse one of a newer version."""
+    (version,) = db.execute("PRAGMA user_version").fetchone()
+    if version > _FORMAT:
+        raise InputError(f"{path} is of a newer version of viscotack; update viscotack")
+    return version == _FORMAT
 
 
-def hash_of(path: Path) -> str | None:
-    """Return the hash of a file as it is now; None if it is not there."""
-    return digest(path, LARGEST_PART) if path.exists() else None
+@contextmanager
+def _opened(path: Path, mode: str = "rw") -> Iterator[sqlite3.Connection]:
+    db = None
+    try:
+        address = f"{path.resolve().as_uri()}?mode={mode}"
+        db = sqlite3.connect(address, timeout=_PATIENCE, uri=True)
+        db.execute("PRAGMA journal_mode = TRUNCATE")
+        db.execute("PRAGMA synchronous = FULL")
+        with db:
+            yield db
+    except sqlite3.OperationalError as error:
+        raise OSError(
+            f"cannot use {path}: {error}; what was stored before is safe: run again when there is "
+            "space and the folder may be written"
+        ) from error
+    except sqlite3.DatabaseError as error:
+        if type(error) is sqlite3.DatabaseError:
+            raise InputError(f"{path} is damaged: {error}") from None
+        raise
+    finally:
+        if db is not None:
+            db.close()
 
 
-def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
-    for what in ("kind", "problem"):
-        if old[what] != new[what]:
-            raise InputError(
-                f"{folder} holds cases of another {what} ({old['kind']}); give another --out"
-            )
-    if old.get("shard") != new["shard"]:
-        was, now = (f"shard {s}" if s else "a whole plan" for s in (old.get("shard"), new["shard"]))
-        raise InputError(f"{folder} holds {was}, and this is {now}; give another --out")
-    for name in _PHYSICAL:
-        was, now = old["settings"][name], new["settings"][name]
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold a folder for one run; the system lets go of it when its process ends, however it ends.
+
+    Raises
+    ------
+    FolderInUse
+        If another run holds it.
+    """
+    held = None
+    try:
+        held = sqlite3.connect(folder / "lock", timeout=0, isolation_level=None)
+        held.execute("BEGIN EXCLUSIVE")
+    except sqlite3.OperationalError as error:
+        if held is not None:
+            held.close()
+        if error.sqlite_errorcode != sqlite3.SQLITE_BUSY:
+            raise OSError(f"cannot lock {folder}: {error}") from error
+        raise FolderInUse(
+            f"{folder} is in use by another run{_holder(folder)}; wait for it, or give another "
+            "--out"
+        ) from None
+    try:
+        yield
+    finally:
+        held.close()
+
+
+def _holder(folder: Path) -> str:
+    runs = Store(folder).runs() if (folder / "study.db").exists() else []
+    return f", process {runs[-1]['process']} on {runs[-1]['host']}" if runs else ""
+
+
+def numbers_of(shard: str) -> tuple[int, int]:
+    """Return the number of a shard and of shards: 3 and 20 of "3/20"."""
+    number, _, count = shard.partition("/")
+    if not (number.isdecimal() and count.isdecimal() and 1 <= int(number) <= int(count)):
+        raise InputError(f"a shard is written '3/20', the third of twenty; got {shard!r}")
+    return int(number), int(count)
+
+
+def check_same(one: str, first: Mapping[str, Any], other: str, second: Mapping[str, Any]) -> None:
+    """Refuse the facts of two campaigns that differ in kind, numbers, shard or own files."""
+    names = ("kind", "problem", "shard", "own")
+    for name in (*names, *PHYSICAL):
+        was, now = ((f if name in names else f["settings"])[name] for f in (first, second))
         if was != now:
+            told = f": {was}, and {now}" if name in (*PHYSICAL, "kind", "shard") else ""
             raise InputError(
-                f"{folder} holds cases with {name} = {was}, the plan asks for {now}; give another "
-                f"--out, or the same {name}"
+                f"{one} and {other} have not the same {name}{told}; give another --out, or the same"
             )
-    before, now = (list(given["settings"].get("own_sha256", ())) for given in (old, new))
-    if before and before != now:
-        files = ", ".join(new["settings"]["own"]) or "none"
-        raise InputError(
-            f"{folder} holds cases with user-defined files that have been edited or replaced "
-            f"since (now {files}); restore the files, or give another --out"
-        )

@@ -126,10 +126,10 @@ def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
     limits = {"error_estimate": targets.force, "error_estimate_work": targets.work}
     missed = {
         row["name"]
-        for row in store.results().select(["name", *limits]).to_pylist()
-        if any(row[name] is None or row[name] > limit for name, limit in limits.items())
+        for row in store.results()
+        if any(row.get(name) is None or row[name] > limit for name, limit in limits.items())
     }
-    missed |= {row["name"] for row in store.failures().to_pylist()}
+    missed |= {row["name"] for row in store.failures()}
     return replace(
         plan,
         cases=tuple(case for case in plan.cases if case.name in missed),
@@ -150,12 +150,12 @@ def write_dataset(
     rows: dict[str, Mapping[str, Any]] = {}
     for store in stores:
         accuracy = store.settings.accuracy
-        for row in store.results().to_pylist():
-            if row["error_estimate"] is not None:  # otherwise its accuracy is unknown
+        for row in store.results():
+            if row.get("error_estimate") is not None:  # otherwise its accuracy is unknown
                 rows[row["name"]] = row | {"accuracy": accuracy}
     planned = [case.name for case in stores[0].cases()[:cases]]
     solved = [rows[case] for case in planned if case in rows]
-    kind = stores[0].provenance["kind"]
+    kind = stores[0].facts["kind"]
     columns = {
         column.name: pa.array([column.value(row) for row in solved], column.type(pa))
         for column in KEPT[kind]
@@ -181,12 +181,11 @@ def write_dataset(
 def _failures(store: Store, rows: Mapping[str, Any], planned: set[str]) -> list[dict[str, Any]]:
     """Return the cases without a result, with their inputs and the reason."""
     left_out = ("name", "wall_time_s")
-    found = store.failures().to_pylist()
-    kept = [row for row in found if row["name"] in planned and row["name"] not in rows]
+    kept = [row for row in store.failures() if row["name"] in planned and row["name"] not in rows]
     return [{k: v for k, v in row.items() if k not in left_out} for row in kept]
 
 
 def _days(stores: list[Store]) -> list[str]:
     """Return the days on which cases were run."""
-    runs = [begun for store in stores for begun in store.provenance["runs"]]
+    runs = [begun for store in stores for begun in store.runs()]
     return sorted({begun["began"][:10] for begun in runs})

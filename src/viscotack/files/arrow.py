@@ -5,7 +5,7 @@ from typing import Any
 from viscotack.errors import NotInstalled, install_command
 
 
-def arrow(stored: str = "campaigns are stored") -> Any:
+def arrow(stored: str = "the table is stored") -> Any:
     """Import pyarrow and the submodules used in this package.
 
     Parameters

@@ -14,8 +14,6 @@ from viscotack.errors import InputError
 
 # Largest text that a user gives, such as a table of a million cases [bytes].
 LARGEST_TEXT = 100_000_000
-# Largest part of a campaign, which this package wrote [bytes].
-LARGEST_PART = 2_000_000_000
 # Longest line of a text [bytes]: a table of it has tens of thousands of columns.
 LONGEST_LINE = 1_000_000
 # Largest size of an archive when unpacked: results with their fields, maps [bytes].

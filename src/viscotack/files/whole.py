@@ -7,11 +7,10 @@ error is redirected is written to directly.
 
 import errno
 import os
-import re
 import secrets
 import stat
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
@@ -76,7 +75,7 @@ def writing_whole(target: Target) -> Iterator[IO[bytes]]:
             with open(handle, "wb", closefd=False) as file:
                 yield file
         elif found is None or stat.S_ISREG(found.st_mode):
-            with _draft(path, None if found is None else found.st_mode, os.replace) as file:
+            with _draft(path, None if found is None else found.st_mode) as file:
                 yield file
         else:
             with open(path, "wb") as file:
@@ -85,33 +84,6 @@ def writing_whole(target: Target) -> Iterator[IO[bytes]]:
         raise
     except OSError as error:
         raise _not_written(path, error) from None
-
-
-def write_new(path: Path, content: Any) -> None:
-    """Write bytes to a new file, complete or not at all; an existing file is never replaced.
-
-    Raises
-    ------
-    NotWritten
-        If writing fails or the file exists.
-    """
-    try:
-        with _draft(path, None, _name) as file:
-            file.write(content)
-    except OSError as error:
-        raise _not_written(path, error) from None
-
-
-def is_draft(path: Path) -> bool:
-    """Whether a file has the name of a draft of this module."""
-    return re.fullmatch(r"\.viscotack-[0-9a-f]{8}\.draft", path.name) is not None
-
-
-def remove_drafts(folder: Path) -> None:
-    """Remove the drafts that a killed process left in a folder."""
-    for path in folder.glob("*"):
-        if is_draft(path):
-            path.unlink(missing_ok=True)
 
 
 def check_target(target: str | os.PathLike[str]) -> None:
@@ -211,10 +183,8 @@ def _draft_beside(place: Path) -> Path:
 
 
 @contextmanager
-def _draft(
-    place: Path, mode: int | None, finish: Callable[[Path, Path], object]
-) -> Iterator[IO[bytes]]:
-    """Open a draft; `finish` renames it when it is complete and on the disk."""
+def _draft(place: Path, mode: int | None) -> Iterator[IO[bytes]]:
+    """Open a draft, which takes the place of the file when it is complete and on the disk."""
     draft = _draft_beside(place)
     try:
         with open(draft, "xb") as file:
@@ -223,22 +193,10 @@ def _draft(
             yield file
             file.flush()
             os.fsync(file.fileno())
-        finish(draft, place)
+        os.replace(draft, place)
     finally:
         draft.unlink(missing_ok=True)
     _sync(place.parent)
-
-
-def _name(draft: Path, path: Path) -> None:
-    """Rename a draft unless a file of that name exists."""
-    try:
-        os.link(draft, path, follow_symlinks=os.link not in os.supports_follow_symlinks)
-    except FileExistsError:
-        raise
-    except OSError:  # a file system without hard links
-        if os.path.lexists(path):
-            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST)) from None
-        os.rename(draft, path)
 
 
 def _not_written(path: Path, error: OSError) -> NotWritten:

@@ -1,6 +1,6 @@
 """Simulated pull-off forces of many tests, in worker processes."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -8,16 +8,16 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.pool import Limits, Pool, Setup
 from viscotack.problem import Problem
 from viscotack.result.observables import pull_off_force
+from viscotack.system import Processes, begin_worker
 
 from .computed import Computed, packaged
 
 ACCURACY = 5e-3
 _WORKERS = 2
 _FEW = 40  # cases up to which no process is started, because that takes longer
-_LIMITS = Limits(seconds=60.0)
+_LONGEST = 60.0  # time of a simulation [s]
 
 
 class Simulations:
@@ -27,7 +27,7 @@ class Simulations:
     """
 
     def __init__(self, computed: Computed | None = None) -> None:
-        self._pool: Pool | None = None
+        self._pool: Processes | None = None
         self._computed = Computed() if computed is None else computed
         self._known: dict[Problem, float] = {}
 
@@ -36,7 +36,7 @@ class Simulations:
 
     def __exit__(self, kind: Any, *_: object) -> None:
         if self._pool is not None:
-            self._pool.dismiss(at_once=kind is not None)
+            self._pool.kill() if kind is not None else self._pool.shutdown()
 
     @property
     def count(self) -> int:
@@ -60,25 +60,26 @@ class Simulations:
 
     def _pooled(self, problems: Sequence[Problem]) -> list[float]:
         if self._pool is None:
-            self._pool = Pool(Setup(f"{__name__}:prepare", None), _WORKERS)
-        pool, found, handed = self._pool, {}, 0
-        while len(found) < len(problems):
-            while handed < len(problems) and pool.room(len(problems) - handed):
-                pool.hand(handed, f"{__name__}:simulate", problems[handed], _LIMITS)
-                handed += 1
-            for number, event in pool.collect(1.0):
-                found[number] = event.what if event.kind == "answer" else np.nan
+            self._pool = Processes(_WORKERS, _begin, ())
+        found = []
+        for force in self._pool.map(_force_in_worker, problems):
+            found.append(force)
             _in_time()
-        return [found[i] for i in range(len(problems))]
+        return found
 
 
-def prepare(_: None) -> None:
-    """Prepare nothing in a worker."""
+def _begin() -> None:
+    begin_worker()
 
 
-def simulate(problem: Problem, tell: Callable[[Any], None], _: None) -> float:
-    """Return the pull-off force of a problem [N] in a worker."""
-    return _force(problem)
+def _force_in_worker(problem: Problem) -> float:
+    from viscotack.clock import limited
+
+    try:
+        with limited(_LONGEST):
+            return _force(problem)
+    except InputError:  # it took too long
+        return np.nan
 
 
 def _force(problem: Problem) -> float:

@@ -5,8 +5,6 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-import numpy as np
-
 from viscotack.errors import InputError
 
 from .declare.answer import Answer, Caller, Output
@@ -99,12 +97,11 @@ class DescribePlan(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Read the plan and count its cases."""
         from viscotack.campaign import export, read_plan
-        from viscotack.campaign.store import table_of_cases
 
         plan = read_plan(self.plan, own=caller.own, temperature=self.temperature)
 
         def write(target: Any) -> None:
-            export(table_of_cases(plan.cases).drop_columns("name"), target)
+            export([case.inputs for case in plan.cases], target)
 
         return Answer(
             plan,
@@ -115,10 +112,12 @@ class DescribePlan(Operation):
 
 
 def _ranges(plan: "Plan") -> dict[str, list[float]]:
-    return {
-        name: [float(np.nanmin(values)), float(np.nanmax(values))]
-        for name, values in plan.cases.columns.items()
-    }
+    found: dict[str, list[float]] = {}
+    for case in plan.cases:
+        for name, value in case.inputs.items():
+            low, high = found.get(name, (value, value))
+            found[name] = [min(low, value), max(high, value)]
+    return found
 
 
 def _plan_record(plan: "Plan") -> dict[str, Any]:
@@ -257,27 +256,27 @@ class Run(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Run the missing cases and report progress."""
-        from viscotack.campaign import AllCrashed, NoWorker, run
-        from viscotack.campaign.cluster import security_of
+        from viscotack.campaign import AllCrashed, Dask, NoWorker, run
 
         assert self.out is not None
-        security = security_of(self.tls_ca, self.tls_cert, self.tls_key)
-        plan = self._plan(caller)
+        plan, options = self._plan(caller), {"own": caller.own, "retry": self.retry}
+        options["report"] = lambda now: caller.tell(_told(now))
         try:
-            end = run(
-                plan,
-                self.out,
-                own=caller.own,
-                workers=self.workers,
-                scheduler=self.scheduler,
-                security=security,
-                retry=self.retry,
-                report=lambda now: caller.tell(_told(now)),
-            )
+            if self.scheduler is None:
+                end = run(plan, self.out, workers=self.workers, **options)
+            else:
+                with Dask(self.scheduler, self._tls()) as dask:
+                    end = run(plan, self.out, workers=dask.threads, executor=dask, **options)
         except (KeyboardInterrupt, AllCrashed, NoWorker) as error:
             return _ended(self.out, error)
         status = _STOPPED if end.stopped else _SOME_FAILED if end.failed else 0
         return replace(_standing(self.out, end), status=status)
+
+    def _tls(self) -> tuple[Path, Path, Path] | None:
+        files = self.tls_ca, self.tls_cert, self.tls_key
+        if any(files) and not all(files):
+            raise InputError("TLS needs three files: --tls-ca, --tls-cert and --tls-key")
+        return files if all(files) else None  # type: ignore[return-value]
 
     def _plan(self, caller: Caller) -> "Plan | None":
         """Return the plan or its shard; None for the plan in the folder."""
@@ -315,48 +314,10 @@ class Status(Operation):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Verify(Operation):
-    """Check that the stored files and rows are complete and unchanged.
-
-    Exit status 0: no differences; 1: differences, which are listed. The folder is not changed.
-
-    Example: viscotack campaign verify study
-    """
-
-    word: ClassVar = "campaign verify"
-    refused: ClassVar = _OF_FOLDERS
-
-    folder: AFolder
-
-    def answer(self, caller: Caller) -> Answer:
-        """Compare all files with their hashes, and all rows with the plan."""
-        from viscotack.campaign import Store, verify
-
-        verdict = verify(Store(self.folder))
-        return Answer(
-            verdict,
-            record=lambda: asdict(verdict),
-            words=lambda: _verdict_words(verdict),
-            status=int(bool(verdict.wrong)),
-        )
-
-
-def _verdict_words(verdict: Any) -> str:
-    end = "differences found" if verdict.wrong else "complete and unchanged"
-    return "\n".join(
-        [
-            *(f"wrong: {words}" for words in verdict.wrong),
-            *(f"not part of this campaign, ignored: {words}" for words in verdict.strange),
-            f"{verdict.rows} rows in {verdict.files} files: {end}",
-        ]
-    )
-
-
-@dataclass(frozen=True, kw_only=True)
 class Merge(Operation):
     """Merge several campaigns, such as the shards of one plan, into one.
 
-    Each is verified first; kind, accuracy and version of viscotack must be the same.
+    Kind, accuracy and version of viscotack must be the same.
 
     Example: viscotack campaign merge shard-1 shard-2 --out study
     """
@@ -374,7 +335,7 @@ class Merge(Operation):
             raise InputError("--out is missing; give the folder of the merged campaign")
 
     def answer(self, caller: Caller) -> Answer:
-        """Verify and merge the campaigns."""
+        """Merge the campaigns."""
         from viscotack.campaign import merge
 
         assert self.out is not None
@@ -412,20 +373,12 @@ class Export(Operation):
         if not caller.wants:
             raise InputError("no output; give --csv, --parquet, --mat or --failures FILE")
         store = Store(self.folder)
-
-        def results(target: Any, trajectories: bool = True) -> None:
-            with store.ordered_results() as table:
-                export(table, target, trajectories=trajectories)
-
-        def failures(target: Any) -> None:
-            with store.ordered_failures() as table:
-                export(table, target)
-
+        results = store.results()
         files = {
-            "csv": lambda target: results(target, self.trajectories),
-            "parquet": results,
-            "mat": results,
-            "failures": failures,
+            "csv": lambda target: export(results, target, trajectories=self.trajectories),
+            "parquet": lambda target: export(results, target),
+            "mat": lambda target: export(results, target),
+            "failures": lambda target: export(store.failures(), target),
         }
         return replace(_standing(self.folder, _progress(store)), files=files)
 
@@ -434,8 +387,7 @@ def _progress(store: Any) -> "Progress":
     """Count the cases of a folder with a result and with a failure."""
     from viscotack.campaign import Progress
 
-    standing = store.standing(store.cases())
-    return Progress(len(standing.done), int(standing.done.sum()), int(standing.failed.sum()))
+    return Progress(*store.counts())
 
 
 def _standing(
@@ -453,7 +405,6 @@ def _standing(
             "elapsed_s": now.elapsed_s,
             "cases_per_second": now.rate,
             "worker_use": now.worker_use,
-            "peak_memory_bytes": now.peak_memory,
             "stopped": now.stopped,
         }
     if reasons is not None:
@@ -470,7 +421,7 @@ def _standing_words(folder: Path, now: "Progress", record: dict[str, Any]) -> st
     if now.elapsed_s:
         lines.append(
             f"  {now.elapsed_s:.1f} s, {now.rate:.2f} cases/s; the workers were busy "
-            f"{100 * now.worker_use:.0f} % of the time, {now.peak_memory / 1e6:.0f} MB at most each"
+            f"{100 * now.worker_use:.0f} % of the time"
         )
     for why in record.get("failures", ()):
         lines.append(f"  {why['cases']:6d} {why['failure']}: {why['reason']}")

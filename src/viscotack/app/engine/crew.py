@@ -1,27 +1,26 @@
-"""Worker processes of the page: tasks wait in queues for a pool driven by the event loop.
+"""Worker processes of the page, each watched by a thread, which passes on one task at a time.
 
 The server process computes nothing itself, so that slow or crashing tasks do not affect it. Idle
-worker processes have their modules imported, so that a task starts immediately.
+worker processes have their modules imported, so that a task starts immediately. A task that is
+cancelled or too slow ends with its process, and a fresh one takes its place.
 """
 
 import asyncio
-from collections import deque
+import signal
+import threading
 from collections.abc import Callable
-from dataclasses import dataclass
-from itertools import count
+from concurrent.futures import ThreadPoolExecutor
+from math import inf
+from queue import Empty, LifoQueue
+from time import monotonic
 from typing import Any
 
-from viscotack.pool import Event, Limits, NoWorker, Pool, Setup
-from viscotack.pool.event import Kind
-from viscotack.pool.supervisor import LOOK
+from viscotack.system import FRESH
 
-# Time allowed for a task to stop before its process is killed [s].
-_GRACE = 0.2
-# Interval between two polls of busy processes on systems that do not report messages [s].
-_OFTEN = 0.01
-# Address space of a process [bytes].
-_MOST_MEMORY = 4 * 2**30
-_PREPARE, _TASK = (f"viscotack.app.engine.worker:{name}" for name in ("prepare", "answer"))
+from .worker import serve
+
+# Interval between two looks at the clock, and time that is allowed for the end of a process [s].
+_LOOK, _PATIENCE = 0.05, 5.0
 
 
 class Refused(ValueError):
@@ -36,18 +35,28 @@ class TooLong(Refused):
     """A task exceeded its time limit."""
 
 
-@dataclass(eq=False)
-class _Question:
-    asked: dict[str, Any]
-    limits: Limits
-    told: Callable[[dict[str, Any]], None]
-    begun: Callable[[], None]
-    outcome: asyncio.Future[Event]
-    number: int = -1
+class _Worker:
+    """A process, and this end of the pipe to it."""
+
+    def __init__(self, *given: Any) -> None:
+        self.line, theirs = FRESH.Pipe()
+        self.process = FRESH.Process(target=serve, args=(theirs, *given), daemon=True)
+        self.process.start()
+        theirs.close()
+        self.ready = False
+
+    def end(self) -> str:
+        """Kill the process if it has not ended; return how it ended."""
+        self.process.join(0.1)
+        self.process.kill()
+        self.process.join(_PATIENCE)
+        self.line.close()
+        code = self.process.exitcode
+        return f"ended by {signal.Signals(-code).name}" if code and code < 0 else f"status {code}"
 
 
 class Crew:
-    """The worker processes of a queue, and the requests that wait for them.
+    """The worker processes of a lane, and the requests that wait for them.
 
     Parameters
     ----------
@@ -62,26 +71,19 @@ class Crew:
     """
 
     def __init__(self, workers: int, first: str, own: tuple[str, ...], nice: int = 0) -> None:
-        setup = Setup(
-            _PREPARE,
-            {"own": own, "first": first},
-            code="json",
-            nice=nice,
-            address_space=_MOST_MEMORY,
-        )
-        self._pool, self._numbers = Pool(setup, workers), count()
-        self._waiting: deque[_Question] = deque()
-        self._running: dict[int, _Question] = {}
-        self._next_turn: asyncio.TimerHandle | None = None
-        # idle processes that are kept: none after a failed start, until somebody asks
-        self._spare = 1
-        self.processes = self._pool.processes
+        self._threads = ThreadPoolExecutor(workers)
+        self._given = first, own, nice
+        self._idle: LifoQueue[_Worker] = LifoQueue()
+        self._workers: list[_Worker] = []
+        self._open = True
 
     def begin(self) -> None:
-        """Start the first process and begin to accept questions."""
-        if (descriptor := self._pool.fileno()) is not None:
-            asyncio.get_running_loop().add_reader(descriptor, self._turn)
-        self._turn()
+        """Start a process."""
+        self._idle.put(self._started())
+
+    def processes(self) -> list[int]:
+        """Return the identifiers of the living processes."""
+        return [w.process.pid for w in self._workers if w.process.pid and w.process.is_alive()]
 
     async def ask(
         self,
@@ -94,7 +96,7 @@ class Crew:
     ) -> dict[str, Any]:
         """Run a task and return its answer.
 
-        Cancellation of the caller stops the task and waits until its process is free.
+        Cancellation of the caller ends the task, and waits until that is so.
 
         Parameters
         ----------
@@ -114,91 +116,98 @@ class Crew:
         Defect
             If the task failed because of a defect.
         """
-        outcome = asyncio.get_running_loop().create_future()
-        limits = Limits(seconds, _GRACE)
-        question = _Question({"task": task, "asked": asked}, limits, told, begun, outcome)
-        self._waiting.append(question)
-        self._spare = 1
-        self._turn()
+        call, unwanted = asyncio.get_running_loop().call_soon_threadsafe, threading.Event()
+
+        def hear(kind: str, what: Any = None) -> None:
+            if not unwanted.is_set():
+                call(begun) if kind == "begun" else call(told, what)
+
+        future = self._threads.submit(
+            self._do, {"task": task, "asked": asked}, seconds, hear, unwanted
+        )
+        outcome = asyncio.wrap_future(future)
         try:
-            await asyncio.wait([outcome])
-        finally:
-            if not outcome.done():
-                self._withdraw(question)
+            return await asyncio.shield(outcome)
+        except asyncio.CancelledError:
+            unwanted.set()
+            if not future.cancel():
                 await asyncio.wait([outcome])
-        return _read(outcome.result(), seconds)
+                outcome.exception()
+            raise
 
     def end(self) -> None:
         """Kill all processes; questions that are still open fail."""
-        if self._next_turn is not None:
-            self._next_turn.cancel()
-        if (descriptor := self._pool.fileno()) is not None:
-            asyncio.get_running_loop().remove_reader(descriptor)
-        self._pool.dismiss(at_once=True)
-        for question in [*self._running.values(), *self._waiting]:
-            _end(question, "failed", "the server ends")
+        self._open = False
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        for worker in self._workers:
+            worker.process.kill()
+        self._threads.shutdown()
+        for worker in self._workers:
+            worker.end()
+        self._workers.clear()
 
-    def _turn(self) -> None:
-        """Forward messages of the processes, and give waiting questions to idle ones."""
-        for number, event in self._pool.collect(0.0):
-            if event.kind == "told":
-                self._running[number].told(event.what)
-            else:
-                self._running.pop(number).outcome.set_result(event)
-        try:
-            room = self._pool.room(max(self._spare, len(self._running) + len(self._waiting)))
-        except (NoWorker, OSError) as error:
-            room = self._spare = 0
-            while self._waiting:
-                _end(self._waiting.popleft(), "refused", str(error))
-        for _ in range(min(room, len(self._waiting))):
-            self._hand(self._waiting.popleft())
-        self._turn_again()
+    def _started(self) -> _Worker:
+        worker = _Worker(*self._given)
+        self._workers.append(worker)
+        return worker
 
-    def _hand(self, question: _Question) -> None:
-        question.number = next(self._numbers)
+    def _do(
+        self, question: Any, seconds: float, hear: Callable[..., None], unwanted: threading.Event
+    ) -> dict[str, Any]:
+        """Pass a question to a process, in a thread; return its answer."""
         try:
-            self._pool.hand(question.number, _TASK, question.asked, question.limits)
-        except (TypeError, ValueError) as error:
-            return _end(question, "failed", f"the question is no JSON: {error}")
+            worker = self._idle.get_nowait()
+        except Empty:
+            worker = self._started()
+        try:
+            worker.line.send(question)
+            kind, what = self._heard(worker, seconds, hear, unwanted)
         except RecursionError:
-            return _end(question, "refused", "the question is nested too deeply")
-        self._running[question.number] = question
-        question.begun()
+            self._idle.put(worker)
+            raise Refused("the question is nested too deeply") from None
+        except (EOFError, OSError):
+            how = self._replace(worker)
+            raise Defect(f"its process was {how}") from None
+        except BaseException:
+            self._replace(worker)
+            raise
+        self._idle.put(worker)
+        if kind == "answer":
+            return what
+        raise Refused(what) if kind == "refused" else Defect(what)
 
-    def _turn_again(self) -> None:
-        """Poll the processes while any is busy."""
-        if self._next_turn is not None:
-            self._next_turn.cancel()
-        loop = asyncio.get_running_loop()
-        delay = _OFTEN if self._pool.fileno() is None else LOOK
-        self._next_turn = loop.call_later(delay, self._turn) if self._pool.busy() else None
+    def _heard(
+        self,
+        worker: _Worker,
+        seconds: float,
+        hear: Callable[..., None],
+        unwanted: threading.Event,
+    ) -> tuple[str, Any]:
+        """Return the last message of a task, and pass on the others."""
+        until = inf
+        while True:
+            if worker.ready and until == inf:
+                until = monotonic() + seconds
+                hear("begun")
+            kind, what = worker.line.recv() if worker.line.poll(_LOOK) else ("", None)
+            if kind == "ready":
+                worker.ready = True
+            elif kind == "told":
+                hear("told", what)
+            elif kind:
+                return kind, what
+            if unwanted.is_set():
+                raise Refused("it was cancelled")
+            if monotonic() > until:
+                raise TooLong(
+                    f"exceeded the time limit of {seconds:g} s of this server; request less "
+                    "accuracy or a smaller problem, or run viscotack on your own machine"
+                )
 
-    def _withdraw(self, question: _Question) -> None:
-        """Stop a question whose answer is no longer wanted."""
-        question.told = lambda news: None
-        if question in self._waiting:
-            self._waiting.remove(question)
-            _end(question, "stopped", "")
-        else:
-            self._pool.stop(question.number)
-
-
-def _end(question: _Question, kind: Kind, words: str) -> None:
-    question.outcome.set_result(Event(kind, words, 0.0, 0.0))
-
-
-def _read(event: Event, seconds: float) -> dict[str, Any]:
-    match event.kind:
-        case "answer":
-            return event.what
-        case "refused":
-            raise Refused(event.what)
-        case "time limit":
-            raise TooLong(
-                f"exceeded the time limit of {seconds:g} s of this server; request less accuracy "
-                "or a smaller problem, or run viscotack on your own machine"
-            )
-        case "lost":
-            raise Defect(f"its process {event.what}")
-    raise Defect(event.what)
+    def _replace(self, worker: _Worker) -> str:
+        """End a process and start another one; return how it ended."""
+        how = worker.end()
+        self._workers.remove(worker)
+        if self._open:
+            self._idle.put(self._started())
+        return how

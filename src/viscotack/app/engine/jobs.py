@@ -15,8 +15,6 @@ from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any
 
-from viscotack.files.whole import write_new
-
 from .crew import Crew, Defect, Refused
 
 # Largest number of finished jobs that are kept, and for how long [s].
@@ -198,7 +196,7 @@ class Engine:
                 path = Path(folder.name, harmless_name(name))
                 if str(path) in paths:
                     raise Refused(f"two files are called {path.name}; rename one")
-                write_new(path, content)
+                path.write_bytes(content)
                 paths.append(str(path))
         except BaseException:
             folder.cleanup()

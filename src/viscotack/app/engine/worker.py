@@ -1,10 +1,13 @@
-"""Tasks of the worker processes of the page by name, and their error messages."""
+"""A worker process of the page: its tasks by name, and their error messages."""
 
-from collections.abc import Callable, Mapping
+import traceback
+from contextlib import suppress
 from importlib import import_module
+from multiprocessing.connection import Connection
 from typing import Any
 
 from viscotack.errors import TOO_LARGE, InputError
+from viscotack.system import begin_worker
 
 # Task -> module and function; a module is imported by the first task that needs it.
 TASKS = {
@@ -17,28 +20,46 @@ TASKS = {
     "operation": ("operating", "run_operation"),
     "job": ("operating", "run_operation"),
 }
+# Memory that a process may take [bytes].
+_MOST_MEMORY = 4 * 2**30
 
 
-def prepare(given: Mapping[str, Any]) -> tuple[Any, ...]:
-    """Read the user's own nouns; import, and warm up, the module of the first task."""
-    from viscotack.problem.nouns import own_nouns
+def serve(line: Connection, first: str, own: tuple[str, ...], nice: int) -> None:
+    """Answer questions until the parent ends: ``("told", news)`` and one of three last messages.
 
-    also = own_nouns(given["own"])
-    _module(given["first"]).warm()
-    return also
-
-
-def answer(
-    asked: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], also: tuple[Any, ...]
-) -> dict[str, Any]:
-    """Run a task; InputError with a reason if it has no answer."""
-    task = asked["task"]
+    These are ``("answer", found)``, ``("refused", why)`` and ``("failed", what)``.
+    """
+    also, unfit = (), ""
     try:
-        return getattr(_module(task), TASKS[task][1])(asked["asked"], tell, also)
+        from viscotack.problem.nouns import own_nouns
+
+        also = own_nouns(own)
+        _module(first).warm()
+    except InputError as error:
+        unfit = str(error)
+    begin_worker(_MOST_MEMORY, nice)
+    with suppress(EOFError, OSError):  # the parent has ended and needs no answer
+        line.send(("ready", None))
+        while True:
+            asked = line.recv()
+            line.send(("refused", unfit) if unfit else _answered(asked, line, also))
+
+
+def _answered(question: Any, line: Connection, also: tuple[Any, ...]) -> tuple[str, Any]:
+    """Run a task; return its last message."""
+    task = question["task"]
+    try:
+        function = getattr(_module(task), TASKS[task][1])
+        return "answer", function(question["asked"], lambda news: line.send(("told", news)), also)
+    except InputError as error:
+        return "refused", str(error)
     except ArithmeticError:
-        raise InputError(TOO_LARGE) from None
+        return "refused", TOO_LARGE
     except MemoryError:
-        raise InputError("the memory limit of this server was exceeded") from None
+        return "refused", "the memory limit of this server was exceeded"
+    except Exception as error:
+        traceback.print_exc()
+        return "failed", f"{type(error).__name__}: {error}"
 
 
 def _module(task: str) -> Any:
