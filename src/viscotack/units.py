@@ -118,7 +118,8 @@ def parse(value: str | float, unit: str) -> float:
             number = _converted(value, number, words, unit)
         else:
             digits, _, exponent = match[1].lower().partition("e")
-            number = float(f"{digits}e{int(exponent or 0) + power}")
+            # 15 digits, as for all other units
+            number = float(f"{float(f'{digits}e{int(exponent or 0) + power}'):.15g}")
     if unit == "K" and number < 0:
         raise InputError(f"{value!r} lies below absolute zero")
     return finite(repr(value), number, unit)
