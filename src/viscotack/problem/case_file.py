@@ -275,7 +275,7 @@ def _one(tables: Tables, known: Mapping[str, Any], where: str, what: str) -> str
 
 
 @dataclass(frozen=True)
-class _ProfilePoint:
+class ProfilePoint:
     """A power-law profile by its exponent and one point of its flank."""
 
     exponent: Annotated[float, cards(PowerLawProfile)["exponent"].card]
@@ -313,12 +313,12 @@ def _shape(given: Any, name: str, reading: Reading) -> Any:
     if reading.pure:
         q = table.get("exponent")
         return read_as(kind, {"coefficient": 1 / q, **table} if q else given, reading, name)
-    point = read_as(_ProfilePoint, given, reading, name)
+    point = read_as(ProfilePoint, given, reading, name)
     return PowerLawProfile(point.height / point.at_radius**point.exponent, point.exponent)
 
 
 @dataclass(frozen=True)
-class _LayerTable:
+class LayerTable:
     """A layer and the word of its base; bonded, it has the Poisson ratio of the material."""
 
     thickness: Annotated[float, cards(Layer)["thickness"].card]
@@ -331,7 +331,7 @@ def _body(entries: Any, name: str, reading: Reading, material: Material) -> Any:
     kind = reading.nouns.bodies[name]
     if kind is not Layer:
         return read_as(kind, entries, reading, name)
-    table = read_as(_LayerTable, entries, reading, name)
+    table = read_as(LayerTable, entries, reading, name)
     bases = {base.word: base for base in (Frictionless, Bonded)}
     given = {"base": table.base or (Frictionless.word if reading.pure else None)}
     base = reading.choice(given, name, "base", bases)
@@ -385,7 +385,7 @@ def moved(passport: Passport, temperature: float | None) -> tuple[Passport, floa
 
 
 @dataclass(frozen=True)
-class _PassportTable:
+class PassportTable:
     """A passport by its file or published name, at a temperature, perhaps scaled to a modulus."""
 
     passport: str
@@ -433,7 +433,7 @@ def _passport(
     given: Any, reading: Reading, temperature: float | None
 ) -> tuple[Passport, float | None]:
     """Return the passport beside the file, and the requested temperature [K]."""
-    table = read_as(_PassportTable, given, reading, "material")
+    table = read_as(PassportTable, given, reading, "material")
     if table.passport in MATERIALS:
         passport = published(table.passport)
     else:

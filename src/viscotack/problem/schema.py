@@ -4,19 +4,28 @@ from collections.abc import Iterable, Mapping
 from dataclasses import MISSING
 from typing import Any
 
-from viscotack.cards import Field, Pairs, Quantity, cards
-from viscotack.geometry import Bonded
+from viscotack.cards import Field, Pairs, Quantity, card_of, cards
+from viscotack.geometry import Bonded, Cone, HalfSpace, Layer, PowerLawProfile
+from viscotack.materials.constants import ModulusRatio
 from viscotack.problem import plane
+from viscotack.problem.case_file import LayerTable, PassportTable, ProfilePoint
+from viscotack.problem.law_table import STRENGTH
 from viscotack.problem.nouns import known
 from viscotack.problem.problem import Groups
 from viscotack.problem.protocol_table import GroupsTable, ProtocolTable
 from viscotack.problem.rough_case import StatedSurface
 from viscotack.problem.tables import adapter
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
+from viscotack.traction import has_rest
+
+_TEXT: dict[str, Any] = {"type": "string"}
 
 
 def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
     """Return the JSON schema of the tables of a problem, in SI or dimensionless.
+
+    It has the keys of each table with their units and ranges. Which of them must be given depends
+    on others (a strength or a gap, a file or numbers, [groups] or [protocol]); the reader says so.
 
     Parameters
     ----------
@@ -30,47 +39,77 @@ def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
     ('m', 0)
     """
     nouns = known(also)
-    shapes = {**nouns.shapes, "surface": StatedSurface}
-    bodies = {word: kind for word, kind in nouns.bodies.items() if word != "half-space"}
-    tests = {"protocol": ProtocolTable, "groups": GroupsTable}
-    defined = {word: _object(kind) for word, kind in {**shapes, **bodies, **tests}.items()}
-    families = {"material": ("model", nouns.materials), "interface": ("law", nouns.laws)}
-    for key, kinds in families.values():
-        defined |= {word: _object(kind, key) for word, kind in kinds.items()}
-    properties: dict[str, Any] = {
-        name: {"anyOf": [{"$ref": f"#/$defs/{word}"} for word in kinds]}
-        for name, (_, kinds) in families.items()
+    file = {"file": _TEXT}
+    points = {PowerLawProfile.word: (PowerLawProfile, ProfilePoint, Cone)}
+    tables = {
+        **{
+            word: _keys(*points.get(word, (kind,)), more=file if "profile" in word else {})
+            for word, kind in nouns.shapes.items()
+        },
+        **{w: _keys(kind) for w, kind in nouns.bodies.items() if kind is not HalfSpace},
+        Layer.word: _keys(LayerTable),
+        "surface": _keys(StatedSurface),
+        "protocol": _keys(ProtocolTable),
+        "groups": _keys(GroupsTable),
     }
-    properties |= {word: {"$ref": f"#/$defs/{word}"} for word in (*shapes, *bodies, *tests)}
+    tables["surface"]["kind"] = {"anyOf": [_TEXT, tables["surface"]["kind"]]}
+    solids = {
+        word: _keys(kind, more={"model": {"const": word}, "modulus_ratio": _ratio()} | file)
+        for word, kind in nouns.materials.items()
+    }
+    solids["passport"] = _keys(PassportTable)
+    resting = [law for law in nouns.laws.values() if not has_rest(law)]
+    laws = {
+        word: _keys(
+            *(resting if has_rest(kind) else ()),
+            kind,
+            more={"law": {"const": word}, "base": _TEXT, "strength": _json(STRENGTH)} | file,
+        )
+        for word, kind in nouns.laws.items()
+    }
     return {
         "title": "A problem of viscotack",
         "type": "object",
-        "properties": properties,
+        "properties": {
+            "material": {"anyOf": [_reference(word) for word in solids]},
+            "interface": {"anyOf": [_reference(word) for word in laws]},
+            **{word: _reference(word) for word in tables},
+        },
         "required": ["material"],
         "additionalProperties": False,
-        "$defs": defined,
+        "$defs": {
+            word: {"type": "object", "properties": keys, "additionalProperties": False}
+            for word, keys in {**tables, **solids, **laws}.items()
+        },
     }
 
 
-def _object(kind: Any, key: str = "") -> dict[str, Any]:
-    """Return the schema of a table: the fields of a class, with its word under a key."""
+def _reference(word: str) -> dict[str, str]:
+    return {"$ref": f"#/$defs/{word}"}
+
+
+def _ratio() -> dict[str, Any]:
+    return _json(card_of(ModulusRatio))
+
+
+def _json(card: Quantity) -> dict[str, Any]:
+    return card.__get_pydantic_json_schema__(None, None)
+
+
+def _keys(*kinds: Any, more: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Return the keys of a table that states one of these classes, with their schemas."""
     from pydantic.json_schema import GenerateJsonSchema
 
     class Tables(GenerateJsonSchema):
         """A noun inside a noun is stated by its word."""
 
         def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> dict[str, Any]:
-            return {"type": "string"}
+            return _TEXT
 
-    found = adapter(kind).json_schema(schema_generator=Tables)
-    found.pop("$defs", None)
-    base = found["properties"].get("base")
-    if base is not None:
-        found["properties"]["base"] = {"type": "string"}
-    if key:
-        found["properties"] = {key: {"const": kind.word}} | found["properties"]
-        found["required"] = [key, *found.get("required", [])]
-    return found
+    found: dict[str, Any] = {}
+    for kind in kinds:
+        found |= adapter(kind).json_schema(schema_generator=Tables)["properties"]
+    return found | dict(more or {})
 
 
 def words(also: Iterable[Any] = ()) -> str:

@@ -8,14 +8,11 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 
 # What an option that is a problem takes.
 STATED_SCHEMA = {
-    "description": "A problem: the tables of a case file, quantities as text with units "
-    "(docs/input.md); a record with a type, numbers in SI or dimensionless, as --json prints it "
-    'and `viscotack schema` describes it; or the numbers of an indenter, {"indenter": "sphere", '
-    '"tabor": 3.24, ...}, as the flags of the commands.',
+    "description": "A problem: its tables, as in a file (docs/input.md), with quantities as text "
+    "with units or as numbers in SI; or the numbers of an indenter, "
+    '{"indenter": "sphere", "tabor": 3.24, ...}, as the flags of the commands.',
     "anyOf": [
         {"$ref": "#/components/schemas/Tables"},
-        {"$ref": "#/components/schemas/Problem"},
-        {"$ref": "#/components/schemas/Groups"},
         {
             "type": "object",
             "properties": {"indenter": {"type": "string", "enum": ["sphere", "profile", "punch"]}},
@@ -23,31 +20,15 @@ STATED_SCHEMA = {
         },
     ],
 }
-TABLES_SCHEMA = {
-    "type": "object",
-    "description": "The tables of a case file.",
-    "additionalProperties": {
-        "type": "object",
-        "additionalProperties": {
-            "anyOf": [{"type": "string"}, {"type": "number"}, {"type": "array", "items": {}}]
-        },
+EXAMPLE = {
+    "material": {"model": "elastic", "rubbery_modulus": "1 MPa", "poisson_ratio": 0.5},
+    "interface": {
+        "law": "lennard-jones",
+        "work_of_adhesion": "50 mJ/m^2",
+        "equilibrium_gap": "1 um",
     },
-    "examples": [
-        {
-            "material": {
-                "model": "elastic",
-                "rubbery_modulus": "1 MPa",
-                "poisson_ratio": 0.5,
-            },
-            "interface": {
-                "law": "lennard-jones",
-                "work_of_adhesion": "50 mJ/m^2",
-                "equilibrium_gap": "1 um",
-            },
-            "sphere": {"radius": "1 mm"},
-            "protocol": {"preload_depth": "1 um", "speed": "10 um/s"},
-        }
-    ],
+    "sphere": {"radius": "1 mm"},
+    "protocol": {"preload_depth": "1 um", "speed": "10 um/s"},
 }
 Accuracy = Annotated[
     float,

@@ -6,7 +6,7 @@ from fastapi import FastAPI
 
 from viscotack.problem.schema import schema
 
-from .models import STATED_SCHEMA, TABLES_SCHEMA
+from .models import EXAMPLE, STATED_SCHEMA
 
 _PROBLEMS = "#/$defs/"
 
@@ -18,9 +18,10 @@ def described(app: FastAPI) -> None:
     def openapi() -> dict[str, Any]:
         if app.openapi_schema is None:
             found = plain()
-            defined = _moved(schema()["$defs"])
+            tables = _moved(schema())
+            defined = tables.pop("$defs")
             found["components"]["schemas"] |= defined | {
-                "Tables": TABLES_SCHEMA,
+                "Tables": tables | {"examples": [EXAMPLE]},
                 "Stated": STATED_SCHEMA,
             }
             app.openapi_schema = found
