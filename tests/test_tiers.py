@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from tier_problems import PROBLEMS
 from viscotack.forecast.question import Question
 from viscotack.forecast.tiers import AT_ONCE, EXACT, LEARNED, SOON, THEORIES, TIERS, best
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
@@ -53,6 +54,17 @@ OWN = {
 }
 
 
+SHORT_PUNCH = vt.Groups(
+    tabor=None,
+    cohesion=0.5,
+    geometry=vt.FlatPunch(8.0),
+    body=vt.Layer(0.3),
+    material=standard(0.1),
+    start=vt.AtForce(0.1),
+    rate=1.0,
+)
+
+
 @pytest.mark.parametrize("tier", [t for t in TIERS if t is not EXACT], ids=lambda t: t.name)
 @pytest.mark.parametrize("noun", OWN)
 def test_every_tier_but_the_simulation_refuses_a_noun_it_was_not_verified_for(tier, noun):
@@ -87,6 +99,41 @@ def test_a_tier_that_covers_a_problem_returns_a_value_with_an_interval(tier):
         answered += 1
         assert found.method == tier.name and found.band == "measured"
         assert found.interval[0] < found.pull_off_force < found.interval[1]
+    assert answered
+
+
+CHEAP_TIERS = [tier for tier in TIERS if tier.cost < 1]
+
+
+@pytest.mark.parametrize("tier", CHEAP_TIERS, ids=lambda t: t.name)
+def test_answers_keep_to_their_limits_and_are_the_same_in_si(tier):
+    answered = 0
+    for case in (*PROBLEMS, SHORT_PUNCH):
+        if tier.covers(case):
+            with pytest.raises(vt.OutOfRange):
+                tier.answer(case)
+            continue
+        try:
+            found, half = tier.answer(case), tier.answer(case, confidence=0.5)
+        except vt.OutOfRange:
+            continue  # a limit that is known only after evaluation
+        answered += 1
+        low, high = found.interval
+        assert low <= half.interval[0] * (1 + 1e-12) and half.interval[1] <= high * (1 + 1e-12)
+        assert low <= found.pull_off_force <= high
+        if not case.in_plane_strain and (tabor := case.effective_tabor) < 100:
+            k = case.modulus_ratio
+            slow, fast = pull_off_ratio(tabor), pull_off_ratio(tabor * k ** (1 / 3)) / k
+            assert low <= 1.03 * fast and high >= 0.97 * slow, case
+        problem = case.in_si(
+            radius=None if case.in_plane_strain else 1e-3,
+            contact_modulus=2e6,
+            work_of_adhesion=0.05,
+            time_unit=0.3,
+            poisson_ratio=0.5,
+        )
+        force = tier.answer(problem).pull_off_force
+        assert force == pytest.approx(found.pull_off_force, rel=1e-9)
     assert answered
 
 

@@ -12,7 +12,6 @@ from .version import __version__
 if TYPE_CHECKING:
     from . import bem as bem
     from . import campaign as campaign
-    from . import check as check
     from . import control as control
     from . import datasets as datasets
     from . import lab as lab
@@ -263,7 +262,6 @@ _ROOMS = (
     "campaign",
     "datasets",
     "operations",
-    "check",
     "control",
 )
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}

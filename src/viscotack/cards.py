@@ -248,6 +248,30 @@ def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
     return found
 
 
+def with_units(noun: Any) -> dict[str, Any]:
+    """Return the numbers of a noun as the values of a table, with units and all digits.
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Sphere
+    >>> with_units(Sphere(5.19e-3))
+    {'radius': '0.00519 m'}
+    """
+
+    def said(value: float | None, unit: str) -> Any:
+        return value if unit == "1" else f"{value!r} {unit}"
+
+    found = {
+        name: said(value, field.card.unit)
+        for name, field in cards(type(noun)).items()
+        if (value := getattr(noun, name)) is not None
+    }
+    for name, field in cards(type(noun), Pairs).items():
+        first, second = field.card.units
+        found[name] = [[said(a, first), said(b, second)] for a, b in getattr(noun, name)]
+    return found
+
+
 def card_of(annotation: Any) -> Quantity:
     """Return the card of an annotated number that is not a field, such as a modulus ratio."""
     return _card(annotation, Quantity)

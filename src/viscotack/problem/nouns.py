@@ -91,7 +91,7 @@ def known(also: Iterable[Any] = ()) -> Nouns:
                 raise InputError(f"two observables have the name {noun.name}; rename one")
             observables.append(noun)
             continue
-        room = _room(noun)
+        room = room_of(noun)
         check_carded(noun)
         if any(noun.word in classes for classes in own.values()):
             raise InputError(
@@ -153,7 +153,8 @@ def missing_members(noun: Any, room: str) -> list[str]:
     return [name for name in MEMBERS[room] if not hasattr(noun, name) and name not in named]
 
 
-def _room(noun: Any) -> str:
+def room_of(noun: Any) -> str:
+    """Return the kind of a class, a key of `MEMBERS`; InputError names missing members."""
     name = getattr(noun, "__name__", noun)
     wrong = f"{name!r} is not a law, material, shape or body"
     if not (isinstance(noun, type) and is_dataclass(noun)):

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.cards import Pairs, cards
+from viscotack.cards import with_units
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_words import in_words
 from viscotack.materials.words import word_of
@@ -19,18 +19,7 @@ def material_table(material: Any) -> dict[str, Any]:
     >>> material_table(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
     {'model': 'elastic', 'rubbery_modulus': '1000000.0 Pa', 'poisson_ratio': 0.5}
     """
-    kind = type(material)
-    table: dict[str, Any] = {"model": word_of(material)}
-    for name, field in cards(kind).items():
-        table[name] = _said(getattr(material, name), field.card.unit)
-    for name, field in cards(kind, Pairs).items():
-        first, second = field.card.units
-        table[name] = [[_said(a, first), _said(b, second)] for a, b in getattr(material, name)]
-    return table
-
-
-def _said(value: float, unit: str) -> Any:
-    return float(value) if unit == "1" else f"{float(value)!r} {unit}"
+    return {"model": word_of(material), **with_units(material)}
 
 
 def library() -> list[dict[str, Any]]:
