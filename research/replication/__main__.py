@@ -14,7 +14,7 @@ from .figures.catalogue import Figure, figures
 from .gallery import GALLERY
 from .gallery import write as write_gallery
 from .kept import difference, kept, path_of, without_errors
-from .ledger.contents import named
+from .ledger.claim import named
 from .ledger.page import PAGE, page
 from .making import Maker, picture
 from .table import read_detachments
