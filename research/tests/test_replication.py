@@ -13,7 +13,6 @@ from research.replication.bench import Hands
 from research.replication.figures import figure_4_3, figure_5_2
 from research.replication.figures.cases import Work, detached, punch
 from research.replication.figures.catalogue import BESIDE, THEORY, THESIS
-from research.replication.gallery import GALLERY, text
 from research.replication.kept import difference, kept
 from research.replication.ledger.claim import Measured, named
 from research.replication.ledger.page import PAGE, page
@@ -32,9 +31,8 @@ def asked(*words):
     return answer.exit_code, answer.output
 
 
-def test_ledger_and_gallery_are_what_is_measured_and_kept():
+def test_the_ledger_is_what_is_measured():
     assert PAGE.read_text(encoding="utf-8") == page(kept)
-    assert GALLERY.read_text(encoding="utf-8") == text()
 
 
 def test_a_verdict_falls_with_the_number_it_rests_on():
