@@ -19,7 +19,6 @@ import numpy as np
 from research.cases import spread, spread_out, words
 from research.drawn_tests import drawn
 from research.drawn_tests import words as test_words
-from research.in_time import spread_in_time
 from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
 from viscotack.bem import SimulationError
 from viscotack.bem.twins.plain_sphere import plain_solve
@@ -76,15 +75,16 @@ STATED = {
 FINER = 10.0
 
 
-def stated_beside_true(asked: tuple[int, int, float]) -> dict[str, Any]:
+def stated_beside_true(asked: tuple[int, int, float, float]) -> dict[str, Any]:
     """Return the stated and the true errors of a random test by name; none where it is refused."""
-    seed, number, accuracy = asked
+    seed, number, accuracy, limit = asked
     row: dict[str, Any] = {"number": number}
     try:
         groups = drawn(seed, number)
         row["case"] = test_words(groups)
-        result = solve(groups, until="pull-off", accuracy=accuracy)
-        best = solve(groups, until="pull-off", accuracy=accuracy / FINER, estimate_error=False)
+        given: dict[str, Any] = {"until": "pull-off", "time_limit": limit}
+        result = solve(groups, accuracy=accuracy, **given)
+        best = solve(groups, accuracy=accuracy / FINER, estimate_error=False, **given)
     except (InputError, SimulationError) as refusal:
         return row | {"refused": str(refusal)}
     for name, (observable, relative) in STATED.items():
@@ -142,15 +142,14 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=2026)
     parser.add_argument("--drawn", type=int, metavar="COUNT", help="random tests")
     parser.add_argument("--accuracy", type=float, default=DEFAULT_ACCURACY, help="of random tests")
-    parser.add_argument("--limit", type=float, default=30.0, help="processor seconds a test")
+    parser.add_argument("--limit", type=float, default=30.0, help="seconds of a simulation")
     parser.add_argument("--workers", type=int, default=2)
     chosen = parser.parse_args()
     if chosen.drawn:
-        asked = [(chosen.seed, number, chosen.accuracy) for number in range(chosen.drawn)]
-        done = spread_in_time(
-            stated_beside_true, asked, limit=chosen.limit, workers=chosen.workers, kernels=""
-        )
-        report_stated([row if isinstance(row, dict) else {"refused": row} for _, row in done])
+        asked = [
+            (chosen.seed, number, chosen.accuracy, chosen.limit) for number in range(chosen.drawn)
+        ]
+        report_stated(spread_out(stated_beside_true, asked, chosen.workers))
         return
     cases = spread(chosen.count, chosen.seed)
     rows = spread_out(measure, cases)

@@ -4,10 +4,7 @@ python -m research.grid spheres           # forces, works and processor time of 
 python -m research.grid pixels            # errors of the force by pixels per zone
 python -m research.grid trust --seed 1    # stated errors of drawn spheres
 python -m research.grid superposition     # asperities by themselves beside the grid
-python -m research.grid places            # errors by the place of the apex within a pixel
 python -m research.grid criteria --seed 5 --count 24  # the bearing area beside the grid
-python -m research.grid areas             # contact of hard rough maps by the pressure
-python -m research.grid peer              # elastic spheres beside the package Adhesion, in pairs
 python -m research.grid size              # time and memory by the number of pixels
 """
 
@@ -20,13 +17,8 @@ from time import process_time
 
 import numpy as np
 from scipy.signal import resample
-from scipy.special import erf
 
 import viscotack as vt
-from viscotack.bem.grid.descent import equilibrium
-from viscotack.bem.grid.plane import Plane
-from viscotack.bem.grid.run import relaxed
-from viscotack.bem.machine import Hold
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, HalfSpace, Layer
 from viscotack.pads import superposed
@@ -127,29 +119,6 @@ def pixels(given):
             f"{found.statistics['steps']:6.0f} {len(found.events):5d}",
             flush=True,
         )
-
-
-def places(given):
-    """Show errors of the force by the place of the apex of a sphere within a pixel."""
-    apexes = ((0, 0), (0.5, 0), (0.31, 0.12), (0.21, 0.07), (0.4, 0.2))
-    print("mu    k    px/zone", *(f"{a:g},{b:g}" for a, b in apexes), sep="    ")
-    for (tabor, k), many in product(((1.0, 1), (1.0, 0.1), (1.5, 1), (0.7, 1)), (2.0, 2.3, 3.0)):
-        side = round(14 / (0.75 * tabor**-1.5 / many))
-
-        def test(F):
-            return Retraction(start=AtForce(0.3 * F), speed=1e-5)
-
-        problem, exact, unit = of_sphere(tabor, solid(k), test, side, 7.0)
-        result = vt.solve(exact, until="detached", estimate_error=False, accuracy=3e-4)
-        pixel, x = problem.surface.pixel, np.arange(side) + 0.5 - side / 2
-        errors = []
-        for a, b in apexes:
-            heights = -(pixel**2) * np.add.outer((x - a) ** 2, (x - b) ** 2) / (2 * RADIUS)
-            moved = replace(problem, surface=replace(problem.surface, heights=heights))
-            found = pull(moved, estimate_error=False, force_coarse=True)
-            errors.append(found.pull_off_force / (unit * vt.pull_off_force(result)) - 1)
-        shown = " ".join(f"{100 * error:+8.3f} %" for error in errors)
-        print(f"{tabor:<5g} {k:<4g} {problem.zone.pixels:7.2f} {shown}", flush=True)
 
 
 def drawn_map(rng, pixels, law_length):
@@ -381,120 +350,6 @@ def criteria(given):
         )
 
 
-def hard(surface, share):
-    """Return a hard, weakly adhesive body for a map, with its slope and modulus.
-
-    The range of the law is a share of the gap g0 around patches, which repel a hundred times what
-    their rims attract.
-    """
-    spread, E = roughness(surface), solid(1).contact_modulus
-    slope, bent = spread.rms_slope, spread.rms_curvature
-    gap = share * 16 / 3 * slope**2 / bent
-    work = slope * E * gap / 200 * (slope**2 / (bent * gap)) ** (2 / 3)
-    return vt.LennardJones(work_of_adhesion=work, equilibrium_gap=gap), slope * E
-
-
-def areas(given):
-    """Show the contact of hard, weakly adhesive maps by the pressure, beside published laws.
-
-    kappa is A h' E*/p: about 2, and the area erf(sqrt(pi) p/(h' E*)), by simulations of Pastewka
-    and Robbins (2014, 2016); 1.6, and erf(sqrt(2) p/(h' E*)), in the theory of Persson (2001). The
-    gap of a patch opens with the power 3/2, so that the contact of range 0 is extrapolated by 2/3.
-    """
-    print(
-        "pixels   p/(h' E*)  kappa of ranges 0.02, 0.01, 0.005 g0, and of 0  simulations  Persson"
-    )
-    base = self_affine(
-        64, 10e-6, hurst=0.8, rms_height=1e-6, seed=given.seed, roll_off=320e-6, shortest=80e-6
-    )
-    ranges = np.array([0.02, 0.01, 0.005])
-    began = process_time()
-    for p in (0.01, 0.03, 0.1):
-        surface = base
-        while len(surface.heights) <= given.pixels:
-            contact = []
-            for share in ranges:
-                law, stress = hard(surface, share)
-                start = AtForce(p * stress * surface.area)
-                problem = RoughProblem(
-                    surface=surface,
-                    material=solid(1),
-                    traction=law,
-                    protocol=Retraction(start=start, speed=1e-6),
-                )
-                found = relaxed(problem.contact, problem.units.start(start))
-                contact.append(np.mean(found.gap < 1) / p)
-            slope, limit = np.polyfit(ranges[1:] ** (2 / 3), contact[1:], 1)
-            shown = " ".join(f"{x:6.2f}" for x in (*contact, limit))
-            laws = erf(np.sqrt(np.pi) * p) / p, erf(np.sqrt(2) * p) / p
-            print(
-                f"{len(surface.heights):5d}^2 {p:8.2f}   {shown}    {laws[0]:.2f}   {laws[1]:.2f}",
-                flush=True,
-            )
-            surface = finer(surface)
-    print(f"{process_time() - began:.0f} s of processor time")
-
-
-def peer(given):
-    """Pull elastic spheres off beside ContactEngineering's Adhesion, in pairs on equal pixels."""
-    from Adhesion.Interactions import Lj82
-    from Adhesion.System import SmoothContactSystem
-    from ContactMechanics import FreeFFTElasticHalfSpace
-    from SurfaceTopography import Topography
-
-    import viscotack.bem.grid.plane as planes
-
-    planes._WITHIN_PIXEL = np.inf  # the peer has no correction within pixels
-    law, depths = vt.LennardJones(1.0, 1.0), np.linspace(1.0, -2.5, 36)
-    print("pixels  mu   difference of the pull-off  CPU s, here and there  ratio")
-    for side, tabor in product((32, 64, 128), (0.5, 1.0)):
-        if side > given.pixels:
-            continue
-        half, radius = 6.0 * tabor**1.5, tabor**3
-        x = (np.arange(side) + 0.5) * 2 * half / side - half
-        heights = -np.add.outer(x**2, x**2) / (2 * radius)
-        plane, rigid = Plane((side, side), 2 * half / side), 1 - heights.ravel()
-        sides = (2 * half, 2 * half)
-        substrate = FreeFFTElasticHalfSpace((side, side), 1.0, sides)
-        surface = Topography(heights, physical_sizes=sides)
-        system = SmoothContactSystem(substrate, Lj82(1.0, 1.0), surface)
-        exact = dict(gtol=1e-6 * plane.pixel**2, ftol=0, maxcor=10, maxiter=5000, maxfun=10000)
-
-        def here(depth, moved, plane=plane, rigid=rigid):
-            found = equilibrium(
-                plane,
-                law,
-                rigid,
-                1.0,
-                moved,
-                Hold(np.inf, depth=depth),
-                tolerance=1e-6,
-                most_iterations=200,
-            )
-            return found.moved, -(plane.pixel**2) * found.tension.sum()
-
-        def there(depth, moved, plane=plane, system=system, exact=exact):
-            solution = system.minimize_proxy(
-                offset=depth - 1, initial_displacements=moved, method="L-BFGS-B", options=exact
-            )
-            return solution.x.reshape(plane.domain), system.compute_normal_force()
-
-        start, _ = here(1.0, np.zeros(plane.domain))
-        spent, forces = [], []
-        for step in (here, there):
-            began, moved, curve = process_time(), start, []
-            for depth in depths:
-                moved, force = step(depth, moved)
-                curve.append(force)
-            spent.append(process_time() - began)
-            forces.append(min(curve))
-        print(
-            f"{side:4d}^2 {tabor:5g} {forces[1] / forces[0] - 1:+12.1e} "
-            f"{spent[0]:16.2f} {spent[1]:8.2f} {spent[1] / spent[0]:12.1f}",
-            flush=True,
-        )
-
-
 def size(given):
     """Show processor time and memory of one pull by the number of pixels."""
     print("pixels  CPU s  s per inner iteration  peak memory MB")
@@ -538,13 +393,10 @@ def of_size(side, periodic=True):
 PARTS = (
     "spheres",
     "pixels",
-    "places",
     "trust",
     "rough",
     "superposition",
     "criteria",
-    "areas",
-    "peer",
     "size",
 )
 

@@ -1,8 +1,8 @@
 """Read every rheology file of public repositories, and hold what was read against another parse.
 
 ``python -m research.public_files FOLDER...`` takes checkouts of RepTate, RheoJAX, pyRheo,
-mastercurves, pyvisco, RHEOS and of the repositories in :data:`PAGE` (any folders do), reads each
-data file in them as it is, and prints how many
+mastercurves, pyvisco, RHEOS and of the other repositories of docs/public-files.md (any folders do),
+reads each data file in them as it is, and prints how many
 
 - are read, and say numbers, temperature and kind of an independent parse (pandas, or a few lines,
   from a recipe for each kind of file below that knows nothing of the readers),
@@ -11,8 +11,8 @@ data file in them as it is, and prints how many
   not say what their columns are,
 - are misread, or refused for any other reason. These are listed, and the exit status is then 1.
 
-``--page FILE`` writes the numbers by repository, ``--names FILE`` the outcome of every file. A
-minute.
+Then it prints the numbers by repository, rows of docs/public-files.md; ``--names FILE`` writes the
+outcome of every file. A minute.
 """
 
 import argparse
@@ -21,6 +21,7 @@ import io
 import json
 import re
 import sys
+import tomllib
 import warnings
 from collections import Counter
 from collections.abc import Callable
@@ -322,79 +323,8 @@ RECIPES = (
         "*bayesian_owchirp_tts.csv")),
 )  # fmt: skip
 
-# what is refused, whatever is given: path -> words of the refusal, and why that is right
-AMPLITUDES = "one temperature and one frequency|amplitude sweep"
-REFUSED = (
-    ("Thin-Rheology/*.csv", AMPLITUDES, "amplitude sweep"),
-    ("Thin-Rheology/*air_creeptests.xlsx", "--step-start", "time of the whole test: start asked"),
-    ("Thin-Rheology/*flow*", "flow curve", "flow curve"),
-    ("Thin-Rheology/*viscosity*", "flow curve", "flow curve"),
-    ("Thin-Rheology/*temp ramp*", "flow curve", "flow curve"),
-    ("Thin-Rheology/*steady shear*", AMPLITUDES, "one frequency over time"),
-    ("Thin-Rheology/*3Hz.xlsx", "no sheet has", "a title alone"),
-    ("rheology-data-toolkit/*Steady State*", "flow curve", "flow curve"),
-    ("rheology-data-toolkit/*gwens_data*", "flow curve", "flow curve"),
-    ("rheology-data-toolkit/*shear_test*", "flow curve", "flow curve"),
-    ("rheology-data-toolkit/*freqsweep*", "loss tangent is 2e.04", "a liquid without elasticity"),
-    ("rheology-data-toolkit/*amplitudesweep*", "amplitude sweep", "amplitude sweep"),
-    ("rheology-data-toolkit/*multiple relaxation*", "2 tables.*--table", "two tests: one asked"),
-    ("rheology-data-toolkit/*amp_frq_swp*", AMPLITUDES, "amplitude sweep"),
-    ("RheometerPlots/*stress-sweep*", AMPLITUDES, "amplitude sweep"),
-    ("RheometerPlots/*dyn*com*", "flow curve|no table", "compression, no modulus"),
-    ("RheometerPlots/*haribo*", "no table", "compression, no modulus"),
-    ("RheometerPlots/*", "looks like headings", "no rheology: spectra"),
-    ("dma-prony-validation/*/sd_*.csv", AMPLITUDES, "amplitude sweep"),
-    ("dma-prony-validation/*/shaker/*", "looks like headings", "no modulus: accelerations"),
-    ("dma-prony-validation/*", "looks like headings", "no measurement"),
-    ("perssonmodelling/*", "looks like headings", "no modulus: roughness and friction"),
-    ("rheologyEvaluation/*", AMPLITUDES, "amplitude sweep"),
-    ("Clinckspoor-Rheology/*", "two columns of one quantity", "data, model and residuals"),
-    ("RheometerData/*mohr_coulomb.csv", "looks like headings", "no modulus: powders"),
-    ("RheometerData/*", "without the strain|no sheet has|begins with", "no modulus: powders"),
-    ("rheology-fit/*", "flow curve", "flow curve"),
-    ("rheology-health-monitoring/*", "begins with numbers", "columns without names"),
-    ("Viscoelastic-fitting/*", "one column alone|no sheet has", "columns without names"),
-    ("Viscoelastic_Fit/*", "begins with numbers", "columns without names"),
-    ("*.shearxs", "flow-induced crystallisation", "crystallisation in flow"),
-    ("*.shear", "start-up of shear flow", "start-up of shear"),
-    ("*.uext", "start-up of extensional", "start-up of extension"),
-    ("*.laos", "large amplitude", "oscillation of large amplitude"),
-    ("*.gpc", "molar mass", "no rheology: molar masses"),
-    ("*.mwd", "molar mass", "no rheology: molar masses"),
-    ("*.dmwd", "molar mass", "no rheology: molar masses"),
-    ("*.dls", "dielectric", "no rheology: dielectric spectrum"),
-    ("*.reac", "reaction", "no rheology: molecules"),
-    ("*.sans", "scattering", "no rheology: scattering"),
-    ("*.Rouse", "simulated chain", "no rheology: correlations of a simulation"),
-    ("*CreepRecovery.creep", "recovery after creep", "recovery, not creep"),
-    ("*/input_master.csv", "looks like headings", "no headings, a command of ANSYS above"),
-    ("*prony_terms*.csv", "looks like headings", "no measurement: a fitted series"),
-    ("*data_framework_DMA.txt", "looks like headings", "no measurement: a fitted series"),
-    ("*pyviscoe.csv", "exceeds that of diamond", "pascals labelled MPa"),
-    ("*0.[67][0-9].csv", "flow curve", "flow curve"),
-    ("*0.80.csv", "flow curve", "flow curve"),
-    ("*ec_shear_viscosity*", "flow curve", "flow curve"),
-    ("*rotation_*", "flow curve", "flow curve"),
-    ("*cellulose_hydrogel_flow.csv", "flow curve", "flow curve"),
-    ("*flow_curve.csv", "flow curve", "flow curve"),
-    ("*flow_ramp.*", "flow curve", "flow curve"),
-    ("*ML-IKH*", "flow curve", "flow curves and start-ups"),
-    ("*emulsions_v2.csv", "begins with numbers|looks like headings", "columns without names"),
-    ("*joshi_modulus_25.csv", "begins with numbers", "columns named X and Y"),
-    ("*tts_plazek.csv", "looks like headings", "columns named X and Y"),
-    ("*MSD_MAX1.csv", "looks like headings", "no rheology: displacements of beads"),
-    ("*creep_mucus_data_julia.csv", "begins with numbers", "columns without names"),
-    ("*export_*data_mucus*", "is the only column|one column alone", "one column alone"),
-    ("*RHEOS*.csv", "begins with numbers|found .d., +.f., +.t.|found .d., .f., .t.",
-     "columns without names, or d, f, t"),
-    ("*raw_signal_*.txt", "begins with numbers", "raw waves without names"),
-    ("*emulsion_creep_hb_calibrated.csv", "without the stress", "strain without its stress"),
-    ("*epm_creep_synthetic.csv", "looks like headings", "strains without their stress"),
-    ("*creep_sample.csv", "without the stress", "strain without its stress"),
-    ("*bayesian_multi_technique.csv", "looks like headings", "no quantity named: signal"),
-    ("*sin_fundamental.csv", "", "waves"), ("*sin_noisy.csv", "", "waves"),
-    ("*TTS_Acierno.xlsx", "rise with temperature", "1/a_T in the convention of this package"),
-)  # fmt: skip
+# what is refused, whatever is given: path, words of the refusal, and why that is right
+REFUSED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))["refused"]
 
 
 def quotient(path):
@@ -581,9 +511,7 @@ def files_of(folders):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folders", nargs="+", metavar="FOLDER")
-    parser.add_argument("--page", type=Path, help="write the page with the numbers of files here")
     parser.add_argument("--names", type=Path, help="write a CSV row for each file here")
-    parser.add_argument("--compare", type=Path, help="compare the rows of these folders in a page")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
     results = {name: outcome(path, name) for name, path in files_of(arguments.folders)}
@@ -592,19 +520,12 @@ def main():
     wrong = {name: why for name, why in results.items() if why[0] in ("MISREAD", "UNEXPECTED")}
     for name, (kind, why) in wrong.items():
         print(f"{kind} {name}: {why}")
-    if arguments.page is not None:
-        arguments.page.write_text(page(results, counts), encoding="utf-8")
+    print("\n".join(rows_of(results)))
     if arguments.names is not None:
         with arguments.names.open("w", encoding="utf-8", newline="") as file:
             rows = [(name, kind, why) for name, (kind, why) in results.items()]
             csv.writer(file).writerows([("file", "outcome", "reason"), *rows])
-    stale = set()
-    if arguments.compare is not None:
-        shown = arguments.compare.read_text("utf-8").splitlines()
-        names = tuple(f"| {Path(folder).name} |" for folder in arguments.folders)
-        stale = {row for row in shown if row.startswith(names)} ^ {*rows_of(results)}
-        print("\n".join([*sorted(stale), f"{len(stale)} rows of {arguments.compare} differ"]))
-    sys.exit(bool(wrong or stale or not results))
+    sys.exit(bool(wrong or not results))
 
 
 def words_of(counts, total):
@@ -618,57 +539,13 @@ def words_of(counts, total):
     return "\n".join([f"{total} files", *(f"{counts[k]:5d} {v}" for k, v in lines.items())])
 
 
-def page(results, counts):
-    """Page with the number of files by repository and outcome."""
-    return PAGE.format(counts=words_of(counts, len(results)), rows="\n".join(rows_of(results)))
-
-
 def rows_of(results):
-    """Rows of the page: number of files by repository and outcome."""
+    """Rows of docs/public-files.md: number of files by repository and outcome."""
     groups = Counter(
         (name.partition("/")[0], kind if kind == "read" else f"{kind}: {why}")
         for name, (kind, why) in results.items()
     )
     return [f"| {folder} | {kind} | {number} |" for (folder, kind), number in groups.items()]
-
-
-PAGE = """# Public files, and how they are read
-
-Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco, RHEOS and of thirteen smaller
-repositories was read by `viscotack.lab` and compared with an independent parse. This command, given
-checkouts of the repositories, measures and writes the page; `--compare FILE` compares the rows of
-some of them with a page, and `--names FILE` writes the outcome of each file as CSV:
-
-```console
-python -m research.public_files RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
-    Thin-Rheology rheology-data-toolkit RheometerPlots dma-prony-validation perssonmodelling \\
-    rheologyEvaluation MATLAB-DMA2Prony Clinckspoor-Rheology RheometerData rheology-fit \\
-    rheology-health-monitoring Viscoelastic-fitting Viscoelastic_Fit --page docs/public-files.md
-```
-
-```text
-{counts}
-```
-
-Files marked "asked" do not state a unit, or whether a modulus is tensile or shear. The refusal
-names the options; with them the numbers equal those of the independent parse. For a file without
-headings the refusal has an example of `--columns`. Of a workbook with several sheets of tests
-the first one is read, with a note.
-
-| repository | outcome | files |
-|---|---|---:|
-{rows}
-
-Versions: RepTate 4aeb671, RheoJAX b79e79e (without two owchirp files of `examples/data/laos` and
-the workbook of `examples/data/ikh`, which were not at hand), pyRheo 9435084, mastercurves cb2cc35,
-pyvisco 252a4b8, RHEOS a4e6de8, lemellenthin/Rheology 95e052e (folder Thin-Rheology: text, and
-workbooks below 150 kB), desdelgado/rheology-data-toolkit 054b165, PetrusKirsten/RheometerPlots
-91690c4, MarcusNi96/dma-prony-validation 068d213, k100kan35-dotcom/perssonmodelling d98978b,
-tbgitoo/rheologyEvaluation ee0a07a, bibekanandadatta/MATLAB-DMA2Prony 012fd36,
-KarlClinckspoor/Rheology 9dbdbea (folder Clinckspoor-Rheology), JoelJank/RheometerData 8d8ec95,
-karenkhachatryan-lab/rheology-fit 76d230c, krlennon/rheology-health-monitoring 685b4b6,
-Chongran-Zhao/Viscoelastic-fitting 77f7312 and KamalenduGhosh/Viscoelastic_Fit 3095eac.
-"""
 
 
 if __name__ == "__main__":

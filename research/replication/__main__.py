@@ -9,16 +9,14 @@ from typer import Option
 
 from .archive import file_of
 from .bench import Hands, Numbers
-from .contents import CONTENTS
 from .figures.catalogue import Figure, figures
-from .gallery import GALLERY
+from .gallery import PICTURES
 from .gallery import write as write_gallery
 from .kept import difference, kept, path_of, without_errors
-from .ledger.contents import named
+from .ledger.claim import named
 from .ledger.page import PAGE, page
 from .making import Maker, picture
 from .table import read_detachments
-from .whole import write_whole
 from .words import application, wrong_input
 
 app = application()
@@ -47,7 +45,7 @@ _Archive = Annotated[
 @app.callback(invoke_without_command=True, no_args_is_help=True)
 def contents(
     listed: Annotated[
-        bool, Option("--list", help="Each part: its command, what it says, how long it takes.")
+        bool, Option("--list", help="Each figure: what it claims, needs and costs.")
     ] = False,
     every: Annotated[
         bool, Option("--all", help="Every figure and table, and the ledger of claims.")
@@ -65,8 +63,7 @@ def contents(
     Example: python -m research.replication figure 4.6
     """
     if listed:
-        parts = [part.words() for part in CONTENTS]
-        typer.echo("\n\n".join([*parts, *(each.words() for each in figures())]))
+        typer.echo("\n\n".join(each.words() for each in figures()))
     if every:
         with wrong_input():
             _all(afresh, workers, out, archive)
@@ -132,24 +129,23 @@ def ledger(
     with wrong_input():
         text = page(kept)
         if written:
-            write_whole(PAGE, text)
+            PAGE.write_text(text, encoding="utf-8", newline="")
     typer.echo(f"wrote {PAGE}" if written else text)
 
 
 @app.command()
 def gallery() -> None:
-    """Write docs/gallery.md and its pictures from the kept numbers."""
+    """Write the pictures of docs/gallery.md from the kept numbers."""
     with wrong_input():
         write_gallery()
-    typer.echo(f"wrote {GALLERY}")
+    typer.echo(f"wrote {PICTURES}")
 
 
 def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
     """Draw all there is, and measure all claims."""
     began = perf_counter()
     with Hands(workers) as hands:
-        made = out / "made" if afresh else None
-        maker = Maker(hands, afresh=afresh, archive=archive, progress=made, say=_progress)
+        maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
         for each in figures():
             path = picture(each.name, maker.of(each.name), out)
             beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
@@ -157,7 +153,7 @@ def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
         if afresh and archive is not None:
             _published(archive, out, workers)
         text = page(maker.of)
-        write_whole(out / "research.replication.md", text)
+        (out / "replication.md").write_text(text, encoding="utf-8", newline="")
         typer.echo(f"{out / 'replication.md'}: every verdict stands")
         spent = sum(maker.seconds.values()) if afresh else hands.seconds
     typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")

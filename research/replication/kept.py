@@ -15,7 +15,6 @@ import numpy as np
 from viscotack import InputError
 
 from .bench import Numbers
-from .whole import write_whole
 
 FOLDER = Path(__file__).resolve().parent / "kept"
 DIGITS = 5
@@ -23,23 +22,23 @@ DIGITS = 5
 _SMALL = 1e-6
 
 
-def path_of(name: str, folder: Path | None = None) -> Path:
+def path_of(name: str) -> Path:
     """Return the file of a figure's numbers, of those that are kept unless a folder is given."""
-    return (folder or FOLDER) / f"{name.replace('.', '_')}.json"
+    return FOLDER / f"{name.replace('.', '_')}.json"
 
 
-def keep(name: str, numbers: Numbers, *, seconds: float, folder: Path | None = None) -> Path:
+def keep(name: str, numbers: Numbers, *, seconds: float) -> Path:
     """Write the numbers of a figure, with the processor time [s] that they took."""
-    path = path_of(name, folder)
+    path = path_of(name)
     content = {"figure": name, "processor_seconds": round(seconds, 1), "numbers": _plain(numbers)}
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     # a line for each quantity: changes can be read
     text = text.replace('"numbers":{', '"numbers":{\n').replace('],"', '],\n"')
-    write_whole(path, text.replace('},"', '},\n"') + "\n")
+    path.write_text(text.replace('},"', '},\n"') + "\n", encoding="utf-8", newline="")
     return path
 
 
-def kept(name: str, folder: Path | None = None) -> Numbers:
+def kept(name: str) -> Numbers:
     """Return the kept numbers of a figure, or those in a folder.
 
     Raises
@@ -47,14 +46,12 @@ def kept(name: str, folder: Path | None = None) -> Numbers:
     ValueError
         If there are none.
     """
-    return _arrays(_content(name, folder)["numbers"])
+    return _arrays(_content(name)["numbers"])
 
 
-def cost(name: str, folder: Path | None = None) -> float | None:
+def cost(name: str) -> float:
     """Return the processor time [s] that the kept numbers took; None where none are kept."""
-    if not path_of(name, folder).exists():
-        return None
-    return _content(name, folder)["processor_seconds"]
+    return _content(name)["processor_seconds"]
 
 
 def rounded(numbers: Numbers) -> Numbers:
@@ -111,8 +108,8 @@ def without_errors(numbers: Any) -> Any:
     return numbers
 
 
-def _content(name: str, folder: Path | None = None) -> Any:
-    path = path_of(name, folder)
+def _content(name: str) -> Any:
+    path = path_of(name)
     if not path.exists():
         raise InputError(
             f"no numbers of {name} are kept; make them with "

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import viscotack
-
-from . import figures, learning
 from .bench import Bench, Hands, Numbers
 from .figures.catalogue import Figure
 from .figures.style import saved
-from .kept import cost, keep, kept, rounded
-from .whole import write_whole
+from .kept import keep, kept, rounded
 
 
 def _nothing(words: str) -> None:
@@ -35,9 +30,6 @@ class Maker:
         Whether to keep what was made, in place of what was kept.
     archive : path or None
         The authors' archive; what needs it is taken as it is kept where there is none.
-    progress : path or None
-        Folder for what is made afresh. A stopped run resumes from it; another state of the
-        sources empties it.
     say : callable
         Is told what is being made.
     """
@@ -46,14 +38,9 @@ class Maker:
     afresh: bool = False
     store: bool = False
     archive: Path | None = None
-    progress: Path | None = None
     say: Callable[[str], None] = _nothing
     made: dict[str, Numbers] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        if self.progress is not None:
-            _emptied(self.progress)
 
     def of(self, name: str) -> Numbers:
         """Return the numbers of a figure as they are kept, to so many digits."""
@@ -65,40 +52,15 @@ class Maker:
         return self.made[name]
 
     def _made(self, name: str) -> Numbers:
-        spent = cost(name, self.progress) if self.progress is not None else None
-        if spent is not None:
-            self.seconds[name] = spent
-            return kept(name, self.progress)
         self.say(f"figure {name} ...")
         of_others, began = sum(self.seconds.values()), self.hands.seconds
-        found = rounded(Figure(name).module.numbers(Bench(self.hands.each, self.of, self.archive)))
+        found = rounded(Figure(name).numbers(Bench(self.hands.each, self.of, self.archive)))
         # what it took from other figures is counted there
         of_others = sum(self.seconds.values()) - of_others
         self.seconds[name] = self.hands.seconds - began - of_others
         if self.store:
             keep(name, found, seconds=self.seconds[name])
-        if self.progress is not None:
-            keep(name, found, seconds=self.seconds[name], folder=self.progress)
         return found
-
-
-def _emptied(folder: Path) -> None:
-    """Make a folder, and empty it where its numbers were made by other sources."""
-    folder.mkdir(parents=True, exist_ok=True)
-    mark, sources = folder / "sources.sha256", _sources()
-    if not mark.exists() or mark.read_text("utf-8") != sources:
-        for path in folder.glob("*.json"):
-            path.unlink()
-        write_whole(mark, sources)
-
-
-def _sources() -> str:
-    """Return a checksum of the modules that make numbers."""
-    folders = [Path(module.__file__ or "").parent for module in (viscotack, figures, learning)]
-    found = hashlib.sha256()
-    for path in sorted(path for folder in folders for path in folder.rglob("*.py")):
-        found.update(path.read_bytes())
-    return found.hexdigest()
 
 
 def picture(

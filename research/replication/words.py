@@ -22,9 +22,5 @@ def wrong_input() -> Iterator[None]:
     try:
         yield
     except (ValueError, OSError, ModuleNotFoundError) as error:
-        _stop(str(error))
-
-
-def _stop(message: str) -> None:
-    typer.echo(f"replication: {message}", err=True)
-    raise typer.Exit(2)
+        typer.echo(f"replication: {error}", err=True)
+        raise typer.Exit(2) from None

@@ -13,10 +13,8 @@ from research.replication.bench import Hands
 from research.replication.figures import figure_4_3, figure_5_2
 from research.replication.figures.cases import Work, detached, punch
 from research.replication.figures.catalogue import BESIDE, THEORY, THESIS
-from research.replication.gallery import GALLERY, text
 from research.replication.kept import difference, kept
-from research.replication.ledger.claim import Measured
-from research.replication.ledger.contents import named
+from research.replication.ledger.claim import Measured, named
 from research.replication.ledger.page import PAGE, page
 from research.replication.making import Maker
 from research.replication.published.compare import compare
@@ -33,9 +31,8 @@ def asked(*words):
     return answer.exit_code, answer.output
 
 
-def test_ledger_and_gallery_are_what_is_measured_and_kept():
+def test_the_ledger_is_what_is_measured():
     assert PAGE.read_text(encoding="utf-8") == page(kept)
-    assert GALLERY.read_text(encoding="utf-8") == text()
 
 
 def test_a_verdict_falls_with_the_number_it_rests_on():
@@ -45,11 +42,11 @@ def test_a_verdict_falls_with_the_number_it_rests_on():
         numbers = kept(name)
         return numbers | {"simulated": numbers["simulated"] / 3} if name == "A.7" else numbers
 
-    assert named("upper-bound-between").measured(kept).value > 2
+    assert named("upper-bound-between").judged(kept)[0].value > 2
     with pytest.raises(vt.InputError, match="upper-bound-between"):
-        named("upper-bound-between").measured(less)
+        named("upper-bound-between").judged(less)
     with pytest.raises(vt.InputError, match="b1"):
-        replace(named("b1"), measure=lambda of: Measured(np.nan)).measured(kept)
+        replace(named("b1"), measure=lambda of: Measured(np.nan)).judged(kept)
 
 
 def test_the_slow_coefficient_is_that_of_the_theory():
@@ -59,7 +56,7 @@ def test_the_slow_coefficient_is_that_of_the_theory():
     )
     gain = float(persson_brener.amplification(1e-6, material=solid)) - 1
     assert gain / 1e-6 == pytest.approx(np.pi * 0.6, rel=1e-3)
-    assert named("slow-coefficient").measured(kept).value == pytest.approx(10.6, abs=0.2)
+    assert named("slow-coefficient").judged(kept)[0].value == pytest.approx(10.6, abs=0.2)
 
 
 def test_an_unknown_figure_or_claim_is_refused():

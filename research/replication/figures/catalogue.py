@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
-from textwrap import fill
 from types import ModuleType
 
 from viscotack import InputError
 
+from ..bench import Bench, Numbers
 from ..kept import cost
 
 # Those of the thesis that hold numbers, in its order. Figures 1.1, 3.1, 3.2, 4.1, 5.1, 5.3,
@@ -33,10 +33,14 @@ BESIDE = (
     "printed-algorithm",
     "linear-curve",
 )
+# What shares a module with another figure of its kind; its numbers are asked for by name.
+SHARED = {
+    **dict.fromkeys(("table-5.1", "table-5.2", "table-5.3", "table-5.4"), "table_models"),
+    **dict.fromkeys(("5.6", "5.7"), "figure_5_6"),
+    **dict.fromkeys(("A.4", "A.5"), "figure_A_4"),
+}
 # Made in less than a second from theory, without models and simulations.
 THEORY = ("2.1", "2.2a", "2.2b", "3.3", "4.2", "4.8", "A.3")
-# Parts of the docstring that are said of a figure.
-_PARTS = ("Claims:", "Needs:", "Costs:")
 
 
 @dataclass(frozen=True)
@@ -60,15 +64,12 @@ class Figure:
     @cached_property
     def module(self) -> ModuleType:
         """Where it is made and drawn."""
+        if self.name in SHARED:
+            return import_module(f".{SHARED[self.name]}", __package__)
         word = self.name.replace("table-", "").replace(".", "_").replace("-", "_")
         kind = "table" if self.name.startswith("table-") else "figure"
         kind = "study" if self.name in BESIDE else kind
         return import_module(f".{kind}_{word}", __package__)
-
-    @property
-    def title(self) -> str:
-        """What it shows, a sentence."""
-        return (self.module.__doc__ or "").strip().splitlines()[0]
 
     @property
     def size(self) -> tuple[float, float]:
@@ -85,30 +86,15 @@ class Figure:
         """Whether it is made of the whole published table, which is not in the repository."""
         return getattr(self.module, "NEEDS_ARCHIVE", False)
 
-    def part(self, head: str) -> str:
-        """Return a paragraph of its docstring, "Claims:", "Needs:" or "Costs:", without its head.
-
-        Examples
-        --------
-        >>> Figure("2.1").part("Needs:")
-        'nothing.'
-        """
-        for paragraph in (self.module.__doc__ or "").split("\n\n"):
-            line = " ".join(paragraph.split())
-            if line.startswith(head):
-                return line.removeprefix(head).strip()
-        raise InputError(f"the docstring of figure {self.name} does not say {head!r}")
+    def numbers(self, bench: Bench) -> Numbers:
+        """Return its numbers, made from nothing."""
+        make = self.module.numbers
+        return make(bench, self.name) if self.name in SHARED else make(bench)
 
     def words(self) -> str:
-        """Return what it is, claims, needs and has cost, for a list."""
-        seconds = cost(self.name)
-        spent = "no numbers are kept" if seconds is None else f"{seconds:.0f} s of processor time"
-        lines = [f"figure {self.name}: {self.title}"]
-        lines += [
-            fill(f"{head} {self.part(head)}", 98, initial_indent="  ", subsequent_indent="    ")
-            for head in _PARTS[:2]
-        ]
-        return "\n".join([*lines, f"  Costs: {self.part('Costs:')} Kept: {spent}."])
+        """Return what it is, claims, needs and has cost."""
+        said = f"figure {self.name}: {self.module.__doc__}"
+        return f"{said}Kept: {cost(self.name):.0f} s of processor time."
 
 
 def figures() -> tuple[Figure, ...]:

@@ -9,17 +9,13 @@ Costs: milliseconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import hertz, jkr
 
 from ..bench import Bench, Numbers
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 # With these the units of Eq. 4.16 are 1: lengths along the surface, depths, forces in pi R dg0.

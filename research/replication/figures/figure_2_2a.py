@@ -12,19 +12,15 @@ Costs: seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
 
 from viscotack.theory import dmt, hertz, jkr, maugis
 
 from ..bench import Bench, Numbers
 from .figure_2_2b import BODIES, UNIT, strength
 from .style import COLOURS
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (6.8, 4.6)
 WITHIN = 0.05

@@ -10,17 +10,13 @@ Costs: milliseconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import dmt, hertz, jkr, maugis
 
 from ..bench import Bench, Numbers
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 TABORS = (0.01, 0.1, 0.5, 1.0, 5.0)
 # With these the units of Eq. 2.6 are 1, but for the pi of its force.

@@ -9,9 +9,8 @@ Costs: nothing more.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import punch
 
@@ -19,9 +18,6 @@ from ..bench import Bench, Numbers
 from .cases import SIZE as HALF_WIDTH
 from .figure_3_8 import SPEED
 from .style import COLOURS, MARKERS, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 

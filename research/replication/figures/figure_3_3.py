@@ -10,9 +10,8 @@ Costs: milliseconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import punch
 
@@ -20,9 +19,6 @@ from ..bench import Bench, Numbers
 from .cases import SIZE as HALF_WIDTH
 from .cases import K
 from .style import COLOURS, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # With these lengths are in a0 and stresses in sigma0.
 PAD = punch.Pad(

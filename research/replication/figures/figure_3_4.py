@@ -9,9 +9,10 @@ Costs: six simulations, a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
@@ -20,9 +21,6 @@ from .cases import SIZE as HALF_WIDTH
 from .cases import curve, punch
 from .style import COLOURS, panels
 from .table_3_1 import RATE, THIN, start
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 

@@ -10,18 +10,14 @@ Costs: 84 simulations, half a minute of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import SIZE as HALF_WIDTH
 from .cases import Work, punch, table
 from .style import COLOURS, MARKERS, SIMULATED, decades, panels
 from .table_3_1 import RATE, start
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 _OVER_WIDTH = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)

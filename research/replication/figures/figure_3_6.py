@@ -10,18 +10,14 @@ Costs: 180 simulations, a minute of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import SIZE as HALF_WIDTH
 from .cases import Work, glassy_punch, punch, solid, table
 from .figure_3_3 import PAD
 from .style import COLOURS, MARKERS, SIMULATED, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 RATES = (0.1, 1.0, 10.0, 100.0)
 

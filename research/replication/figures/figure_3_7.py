@@ -10,9 +10,10 @@ Costs: three simulations, a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
@@ -20,9 +21,6 @@ from ..bench import Bench, Numbers
 from .cases import SIZE as HALF_WIDTH
 from .cases import punch
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 7.5)
 RATE = 100.0

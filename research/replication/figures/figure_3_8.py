@@ -9,16 +9,12 @@ Costs: 88 simulations to full separation, a minute of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import FOUR, Work, punch, table
 from .style import COLOURS, MARKERS, SIMULATED, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SPEED = r"crack speed at pull-off $V_c\,\tau/h_0$"
 RATES = np.geomspace(1e-3, 1e4, 22)

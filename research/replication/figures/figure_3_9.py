@@ -10,9 +10,10 @@ Costs: 48 simulations for the inset, half a minute of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import punch as theory
@@ -22,9 +23,6 @@ from .cases import FOUR, K, Work, punch, solid, table
 from .figure_3_3 import PAD
 from .figure_3_8 import SPEED
 from .style import COLOURS, ENERGY, MARKERS, SIMULATED, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.5, 4.0)
 SIZES = (32.42, 64.84, 129.69)

@@ -12,9 +12,10 @@ Costs: 27 simulations, four minutes of processor time; the short range takes mos
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import empirical, jkr, persson_brener, rate
@@ -31,9 +32,6 @@ from .cases import (
     lens,
 )
 from .style import COLOURS, MARKERS, SIMULATED, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (13.5, 4.3)
 NOTE = "The measured forces are not published: drawn from the printed Gent-Schultz fit."

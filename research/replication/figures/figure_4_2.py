@@ -10,18 +10,14 @@ Costs: milliseconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
 from ..bench import Bench, Numbers
 from .cases import K, solid
 from .style import colour, panels, words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 _EXPONENTS = (0.2, 0.4, 1.6)

@@ -10,9 +10,10 @@ Costs: nine simulations, two seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import jkr
@@ -21,9 +22,6 @@ from ..bench import Bench, Numbers
 from .cases import CHAPTER_4, curve, sphere
 from .figure_2_1 import UNIT
 from .style import COLOURS, RADIUS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.5, 3.8)
 # Rate, exponent and radius of the start, by panel.

@@ -10,9 +10,8 @@ Costs: 60 simulations, a quarter of a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import persson_brener
@@ -20,9 +19,6 @@ from viscotack.theory import persson_brener
 from ..bench import Bench, Numbers
 from .cases import CHAPTER_4, Work, solid, sphere, table, tip_speed
 from .style import COLOURS, MARKERS, SIMULATED, TIP_SPEED, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 RADII = (1.94, 2.50, 3.61, 5.28)
 RATES = np.geomspace(0.1, 1e6, 15)

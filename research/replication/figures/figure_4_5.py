@@ -12,9 +12,10 @@ Costs: 576 simulations, three minutes of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
@@ -22,9 +23,6 @@ import viscotack as vt
 from ..bench import Bench, Numbers
 from .cases import CHAPTER_4, EXPONENTS, K, Work, sphere, table
 from .style import RATE, SIMULATED, colour, decades, marker, panels, words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.5, 3.8)
 RADII = np.geomspace(1.2, 8.0, 16)

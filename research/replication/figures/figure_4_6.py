@@ -12,9 +12,10 @@ Costs: 90 simulations, a minute of processor time; steady cracks some seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import SteadyCrack, crack_regimes, persson_brener
@@ -46,9 +47,6 @@ from .style import (
     panels,
     words,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.0, 4.3)
 _RATES = 10 ** np.linspace(-1, 6, 15)

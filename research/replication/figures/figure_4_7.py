@@ -11,9 +11,10 @@ Costs: 143 simulations, two minutes of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import persson_brener, rate
 
@@ -21,9 +22,6 @@ from ..bench import Bench, Numbers
 from .cases import EXPONENTS, STANDARD, TABOR, K, solid
 from .figure_4_6 import simulated
 from .style import ENERGY, SIMULATED, TIP_SPEED, colour, decades, marker, panels, words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.0, 4.3)
 RATIOS = (0.01, 0.05, 0.1)

@@ -11,17 +11,15 @@ Costs: a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.optimize import nnls
 
 from ..bench import Bench, Numbers
 from .cases import PDMS
 from .style import COLOURS, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.5, 3.8)
 NOTE = "The measured modulus is not published: drawn from the printed fit, Eq. 4.27."

@@ -11,9 +11,10 @@ Costs: three simulations, half a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.optimize import least_squares
 
 import viscotack as vt
@@ -22,9 +23,6 @@ from viscotack.theory import jkr, maugis, transition
 from ..bench import Bench, Numbers
 from .cases import LENS, PDMS, PDMS_WORK, RANGES, curve, lens
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (6.6, 4.4)
 NOTE = "The measured curve is not published: elastic lines from the printed fit."

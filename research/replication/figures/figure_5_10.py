@@ -9,18 +9,14 @@ Costs: 88 simulations and a forest, half a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import K, Work, sphere, table
 from .figure_5_8 import TABORS
 from .learned import WORK_PAML, predicted
 from .style import COLOURS, MODEL, RATE, SIMULATED, WORK, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.0, 4.2)
 EXPONENTS = (1.6, 0.6)

@@ -11,9 +11,10 @@ Costs: 54 networks, three minutes of processor time.
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from ..learning.learners import network
@@ -21,9 +22,6 @@ from ..learning.splits import random_split
 from ..learning.trajectories import learned_points
 from .learned import SEED, rows
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (6.6, 4.2)
 LAYERS = ((50,), (100,), (50, 50), (100, 100), (50, 50, 50), (100, 100, 100))

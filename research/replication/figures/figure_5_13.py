@@ -10,9 +10,10 @@ Costs: nine simulations and a network of 8,505 rows, a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import jkr
@@ -23,9 +24,6 @@ from .cases import CHAPTER_4, TABOR, K, curve, sphere
 from .figure_2_1 import UNIT
 from .learned import SEED, asked, rows
 from .style import COLOURS, DEPTH, PULL, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 9.5)
 _HEIGHT = TABOR * np.pi ** (2 / 3)

@@ -10,16 +10,15 @@ Costs: 13 simulations, two seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
 from ..bench import Bench, Numbers
 from .cases import curve, sphere
 from .style import COLOURS, DEPTH, PULL, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 7.0)
 # Rate, exponent and depth of the start, by panel.

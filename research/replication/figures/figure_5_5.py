@@ -10,17 +10,15 @@ Costs: 24 simulations and two models, a quarter of a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import TABOR, K, Work, sphere, table
 from .learned import FORCE_ML, FORCE_PAML, analytic, predicted, rows
 from .style import FORCE, MODEL, RATE, SIMULATED, colour, decades, panels, words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.0, 4.2)
 EXPONENTS = (0.2, 0.6, 1.6)

@@ -11,17 +11,13 @@ Costs: 156 simulations and a model, a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import K, Work, sphere, table
 from .learned import FORCE_PAML, analytic, predicted
 from .style import COLOURS, DEPTH, FORCE, MODEL, SIMULATED, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.5, 4.2)
 TABORS = (0.05, 0.2, 0.8, 3.2)

@@ -10,17 +10,13 @@ Costs: 36 simulations and two forests, a quarter of a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import TABOR, K, Work, sphere, table
 from .learned import WORK_ML, WORK_PAML, predicted
 from .style import MODEL, RATE, SIMULATED, WORK, colour, decades, panels, words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.0, 4.2)
 EXPONENTS = (0.4, 0.6, 1.6)

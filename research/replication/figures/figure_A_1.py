@@ -10,13 +10,10 @@ Costs: nothing more.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .figure_3_9 import by_theory, curves
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def numbers(bench: Bench) -> Numbers:

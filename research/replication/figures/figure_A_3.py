@@ -10,18 +10,14 @@ Costs: milliseconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import crack_regimes, persson_brener
 
 from ..bench import Bench, Numbers
 from .cases import K, solid
 from .style import COLOURS, TIP_SPEED, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.0, 4.2)
 EXPONENTS = (0.2, 0.4, 0.6, 0.8, 1.2, 1.6)

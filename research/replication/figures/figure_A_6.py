@@ -9,9 +9,8 @@ Costs: eight simulations and a forest, ten seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack.theory import jkr
 
@@ -20,9 +19,6 @@ from .cases import CHAPTER_4, K, Work, sphere, table
 from .figure_2_1 import UNIT
 from .learned import WORK_PAML, predicted
 from .style import COLOURS, SIMULATED, WORK, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 TABORS = (0.05, 0.2, 0.8, 3.2)
 _RADII = (6.1377, 3.0689, 1.9564, 2.0139)

@@ -11,18 +11,14 @@ Costs: 25 simulations and a forest, ten seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from .cases import K, Work, sphere, table
 from .figure_A_6 import jkr_work
 from .learned import WORK_PAML, predicted
 from .style import COLOURS, MODEL, RATE, SIMULATED, WORK, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 TABOR, DEPTH, EXPONENT = 3.2, 73.0, 1.6
 RATES = np.geomspace(0.1, 1e8, 37)

@@ -9,18 +9,14 @@ Costs: a forest of 200 trees, ten seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from ..learning.features import Descriptor
 from ..learning.tuning import forest_curve
 from .learned import SEED, rows
 from .style import COLOURS, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def numbers(bench: Bench) -> Numbers:

@@ -110,22 +110,3 @@ def held_out(trial: tuple[Target, Descriptor, Learner], points: int) -> dict[str
         "r2": found.pooled_r2,
         "mse": 1e3 * found.pooled_mse,
     }
-
-
-def as_text(numbers: dict[str, Any]) -> dict[str, Any]:
-    """Return a table of the thesis as columns and rows of words."""
-    columns = ["", "MSE 1e-3", "thesis", "R2", "thesis", "size"]
-    return {
-        "columns": columns,
-        "rows": [
-            [
-                name,
-                f"{numbers['mse'][i]:.3g} ± {numbers['mse_spread'][i]:.2g}",
-                f"{numbers['thesis_mse'][i]:.3g} ± {numbers['thesis_mse_spread'][i]:.2g}",
-                f"{numbers['r2'][i]:.4f}",
-                f"{numbers['thesis_r2'][i]:.4f}",
-                f"{numbers['size'][i]:.0f}",
-            ]
-            for i, name in enumerate(numbers["model"])
-        ],
-    }

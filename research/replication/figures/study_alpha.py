@@ -10,9 +10,10 @@ Costs: 56 simulations, a minute; steady cracks some seconds.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.optimize import minimize_scalar
 
 import viscotack as vt
@@ -22,9 +23,6 @@ from ..bench import Bench, Numbers
 from .cases import ALPHA, ALPHA_LJ, TABOR, elastic_ratio, solid
 from .figure_4_6 import simulated
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (6.6, 4.4)
 RATIOS = (1e-4, 1e-3, 0.01, 0.03, 0.1, 0.3)

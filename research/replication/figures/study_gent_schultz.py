@@ -10,9 +10,10 @@ Costs: a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from viscotack.theory import jkr
@@ -21,9 +22,6 @@ from ..bench import Bench, Numbers
 from .cases import LENS, PDMS, PDMS_WORK, PRELOAD
 from .figure_4_10 import V0, XI
 from .style import COLOURS, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 _CASE = {"radius": LENS, "contact_modulus": PDMS.contact_modulus, "work_of_adhesion": PDMS_WORK}

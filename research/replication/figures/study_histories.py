@@ -10,18 +10,14 @@ Costs: 28 simulations, half a minute.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
 from ..bench import Bench, Numbers
 from .cases import STANDARD, Work, sphere, table
 from .style import COLOURS, SIMULATED, decades, panels, words
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (9.0, 3.8)
 _DEPTH, _GAP = 40.0, 6.0

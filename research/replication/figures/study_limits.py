@@ -10,9 +10,10 @@ Costs: 30 simulations, two minutes of processor time, most of it for the lens.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
@@ -21,9 +22,6 @@ from .cases import K, Work, elastic_ratio, lens, punch, solid, sphere, table
 from .figure_3_3 import PAD
 from .figure_4_10 import SHORT
 from .style import COLOURS, SIMULATED, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (10.5, 3.8)
 TABORS = (0.05, 0.2, 0.8, 2.05, 3.24, 10.0)

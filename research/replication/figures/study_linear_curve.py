@@ -11,9 +11,8 @@ Costs: 45 simulations, three minutes of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscotack as vt
 from viscotack.theory import jkr
@@ -22,9 +21,6 @@ from ..bench import Bench, Numbers
 from .cases import ALPHA, ALPHA_LJ, LENS, PDMS, PDMS_WORK, PRELOAD, RANGES, TABOR, lens
 from .figure_4_10 import SHORT, SPEEDS, TIP, linear_theory, of_the_thesis
 from .style import COLOURS, decades
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # The Tabor number that the quasi-static test gave.
 MEASURED_TABOR = 2.05

@@ -13,9 +13,10 @@ Costs: two minutes of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.special import ellipkm1
 
 from viscotack.theory import jkr
@@ -23,9 +24,6 @@ from viscotack.theory import jkr
 from ..bench import Bench, Numbers
 from .cases import elastic_ratio
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (6.6, 4.4)
 TABORS = (1.0, 3.24, 10.0, 30.0, 103.0)

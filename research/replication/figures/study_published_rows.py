@@ -10,9 +10,10 @@ minutes of processor time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack import InputError
 
@@ -23,9 +24,6 @@ from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, trained
 from ..learning.splits import Split, random_split, value_split
 from ..learning.thesis import TABLES
 from .style import COLOURS, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 NEEDS_ARCHIVE = True
 SIZE = (9.0, 3.8)

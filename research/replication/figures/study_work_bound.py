@@ -10,9 +10,8 @@ Costs: a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from viscotack import datasets
 from viscotack.theory import jkr
@@ -21,9 +20,6 @@ from ..bench import Bench, Numbers
 from .cases import CHAPTER_4
 from .figure_2_1 import UNIT
 from .style import COLOURS, decades, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SIZE = (6.6, 4.4)
 # Contacts of shorter range than this in the glassy state are near to JKR.

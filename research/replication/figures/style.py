@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+import matplotlib.style
+from matplotlib.figure import Figure
 
 # Okabe and Ito's, told apart by every eye; with the markers of the thesis, for those who see none.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -69,9 +69,6 @@ def saved(
     dpi: int = 150,
 ) -> Path:
     """Draw numbers into a file, PNG or SVG by its ending, with a note below the picture."""
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
     path.parent.mkdir(parents=True, exist_ok=True)
     with matplotlib.style.context("viscotack.pictures.viscotack"), matplotlib.style.context(_SMALL):
         figure = Figure(figsize=size)
@@ -80,6 +77,22 @@ def saved(
             figure.supxlabel(note, fontsize=8.5, x=0.01, ha="left", color="0.35")
         figure.savefig(path, dpi=dpi, metadata={"Date": None} if path.suffix == ".svg" else {})
     return path
+
+
+def drawn_table(columns: list[str], rows: list[list[str]], figure: Figure) -> None:
+    """Draw the columns and rows of a table."""
+    ax = figure.subplots()
+    ax.set_axis_off()
+    table = ax.table(cellText=rows, colLabels=columns, loc="center")
+    table.auto_set_font_size(False)
+    table.set_fontsize(9.5)
+    table.scale(1, 1.45)
+    table.auto_set_column_width(list(range(len(columns))))
+    for (row, _), cell in table.get_celld().items():
+        cell.set_edgecolor("0.8")
+        cell.visible_edges = "B" if row else "BT"
+        if row == 0:
+            cell.get_text().set_fontweight("bold")
 
 
 # Several panels beside each other want smaller words than a picture alone.

@@ -9,16 +9,13 @@ Costs: nothing.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from matplotlib.figure import Figure
 
 import viscotack as vt
 
 from ..bench import Bench, Numbers
 from . import cases
-from .tables import drawn
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .style import drawn_table
 
 SIZE = (7.0, 2.6)
 # Loading so fast that nothing relaxes [h0/tau].
@@ -75,4 +72,4 @@ def numbers(bench: Bench) -> Numbers:
 
 def draw(numbers: Numbers, figure: Figure) -> None:
     """Draw the table."""
-    drawn(numbers, figure)
+    drawn_table(numbers["columns"], numbers["rows"], figure)

@@ -9,18 +9,14 @@ Costs: a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from ..learning.features import inputs
 from ..learning.thesis import STATISTICS
 from .learned import rows
-from .tables import drawn
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .style import drawn_table
 
 SIZE = (8.6, 2.4)
 _WORDS = ("mean", "median", "st. dev.", "min", "max")
@@ -45,4 +41,4 @@ def draw(numbers: Numbers, figure: Figure) -> None:
             for i, word in enumerate(_WORDS)
         ],
     }
-    drawn(table, figure)
+    drawn_table(table["columns"], table["rows"], figure)

@@ -1,11 +1,16 @@
-"""A claim of the thesis, and how it is measured."""
+"""The claims of the thesis, rows of claims.toml, and how they are judged."""
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cache
+from importlib import import_module
 from math import isnan
+from pathlib import Path
+from typing import Any
 
 from viscotack import InputError
 
@@ -90,20 +95,15 @@ class Claim:
     verdict: Verdict
     evidence: str
 
-    def measured(self, of: Of) -> Measured:
-        """Measure it.
+    def judged(self, of: Of) -> tuple[Measured, Standing]:
+        """Measure it, and say how firmly it stands.
+
+        A claim is proven if neither a simulation nor a trained model is needed.
 
         Raises
         ------
         ValueError
             If the verdict does not stand with what was measured.
-        """
-        return self.judged(of)[0]
-
-    def judged(self, of: Of) -> tuple[Measured, Standing]:
-        """Measure it, and return how firmly it stands too.
-
-        A claim is proven if neither a simulation nor a trained model is needed.
         """
         needed: set[str] = set()
 
@@ -144,3 +144,36 @@ class Claim:
             f"`claim {self.name}`",
         )
         return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
+
+
+def _claim(row: dict[str, Any]) -> Claim:
+    room, function = row["measure"].split(".")
+    measure = getattr(import_module(f".{room}", __package__), function)
+    judged = {
+        "measure": measure,
+        "stands": tuple(row["stands"]),
+        "verdict": Verdict(row["verdict"]),
+    }
+    return Claim(**row | judged)
+
+
+@cache
+def chapters() -> dict[str, tuple[Claim, ...]]:
+    """Return the claims of the thesis by its chapters; the last part is what it does not say."""
+    with Path(__file__).with_name("claims.toml").open("rb") as file:
+        parts = tomllib.load(file)["chapter"]
+    return {part["name"]: tuple(_claim(row) for row in part["claim"]) for part in parts}
+
+
+def named(name: str) -> Claim:
+    """Return a claim by its name.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    claims = {claim.name: claim for part in chapters().values() for claim in part}
+    if name not in claims:
+        raise InputError(f"there is no claim {name!r}; there are {', '.join(claims)}")
+    return claims[name]

@@ -8,8 +8,7 @@ from textwrap import fill
 
 import numpy as np
 
-from .claim import Of, Standing, Verdict
-from .contents import CHAPTERS, OWN, every, of_thesis
+from .claim import Claim, Measured, Of, Standing, Verdict, chapters
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "replication.md"
 _HEAD = (
@@ -20,23 +19,23 @@ _HEAD = (
 
 def page(of: Of) -> str:
     """Return the ledger, from numbers of figures that are kept or made afresh."""
-    judged = {claim.name: claim.judged(of) for claim in every()}
-    standings = Counter(judged[claim.name][1] for claim in of_thesis())
-    parts = [_opening(standings), _derived_twice(of), _linear_curve(of), _BOUND, _READING]
-    for chapter, claims in CHAPTERS.items():
-        rows = "\n".join(claim.row(*judged[claim.name]) for claim in claims)
+    judged = {c: c.judged(of) for claims in chapters().values() for c in claims}
+    *thesis, own = chapters().values()
+    opening = _opening([c for claims in thesis for c in claims], len(own), judged)
+    parts = [opening, _derived_twice(of), _linear_curve(of), _BOUND, _READING]
+    for chapter, claims in chapters().items():
+        rows = "\n".join(claim.row(*judged[claim]) for claim in claims)
         parts.append(f"## {chapter}\n\n{_HEAD}\n{rows}")
-    rows = "\n".join(claim.row(*judged[claim.name]) for claim in OWN)
-    parts.append(f"## Found here, beside the thesis\n\n{_HEAD}\n{rows}")
     return "\n\n".join(parts) + "\n"
 
 
-def _opening(standings: Counter[Standing]) -> str:
-    counts = Counter(claim.verdict for claim in of_thesis())
+def _opening(thesis: list[Claim], own: int, judged: dict[Claim, tuple[Measured, Standing]]) -> str:
+    counts = Counter(claim.verdict for claim in thesis)
+    standings = Counter(judged[claim][1] for claim in thesis)
     said = ", ".join(f"{counts[verdict]} {_PLURAL[verdict]}" for verdict in Verdict)
     text = (
-        f"{len(of_thesis())} claims of A. Maghami, PhD thesis (2025), each beside what is measured "
-        f"here: {said}; and {len(OWN)} that were found here. `python -m research.replication "
+        f"{len(thesis)} claims of A. Maghami, PhD thesis (2025), each beside what is measured "
+        f"here: {said}; and {own} that were found here. `python -m research.replication "
         "ledger --write` writes this page from the kept numbers of the figures and from theory; "
         "`python -m research.replication claim NAME` measures one of them, with "
         "`--afresh` from nothing. A verdict stands on a number: where that leaves "

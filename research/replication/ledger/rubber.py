@@ -8,10 +8,10 @@ from viscotack.theory import persson_brener, rate
 
 from ..figures.cases import LENS, PDMS, PDMS_WORK, K, solid
 from ..figures.figure_4_10 import TIP, V1, measured
-from .claim import Claim, Measured, Of, Verdict
+from .claim import Measured, Of
 
 
-def _highest(of: Of) -> Measured:
+def highest(of: Of) -> Measured:
     k = PDMS.modulus_ratio
     here = k * float(persson_brener.amplification(1e9, material=PDMS))
     read = K * float(persson_brener.amplification(1e9, material=solid(K, 0.2)))
@@ -20,7 +20,7 @@ def _highest(of: Of) -> Measured:
     )
 
 
-def _speed_needed(of: Of) -> Measured:
+def speed_needed(of: Of) -> Measured:
     speeds = [
         float(np.log10(persson_brener.speed(part / PDMS.modulus_ratio, material=PDMS)))
         for part in (0.5, 0.9, 0.95)
@@ -29,13 +29,13 @@ def _speed_needed(of: Of) -> Measured:
     return Measured(speeds[1], f"log10 v̂ = {words} for 50, 90, 95 % of 1/k")
 
 
-def _retraction(of: Of) -> Measured:
+def retraction(of: Of) -> Measured:
     reduced = (1e9 / rate.COEFFICIENT) ** (1 / rate.EXPONENT)
     found = reduced * TIP / PDMS.tau0
     return Measured(found, f"{found:.2f} m/s")
 
 
-def _radius_needed(of: Of) -> Measured:
+def radius_needed(of: Of) -> Measured:
     a = (1.5 / PDMS.modulus_ratio / 0.3) ** (1 / 2.7)
     unit = (np.pi * LENS**2 * PDMS_WORK / PDMS.contact_modulus) ** (1 / 3)
     return Measured(1e3 * a * unit, f"â = {a:.1f}, {1e3 * a * unit:.2f} mm beside R = 5.19 mm")
@@ -47,7 +47,7 @@ def _off(of: Of, name: str, beside: str) -> tuple[np.ndarray, np.ndarray]:
     return n["force"][i] / n[beside] - 1, n["error"][i]
 
 
-def _short(of: Of) -> Measured:
+def short(of: Of) -> Measured:
     off, error = _off(of, "30.8 nm", "linear")
     n = of("4.10")
     i = n["range"].index("30.8 nm")
@@ -59,7 +59,7 @@ def _short(of: Of) -> Measured:
     )
 
 
-def _ratio_axis(of: Of) -> Measured:
+def ratio_axis(of: Of) -> Measured:
     off = {}
     for name in ("30.8 nm", "200 nm"):
         beside = 1 / (1 + _off(of, name, "linear")[0]) - 1
@@ -71,7 +71,7 @@ def _ratio_axis(of: Of) -> Measured:
     )
 
 
-def _middle(of: Of) -> Measured:
+def middle(of: Of) -> Measured:
     off, error = _off(of, "200 nm", "linear")
     return Measured(
         float(np.max(np.abs(off))),
@@ -80,14 +80,14 @@ def _middle(of: Of) -> Measured:
     )
 
 
-def _quasi_static(of: Of) -> Measured:
+def quasi_static(of: Of) -> Measured:
     off, _ = _off(of, "1.55 um", "linear")
     return Measured(
         float(off[-1]), f"{100 * off[0]:+.0f} % at 1 µm/s, {100 * off[-1]:+.0f} % at 1000 µm/s"
     )
 
 
-def _twice(of: Of) -> Measured:
+def twice(of: Of) -> Measured:
     n = of("limits")["lens"]
     off = n["simulated"] / n["crack"] - 1
     pairs = ", ".join(f"{a:.2f}/{b:.2f}" for a, b in zip(n["simulated"], n["crack"], strict=True))
@@ -98,7 +98,7 @@ def _twice(of: Of) -> Measured:
     )
 
 
-def _crack_speed(of: Of) -> Measured:
+def crack_speed(of: Of) -> Measured:
     n = of("4.10")
     i = n["range"].index("30.8 nm")
     ratio = n["crack_speed"][i] / n["linear_crack_speed"]
@@ -107,7 +107,7 @@ def _crack_speed(of: Of) -> Measured:
     )
 
 
-def _limit(of: Of) -> Measured:
+def limit(of: Of) -> Measured:
     n = of("4.10")
     above = {}
     for i, name in enumerate(n["range"]):
@@ -120,7 +120,7 @@ def _limit(of: Of) -> Measured:
     return Measured(first, f"measured 15 % above simulated from: {words}")
 
 
-def _doubling(of: Of) -> Measured:
+def doubling(of: Of) -> Measured:
     v = V1
     linear = float(persson_brener.amplification(v * PDMS.tau0 / TIP, material=PDMS))
     ratio = float(measured(v)) / linear
@@ -129,7 +129,7 @@ def _doubling(of: Of) -> Measured:
     )
 
 
-def _reading(of: Of) -> Measured:
+def reading(of: Of) -> Measured:
     n = of("4.9")["simulated"]
     words = "; ".join(
         f"μ = {p['tabor']:.3g} is read as {p['carpick']['tabor']:.2g} and "
@@ -139,7 +139,7 @@ def _reading(of: Of) -> Measured:
     return Measured(float(n["1.55 um"]["carpick"]["tabor"]), f"simulated: {words}")
 
 
-def _slow_enough(of: Of) -> Measured:
+def slow_enough(of: Of) -> Measured:
     n = of("4.9")["simulated"]
     ratio = {
         name: float(p["pull_off_force"] / p["elastic_pull_off_force"]) for name, p in n.items()
@@ -148,7 +148,7 @@ def _slow_enough(of: Of) -> Measured:
     return Measured(ratio["200 nm"], f"{words} of the elastic force at 0.98 µm/s")
 
 
-def _exponent(of: Of) -> Measured:
+def exponent(of: Of) -> Measured:
     n = of("gent-schultz")
     v = 1e6 * n["speed"]
     inside = (v >= 1) & (v <= 1000)
@@ -161,7 +161,7 @@ def _exponent(of: Of) -> Measured:
     )
 
 
-def _arms(of: Of) -> Measured:
+def arms(of: Of) -> Measured:
     n = of("4.8")
     inside = n["frequency"] < 1e15
     off = [
@@ -174,7 +174,7 @@ def _arms(of: Of) -> Measured:
     )
 
 
-def _pinned(of: Of) -> Measured:
+def pinned(of: Of) -> Measured:
     n = of("printed-algorithm")
     off = n["force"] / n["expected"]
     words = "; ".join(
@@ -186,183 +186,3 @@ def _pinned(of: Of) -> Measured:
         float(np.min(off[:, -1])),
         f"{words} times the elastic force at μ = {at} (below 1: given up)",
     )
-
-
-OWN = (
-    Claim(
-        "middle-range",
-        "Fig. 4.10",
-        "…200 nm gives it",
-        0.0,
-        _middle,
-        (0, 0.04),
-        Verdict.HOLDS,
-        "found here: μ = 15.8",
-    ),
-    Claim(
-        "lens-twice",
-        "Fig. 4.10",
-        "The lens with 30.8 nm, by two routes",
-        0.0,
-        _twice,
-        (0, 0.005),
-        Verdict.HOLDS,
-        "simulation and a contact whose edge is the steady crack, without a fit",
-    ),
-)
-
-CLAIMS = (
-    Claim(
-        "highest-gain",
-        "Sec. 4.7.1",
-        "PDMS reaches its largest gain at v̂ ≈ 1e9",
-        1.0,
-        _highest,
-        (0.02, 0.026),
-        Verdict.FAILS,
-        "read off the curve of another material",
-    ),
-    Claim(
-        "speed-needed",
-        "Sec. 4.7.1",
-        "…log10 of the speed needed",
-        9.0,
-        _speed_needed,
-        (22, 23),
-        Verdict.FAILS,
-        "so that 31.4 m/s says nothing of PDMS",
-    ),
-    Claim(
-        "retraction-needed",
-        "Sec. 4.7.1",
-        "v̂ = 1e9 is a retraction at 31.4 m/s",
-        31.4,
-        _retraction,
-        (31.3, 31.5),
-        Verdict.HOLDS,
-        "arithmetic of Eq. 4.24",
-    ),
-    Claim(
-        "radius-needed",
-        "Sec. 4.7.1",
-        "Full gain of PDMS takes a contact of 5.8 mm [mm]",
-        5.8,
-        _radius_needed,
-        (5.75, 5.85),
-        Verdict.HOLDS,
-        "arithmetic, of a law that does not hold (`threshold`)",
-    ),
-    Claim(
-        "arms",
-        "Sec. 4.6.1",
-        "Four constants represent PDMS as fairly as 37",
-        "as fairly",
-        _arms,
-        (0.02, 0.3),
-        Verdict.OPEN,
-        "the measured modulus is not published",
-    ),
-    Claim(
-        "quasi-static",
-        "Sec. 4.6.2",
-        "0.98 µm/s is very slow",
-        1.0,
-        _slow_enough,
-        (1.05, 1.15),
-        Verdict.CORRECTED,
-        "for h0 = 1.55 µm; with the range of the rate series it is not",
-    ),
-    Claim(
-        "tabor-read",
-        "Sec. 4.6.2, Fig. 4.9",
-        "Carpick's fit of that curve reads μ = 2.05",
-        2.05,
-        _reading,
-        (1.8, 2.2),
-        Verdict.CORRECTED,
-        "right if h0 = 1.55 µm; but such a fit ends at 4.2, and with 1 % of noise a contact of "
-        "15.8 is read as 2.1 to 12 ([tack tests](tack_tests.md)): it does not tell 2.05 from the "
-        "200 nm of the rate series",
-    ),
-    Claim(
-        "short-range",
-        "Fig. 4.10",
-        "h0 = 30.8 nm gives (P_po)_lin",
-        0.0,
-        _short,
-        (0.45, 0.6),
-        Verdict.FAILS,
-        "by simulation and by the steady crack (`lens-twice`), if the range is that of the forces",
-    ),
-    Claim(
-        "ratio-axis",
-        "Fig. 4.10b, right axis",
-        "Measured over linear energy is 1 + (v/v1)^(1/2)",
-        0.0,
-        _ratio_axis,
-        (-0.4, -0.3),
-        Verdict.FAILS,
-        "with simulations of 30.8 nm; it is that of the curve (P_po)_lin, which 200 nm gives",
-    ),
-    Claim(
-        "printed-algorithm",
-        "App. V, Fig. 4.10",
-        "The printed algorithm, N = 500, ran the lens with 30.8 nm",
-        1.0,
-        _pinned,
-        (1.5, 20.0),
-        Verdict.FAILS,
-        "at μ = 103 a zone is 1/100 of the distance of its nodes: the edge is pinned to them",
-    ),
-    Claim(
-        "long-range",
-        "Sec. 4.7.2",
-        "h0 = 1.55 µm, of the quasi-static test, gives it",
-        0.0,
-        _quasi_static,
-        (-0.5, -0.35),
-        Verdict.FAILS,
-        "as the thesis says itself",
-    ),
-    Claim(
-        "crack-speed-of-pdms",
-        "Eq. 4.24, Fig. 4.10",
-        "Eq. 4.24 gives the crack speed of the lens",
-        1.0,
-        _crack_speed,
-        (3, 9),
-        Verdict.FAILS,
-        "the fit is used at 30 times its Tabor number; what gave the linear curve is open (above)",
-    ),
-    Claim(
-        "limit-of-linear-theory",
-        "Sec. 4.7",
-        "Linear theory ends at 100 µm/s [µm/s]",
-        100.0,
-        _limit,
-        (30, 150),
-        Verdict.CORRECTED,
-        "with 200 nm; the place of the limit rests on the range chosen, and the crack speeds on "
-        "Eq. 4.24",
-    ),
-    Claim(
-        "doubling",
-        "Sec. 4.7.2",
-        "At v = 1e4 µm/s the process zone spends as much as the bulk",
-        2.0,
-        _doubling,
-        (0.8, 1.3),
-        Verdict.OPEN,
-        "no fit of it is independent of Eq. 4.24",
-    ),
-    Claim(
-        "muller",
-        "Sec. 4.8",
-        "A Gent-Schultz edge of 0.41 gives P_po ∝ r^0.27",
-        0.27,
-        _exponent,
-        (0.28, 0.36),
-        Verdict.CORRECTED,
-        "one of the local exponents: they drift with speed and preload, to 3ξ/(3 + ξ) = 0.361",
-    ),
-)

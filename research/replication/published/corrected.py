@@ -12,7 +12,6 @@ import numpy as np
 from viscotack.campaign import CaseSettings
 
 from ..table import Detachments
-from ..whole import write_whole
 from .compare import CONVERGED, INPUTS, Row, inputs_of
 
 COLUMNS = (
@@ -75,4 +74,4 @@ def write_corrected(rows: Sequence[Row], sample: Detachments, path: Path) -> Non
     out = csv.writer(text, lineterminator="\n")
     out.writerow(COLUMNS)
     out.writerows(corrected(rows, sample, accuracy=CaseSettings.accuracy))
-    write_whole(path, text.getvalue())
+    path.write_text(text.getvalue(), encoding="utf-8", newline="")

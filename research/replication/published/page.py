@@ -9,7 +9,6 @@ from textwrap import fill
 
 import numpy as np
 
-from ..whole import write_whole
 from .compare import Inputs, Row, inputs_of
 from .draw import draw
 
@@ -219,7 +218,7 @@ def write(rows: Sequence[Row], folder: Path) -> None:
     """Write the page and its pictures into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     draw(rows, folder)
-    write_whole(folder / "README.md", page(rows))
+    (folder / "README.md").write_text(page(rows), encoding="utf-8", newline="")
 
 
 def changed(rows: Sequence[Row], kept: str) -> list[str]:
