@@ -273,7 +273,7 @@ def monotone(m: Any, size: float) -> None:
 
 
 def passive(m: Any, size: float) -> None:
-    """Check that modulus and compliance are inverse, with no negative loss and a rising storage modulus."""
+    """Check that modulus and compliance are inverse, the loss positive, the storage rising."""
     w = np.geomspace(1e-10, 1e10, 241) / m.time_unit
     E, C = np.asarray(m.complex_modulus(w)), np.asarray(m.complex_compliance(w))
     _same("modulus times compliance is 1", E * C, 1.0, rtol=1e-8)
