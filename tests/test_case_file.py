@@ -140,6 +140,14 @@ def test_every_start_can_be_written(line, start, tmp_path):
         (edited('"3089 MPa"', '"3089 Pa"'), r"\[material\] glassy_modulus"),
         (edited('preload_force = "1.5 mN"', ""), r"\[protocol\] .*preload_depth"),
         (with_material(f'model = "elastic"\n{BASE}exponent = 0.5'), r"\[material\].*exponent"),
+        (edited('"5.19 mm"', "true"), r"\[sphere\] radius must be text"),
+        (
+            edited('"100 um/s"', '"1 um/s"\nmoves = "dwell 1 s"'),
+            r"\[protocol\] moves must be a list",
+        ),
+        (edited('"100 um/s"', '"1 um/s"\ncycles = 1.5'), r"\[protocol\] cycles must be"),
+        (edited("[protocol]", '[layer]\nthickness = "1 mm"\n[protocol]'), r"\[layer\] base"),
+        (edited('equilibrium_gap = "1.55 um"', 'strength = "-1 MPa"'), r"\[interface\] strength"),
     ],
 )
 def test_a_wrong_case_is_refused_with_table_and_key(text, words, tmp_path):

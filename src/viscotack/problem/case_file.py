@@ -333,8 +333,8 @@ def _body(entries: Any, name: str, reading: Reading, material: Material) -> Any:
         return read_as(kind, entries, reading, name)
     table = read_as(LayerTable, entries, reading, name)
     bases = {base.word: base for base in (Frictionless, Bonded)}
-    given = {"base": table.base or (Frictionless.word if reading.pure else None)}
-    base = reading.choice(given, name, "base", bases)
+    word = table.base or (Frictionless.word if reading.pure else None)
+    base = reading.choice({} if word is None else {"base": word}, name, "base", bases)
     if base is Frictionless:
         return Layer(table.thickness)
     nu = material.poisson_ratio if table.poisson_ratio is None else table.poisson_ratio

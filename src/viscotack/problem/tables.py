@@ -24,6 +24,16 @@ T = TypeVar("T")
 
 # Hint for unknown laws, materials and shapes.
 OWN = "; give a user-defined one with --with FILE.py, in Python with also="
+# What pydantic's types of errors say.
+_WANTED = {
+    "tuple_type": "a list",
+    "string_type": "text",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "int_parsing": "a whole number",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+}
 # Beginnings of a message that follow the name of a key without a colon.
 _DIRECT = ("must ", "has no unit")
 # Tables of one kind of file: the command that reads it, and what it has.
@@ -112,7 +122,8 @@ class Reading:
                 )
             return float(value)
         if not isinstance(value, str):
-            raise InputError(f"must be {'a number' if unit == '1' else example}, got {value!r:.60}")
+            wanted = "a number" if unit == "1" else f"text with a unit, {example}"
+            raise InputError(f"must be {wanted}, got {value!r:.60}")
         return plausible("", parse(value, unit), unit)
 
     def file(self, table: str, key: str, name: Any) -> Path:
@@ -211,7 +222,9 @@ def _words(kind: Any, error: "ValidationError", reading: Reading) -> str:
         return f"{listed} {verb} missing; write for example {examples}"
     first = found[0]
     key = str(first["loc"][0]) if first["loc"] else ""
-    words = str(first.get("ctx", {}).get("error", first["msg"])).strip()
+    own = first.get("ctx", {}).get("error")
+    wanted = _WANTED.get(first["type"], first["msg"].removeprefix("Input should be "))
+    words = str(own or f"must be {wanted}, got {first['input']!r:.60}").strip()
     if not key:
         return words
     joint = " " if words.startswith(_DIRECT) else ": "
