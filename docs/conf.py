@@ -117,16 +117,17 @@ def write_reference(app, config):
     """Write the pages of the reference: the public names by module, in the order of data flow."""
     import viscotack
 
+    rooms = (*viscotack._ROOMS, "testing")
     folder = ROOT / "docs/reference"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     if PAGES_ALONE:
-        for name in ("viscotack", *viscotack._ROOMS):
+        for name in ("viscotack", *rooms):
             (folder / f"{name}.rst").write_text(f"{name}\n{'=' * len(name)}\n")
         return
     face = [(room, "viscotack", names) for room, names in viscotack._NAMES.items()]
     pages = {"viscotack": face}
-    for room in viscotack._ROOMS:
+    for room in rooms:
         module = importlib.import_module(f"viscotack.{room}")
         pages[room] = list(_sections(module, set(viscotack._HOMES)))
     for name, sections in pages.items():

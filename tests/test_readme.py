@@ -156,14 +156,11 @@ def test_commands_of_the_pages_run_and_print_what_is_shown(page, anywhere):
 def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
     files = save_files_of(OWN, tmp_path)
     checked = [line.split()[1] for line in commands(OWN) if line.startswith("python my_")]
-    assert checked == [file for file in files if file.endswith(".py")]
+    assert checked == [file for file in files if re.fullmatch(r"my_.*\.py", file)]
     assert len(checked) == 4
-    stated = iter(re.findall(r"`(\d+ of \d+) checks passed`", OWN.read_text()))
     for file in checked:
         done = subprocess.run([sys.executable, file], cwd=tmp_path, capture_output=True, text=True)
-        passed, of = re.search(r": (\d+) of (\d+) checks passed", done.stdout).groups()
-        assert passed == of, done.stdout
-        assert next(stated, None) in (f"{passed} of {of}", None)
+        assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.slow

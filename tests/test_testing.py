@@ -70,13 +70,11 @@ def test_a_body_passes_each_check(check):
     check()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cole-cole", "morse", "rounded-cone", "incompressible-layer"])
 def test_nouns_pass_in_simulations(name):
     check(NOUNS[name])
 
 
-@pytest.mark.slow
 def test_an_observable_passes():
     check(LARGEST)
 
@@ -280,7 +278,6 @@ def test_simulated_contacts_out_of_their_limits_fail(name, noun, monkeypatch):
         named(noun, name)()
 
 
-@pytest.mark.slow
 def test_an_observable_in_newtons_fails():
     def newtons(result):
         return vt.pull_off_force(result) * (1.0 if result.scales is None else result.scales.force)

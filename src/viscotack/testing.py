@@ -39,6 +39,8 @@ from viscotack.theory import lennard_jones
 from viscotack.theory.elastic import indenter
 from viscotack.traction import LennardJones, at_rest, effective_range, softening
 
+__all__ = ["check", "checks"]
+
 Check = Callable[[], None]
 
 _ACCURACY = 1e-2
