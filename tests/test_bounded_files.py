@@ -50,7 +50,10 @@ BOMBS = {
 }
 
 
-@pytest.mark.parametrize("name", BOMBS)
+SLOW = {"a far row": [pytest.mark.slow]}
+
+
+@pytest.mark.parametrize("name", [pytest.param(x, marks=SLOW.get(x, ())) for x in BOMBS])
 def test_a_sheet_of_too_many_cells_is_refused_before_it_fills_the_memory(name, tmp_path):
     file = workbook(tmp_path / "bomb.xlsx", BOMBS[name])
     tracemalloc.start()

@@ -31,7 +31,7 @@ def test_a_test_is_far_by_its_distance_from_the_others_over_what_their_mean_adds
     assert _far(logs, 0.02) == ((tests - 1,) if far > 3.5 else ())
 
 
-@pytest.mark.parametrize("tests", [2, 3, 5])
+@pytest.mark.parametrize("tests", [2, 3, pytest.param(5, marks=pytest.mark.slow)])
 def test_the_scatter_of_repeats_is_pooled_and_the_uncertainty_of_means_covers(tests):
     rng = np.random.default_rng(tests)
     drawn = [

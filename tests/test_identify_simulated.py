@@ -67,7 +67,7 @@ def test_a_forecast_three_times_as_fast_is_simulated(fit):
     assert "forces by simulation at 3 mm/s" in " ".join(found.words)
 
 
-@pytest.mark.parametrize("speed", [1e-5, 1e-4])
+@pytest.mark.parametrize("speed", [pytest.param(1e-5, marks=pytest.mark.slow), 1e-4])
 def test_theory_and_simulation_agree_within_their_errors_where_both_hold(speed):
     gap = LENGTH / 12
     changed = FORWARD.changed(WORK, gap, np.array([speed]), np.array([PRELOAD]))

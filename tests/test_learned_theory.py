@@ -43,7 +43,12 @@ def drawn(count, seed=0):
 
 
 @pytest.mark.parametrize(
-    "changed", [{}, {"tabor": 30.0, "rate": 30.0, "preload": 100.0}, {"exponent": 1.2, "rate": 3.0}]
+    "changed",
+    [
+        {},
+        {"tabor": 30.0, "rate": 30.0, "preload": 100.0},
+        pytest.param({"exponent": 1.2, "rate": 3.0}, marks=pytest.mark.slow),
+    ],
 )
 def test_the_surrogate_reproduces_the_theory(changed):
     case = problem(**changed)

@@ -81,7 +81,7 @@ def test_interacting_pads_pull_off_as_the_solved_equations_say(places):
         return [d0 + n * c[0, 1] * F1 - z, d1 + c[1, 0] * F0 + around * F1 - z]
 
     least, state = 0.0, np.full(2, 1.3e-4)
-    for z in np.linspace(2e-6, -6e-6, 4000):
+    for z in np.linspace(2e-6, -6e-6, 1500):
         state, _, ok, _ = scipy.optimize.fsolve(missing, state, (z,), full_output=True)
         if ok != 1:
             break
