@@ -53,7 +53,7 @@ def begin_worker(memory: float | None = None, nice: int = 0) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
     threadpool_limits(1)
-    if hasattr(os, "nice"):
+    if sys.platform != "win32":
         os.nice(nice)
     if memory is not None and sys.platform == "linux":
         import resource
