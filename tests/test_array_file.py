@@ -69,6 +69,8 @@ def test_the_gripper_finger_holds_its_load_in_nine_of_ten_draws():
     "old, new, field",
     [
         ("rows = 1", "rows = 1000000", "rows"),
+        ("rows = 1", 'rows = "1"', "rows must be a whole"),
+        ("rows = 1", "rows = 1\nseed = true", "seed must be a whole"),
         ("rows = 1", "rows = 1\ncolums = 9", "colums"),
         ('["0 um", "-1 um", "1 um"]', '["0 um"]', "heights"),
         ('tilt = "0.01 degree"', 'tilt = "20 degree"', "tilt"),

@@ -146,6 +146,8 @@ def test_every_start_can_be_written(line, start, tmp_path):
             r"\[protocol\] moves must be a list",
         ),
         (edited('"100 um/s"', '"1 um/s"\ncycles = 1.5'), r"\[protocol\] cycles must be"),
+        (edited('"100 um/s"', '"1 um/s"\ncycles = "2"'), r"\[protocol\] cycles must be a whole"),
+        (edited('"100 um/s"', '"1 um/s"\ncycles = true'), r"\[protocol\] cycles must be a whole"),
         (edited("[protocol]", '[layer]\nthickness = "1 mm"\n[protocol]'), r"\[layer\] base"),
         (edited('equilibrium_gap = "1.55 um"', 'strength = "-1 MPa"'), r"\[interface\] strength"),
     ],

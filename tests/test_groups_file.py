@@ -87,6 +87,57 @@ def test_a_wrong_file_is_refused_with_its_key(old, new, field, tmp_path):
         read(tmp_path, GROUPS.replace(old, new))
 
 
+SHORT = "[groups]\ntabor = 1\npreload = 5\nrate = 10\n"
+SOLID = '[material]\nmodel = "elastic"\n'
+SERIES = '[material]\nmodel = "prony"\nfile = "series.csv"\n'
+FLAGS = ["--tabor", "1", "--preload", "5", "--rate", "10"]
+
+
+@pytest.mark.parametrize(
+    ("lines", "flags"),
+    [
+        ('[material]\npassport = "pdms-10-1"\n', ["sphere", "--material", "pdms-10-1"]),
+        (SERIES, ["sphere", "--material", "prony:series.csv"]),
+        (
+            f'{SOLID}[interface]\nlaw = "table"\nfile = "law.csv"\n',
+            ["sphere", "--material", "elastic", "--law", "table:law.csv"],
+        ),
+        (
+            f'{SOLID}[profile]\nexponent = "4"\n',
+            ["profile", "--material", "elastic", "--profile-exponent", "4"],
+        ),
+        (
+            f'{SOLID}[profile]\nfile = "tip.csv"\n',
+            ["profile", "--material", "elastic", "--points", "tip.csv"],
+        ),
+    ],
+)
+def test_a_file_without_dimensions_states_what_the_flags_state(lines, flags, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "series.csv").write_text("modulus_ratio,relaxation_time_ms\n5,0.1\n4,1\n")
+    (tmp_path / "law.csv").write_text("gap_nm,traction_kPa\n1,-9\n2,0\n3,9\n5,4\n8,0\n")
+    (tmp_path / "tip.csv").write_text("radius_1,height_1\n0,0\n1,0.6\n2,2\n5,12\n9,40\n")
+    end = ["--until", "pull-off", "--accuracy", "0.02", "--json"]
+    done = CliRunner().invoke(application(), ["simulate", *flags, *FLAGS, *end])
+    assert done.exit_code == 0, done.output
+    expected = vt.from_dict(json.loads(done.stdout)["problem"])
+    assert read(tmp_path, SHORT + lines) == expected
+
+
+@pytest.mark.parametrize(
+    ("lines", "field"),
+    [
+        ('[material]\npassport = "pdms-10-1"\ntemperature = "0 degC"\n', "temperature"),
+        (f"{SOLID}[profile]\nexponent = 0\n", "exponent"),
+        (f'{SOLID}[surface]\nkind = "sphere"\n', "surface"),
+        (f"{SOLID}[cone]\nslope = 2\n", "slope"),
+    ],
+)
+def test_what_has_no_meaning_without_dimensions_is_refused(lines, field, tmp_path):
+    with pytest.raises(vt.InputError, match=field):
+        read(tmp_path, SHORT + lines)
+
+
 def predicted(path, *replaced):
     flags = [word for one in replaced for word in ("--set", one)]
     return CliRunner().invoke(application(), ["predict", str(path), *flags, "--json"])
@@ -101,6 +152,10 @@ def test_numbers_of_a_file_are_replaced(tmp_path):
     one = json.loads(predicted(path, "tabor=2.5", "rate = 100").stdout)
     two = json.loads(predicted(other).stdout)
     assert one["pull_off_force"] == two["pull_off_force"]
-    for wrong, name in (("tabour=2", "tabor"), ("tabor=2 mm", "tabor"), ("tabor=-1", "tabor")):
-        done = predicted(path, wrong)
+    for *wrong, name in (
+        ("tabour=2", "tabor"),
+        ("tabor=2 mm", "tabor"),
+        ("rate=1", "rate=2", "rate"),
+    ):
+        done = predicted(path, *wrong)
         assert done.exit_code == 2 and name in done.output

@@ -22,7 +22,8 @@ from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.passport_uncertainty import allowed, shift_error
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.problem.case_file import passport_of_tables, read_case
+from viscotack.problem.case_file import passport_of, read_case
+from viscotack.problem.tables import Reading
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {
@@ -167,8 +168,8 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     with pytest.raises(ValueError, match="temperature goes with problem"):
         read_plan(plan)
     tables = tomllib.loads(case.read_text())
-    beside = {"beside": case.parent.joinpath, "temperature": 273.15}
-    passport, deviation = passport_of_tables(tables, **beside)
+    reading = Reading("the case", beside=case.parent.joinpath)
+    passport, deviation = passport_of(tables, reading, 273.15)
     assert deviation == pytest.approx(0.15)
     assert passport.temperature == 273.15 and passport.material == moved.material
 
@@ -180,7 +181,7 @@ def test_a_passport_is_scaled_to_another_rubbery_modulus(tmp_path):
     solid = read_case(case).material
     assert solid == replace(own, rubbery_modulus=3e6, glassy_modulus=3 * own.glassy_modulus)
     tables = tomllib.loads(case.read_text())
-    scaled, _ = passport_of_tables(tables, beside=case.parent.joinpath)
+    scaled, _ = passport_of(tables, Reading("the case", beside=case.parent.joinpath))
     assert (scaled.name, scaled.material) == ("m, scaled to 3 MPa", solid)
     case.write_text(case.read_text().replace('"3 MPa"', '"-3 MPa"'))
     with pytest.raises(ValueError, match="rubbery_modulus must be positive"):

@@ -212,6 +212,15 @@ class Pairs:
         }
 
 
+class Exact:
+    """Marks a whole number or a switch of a table, for which text and others are not converted."""
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
+        """Accept values of the type itself."""
+        return handler(source) | {"strict": True}
+
+
 @dataclass(frozen=True)
 class Field:
     """A number of a noun: its name, card and default, and whether it may be None."""

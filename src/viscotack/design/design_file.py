@@ -18,7 +18,7 @@ from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded
 from viscotack.materials import Material
 from viscotack.materials.passport import Passport
-from viscotack.problem.case_file import case_of_tables, passport_of_tables
+from viscotack.problem.case_file import case_of_tables, passport_of
 from viscotack.problem.nouns import known
 from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
 
@@ -154,10 +154,7 @@ def read_design(
         for name, table in materials.items()
     }
     passports = {
-        name: passport_of_tables({"material": each}, where=path, also=also, beside=reading.beside)[
-            0
-        ]
-        for name, each in materials.items()
+        name: passport_of({"material": each}, reading)[0] for name, each in materials.items()
     }
     given = read_as(_ConditionsTable, tables.get("conditions", {}), reading, "conditions")
     speeds = {HOLD_SPEED: given.hold_speed, RELEASE_SPEED: given.release_speed}

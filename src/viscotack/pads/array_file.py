@@ -8,10 +8,11 @@ or positions; [pull] speed and preload; [backing] and [hold] are optional.
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-from viscotack.cards import Pairs, Quantity, cards
+from viscotack.cards import Exact, Pairs, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.problem.case_file import case_of_tables
@@ -38,14 +39,6 @@ class _Pull:
     hold_time: Annotated[float, Quantity("s", "t", "time held", example="10 s")] | None = None
 
 
-def _lengths(value: Any, reading: Reading) -> tuple[float, ...]:
-    return _numbers(value, reading, "m")
-
-
-def _shares(value: Any, reading: Reading) -> tuple[float, ...]:
-    return _numbers(value, reading, "1")
-
-
 def _numbers(value: Any, reading: Reading, unit: str) -> tuple[float, ...]:
     if not isinstance(value, list):
         raise InputError(f"must be a list, one entry for each pad, got {value!r:.60}")
@@ -63,17 +56,17 @@ class _Layout:
         ]
         | None
     ) = None
-    rows: int | None = None
-    columns: int | None = None
+    rows: Annotated[int, Exact] | None = None
+    columns: Annotated[int, Exact] | None = None
     spacing: (
         Annotated[float, Quantity("m", "d", "distance of the pads", above=0, example="4 mm")] | None
     ) = None
-    heights: Annotated[tuple[float, ...], Read(_lengths)] = ()
-    works: Annotated[tuple[float, ...], Read(_shares)] = ()
+    heights: Annotated[tuple[float, ...], Read(partial(_numbers, unit="m"))] = ()
+    works: Annotated[tuple[float, ...], Read(partial(_numbers, unit="1"))] = ()
     height_scatter: Annotated[float, cards(Scatter)["height"].card] | None = None
     work_scatter: Annotated[float, cards(Scatter)["work"].card] | None = None
-    seed: int = 0
-    draws: int = 300
+    seed: Annotated[int, Exact] = 0
+    draws: Annotated[int, Exact] = 300
 
     def __post_init__(self) -> None:
         if self.seed < 0 or self.draws < 0:

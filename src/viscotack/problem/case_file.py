@@ -44,10 +44,10 @@ from viscotack.problem.protocol_table import (
     protocol_from_table,
     table_of_groups,
     table_of_protocol,
-    test_in_groups,
+    test_of_groups,
 )
 from viscotack.problem.rough_case import RoughCase, StatedSurface, hash_of
-from viscotack.problem.tables import OWN, Reading, UnknownNoun, read_as, refuse_unknown, stated
+from viscotack.problem.tables import OWN, Reading, read_as, refuse_unknown, stated
 from viscotack.units import parse, readable
 
 Tables = Mapping[str, Any]
@@ -205,20 +205,19 @@ def problem_of(
             "several contacts; cases and campaigns have one"
         )
     test = "groups" if "groups" in tables else "protocol"
-    shape = "surface" if "surface" in tables else _one(tables, nouns.shapes, where, "indenter")
+    reading = replace(reading, pure=test == "groups")
+    if reading.pure and "surface" in tables:
+        raise InputError(f"{where}: a map of heights, [surface], is stated in SI with a [protocol]")
+    shape = "surface" if "surface" in tables else _indenter(tables, nouns.shapes, where)
     plain = shape != "surface" and nouns.shapes[shape].symmetry == "plane"
     bodies = [name for name in tables if name in nouns.bodies] or ([Layer.word] if plain else [])
     if len(bodies) > 1:
         raise InputError(f"{where}: only one body is allowed, got [{'] and ['.join(bodies)}]")
     names = ("material", "interface", test, shape, *bodies)
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
-    try:
-        refuse_unknown(where, tables, names, "table", more)
-    except InputError as error:
-        raise UnknownNoun(str(error)) from None
-    if test == "groups":
+    refuse_unknown(where, tables, names, "table", more)
+    if reading.pure:
         tables = {"interface": {"law": "lennard-jones"}, shape: {}, **tables}
-        reading = replace(reading, pure=True)
     if len(missing := [f"[{name}]" for name in names if name not in tables]) > 1:
         raise InputError(
             f"{where}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
@@ -230,9 +229,9 @@ def problem_of(
     body = _body(tables.get(bodies[0]), bodies[0], reading, material) if bodies else HalfSpace()
     parts: dict[str, Any] = {"material": material, "traction": law, "body": body}
     try:
-        if test == "groups":
+        if reading.pure:
             geometry = _shape(tables[shape], shape, reading)
-            return Groups(geometry=geometry, **parts, **test_in_groups(tables["groups"], reading))
+            return Groups(geometry=geometry, **parts, **test_of_groups(tables["groups"], reading))
         parts["protocol"] = protocol_from_table(
             tables.get("protocol"), reading, law.equilibrium_gap
         )
@@ -266,11 +265,11 @@ def tables_of(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
     return found | {"protocol": table_of_protocol(problem.protocol, problem.units)}
 
 
-def _one(tables: Tables, known: Mapping[str, Any], where: str, what: str) -> str:
+def _indenter(tables: Tables, known: Mapping[str, Any], where: str) -> str:
     """Return the name of the table that states the indenter."""
     given = [name for name in tables if name in known]
     if len(given) > 1:
-        raise InputError(f"{where}: only one {what} is allowed, got [{'] and ['.join(given)}]")
+        raise InputError(f"{where}: only one indenter is allowed, got [{'] and ['.join(given)}]")
     return given[0] if given else FlatPunch.word if Layer.word in tables else Sphere.word
 
 
@@ -296,25 +295,38 @@ def _shape(given: Any, name: str, reading: Reading) -> Any:
     kind = reading.nouns.shapes[name]
     table = given if isinstance(given, Mapping) else {}
     if kind in (PowerLawProfile, MeasuredProfile) and "file" in table:
-        file = reading.file(name, "file", table["file"])
-        columns = read_quantities(file, {"radius": "m", "height": "m"})
         try:
-            return MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
+            file = reading.file(name, "file", table["file"])
+            return measured_profile(file, pure=reading.pure)
         except ValueError as error:
-            raise InputError(f"{reading.where}, [{name}] {error}") from None
+            already = str(error).startswith(reading.where)
+            raise InputError(
+                str(error) if already else f"{reading.where}, [{name}] {error}"
+            ) from None
     if reading.pure and kind is Sphere:
         return read_as(kind, {"radius": 1.0} | dict(table), reading, name)
-    if kind is not PowerLawProfile or "coefficient" in table:
-        return read_as(
-            kind, given, replace(reading, bare=True) if "coefficient" in table else reading, name
-        )
+    if kind is not PowerLawProfile:
+        return read_as(kind, given, reading, name)
     if "slope" in table:
         return read_as(Cone, given, reading, name)
-    if reading.pure:
-        q = table.get("exponent")
-        return read_as(kind, {"coefficient": 1 / q, **table} if q else given, reading, name)
+    if reading.pure and "coefficient" not in table and "exponent" in table:
+        card = cards(PowerLawProfile)["exponent"].card
+        table = {**table, "coefficient": 1 / reading.key(name, "exponent", card, table["exponent"])}
+    if reading.pure or "coefficient" in table:
+        return read_as(kind, table, replace(reading, bare=True), name)
     point = read_as(ProfilePoint, given, reading, name)
     return PowerLawProfile(point.height / point.at_radius**point.exponent, point.exponent)
+
+
+def measured_profile(file: Path, *, pure: bool = False) -> MeasuredProfile:
+    """Return the profile of a CSV file with the columns radius and height.
+
+    Without dimensions radii are in beta and heights in any unit, scaled to the equivalent radius 1.
+    """
+    unit = "1" if pure else "m"
+    columns = read_quantities(file, {"radius": unit, "height": unit})
+    shape = MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
+    return shape.reduced(1.0, 1 / shape.equivalent_radius(1.0)) if pure else shape
 
 
 @dataclass(frozen=True)
@@ -327,7 +339,7 @@ class LayerTable:
 
 
 def _body(entries: Any, name: str, reading: Reading, material: Material) -> Any:
-    """Return the body entries by a table."""
+    """Return the body stated by a table."""
     kind = reading.nouns.bodies[name]
     if kind is not Layer:
         return read_as(kind, entries, reading, name)
@@ -352,17 +364,12 @@ def _surface(given: Any, reading: Reading) -> StatedSurface:
     return read_as(StatedSurface, table, reading, "surface")
 
 
-def passport_of_tables(
-    tables: Mapping[str, Any],
-    *,
-    where: Path | str = "the case",
-    temperature: float | None = None,
-    also: Iterable[Any] = (),
-    beside: Callable[[str], Path] | None = None,
+def passport_of(
+    tables: Tables, reading: Reading, temperature: float | None = None
 ) -> tuple[Passport | None, float]:
-    """Return the passport of a case's material at its temperature, and the doubt of its shift.
+    """Return the passport of a problem's material at its temperature, and the doubt of its shift.
 
-    The parameters are those of :func:`case_of_tables`, which has checked the tables.
+    The parameters are those of :func:`problem_of`, which has checked the tables.
 
     Returns
     -------
@@ -373,7 +380,6 @@ def passport_of_tables(
     """
     if "passport" not in tables["material"]:
         return None, 0.0
-    reading = Reading(str(where), known(also), beside)
     return moved(*_passport(tables["material"], reading, temperature))
 
 
@@ -400,13 +406,16 @@ def _material(given: Any, reading: Reading, temperature: float | None) -> Materi
     if not isinstance(given, Mapping):
         raise InputError(f"{reading.where}: the table [material] is missing; see docs/input.md")
     if "passport" in given:
-        passport, stated_temperature = _passport(given, reading, temperature)
+        passport, kelvin = _passport(given, reading, temperature)
+        if reading.pure:
+            if kelvin is not None:
+                raise InputError(
+                    f"{where} temperature has no effect on a dimensionless problem, because its "
+                    "rate is relative to the time of the material"
+                )
+            return passport.material.reduced()
         try:
-            return (
-                passport.at_temperature(stated_temperature)
-                if stated_temperature
-                else passport.material
-            )
+            return passport.material if kelvin is None else passport.at_temperature(kelvin)
         except ValueError as error:
             raise InputError(f"{where} {error}") from None
     if temperature is not None:
@@ -417,8 +426,6 @@ def _material(given: Any, reading: Reading, temperature: float | None) -> Materi
     rests(FITS_ONLY.get(str(given.get("model"))))
     kind = reading.choice(given, "material", "model", reading.nouns.materials, OWN)
     table = {key: value for key, value in given.items() if key != "model"}
-    if kind is Prony and "file" in table:
-        return _prony(table, reading)
     if reading.pure:
         implied = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0, "tau0": 1.0}
         table = {k: v for k, v in implied.items() if k in cards(kind)} | table
@@ -426,6 +433,8 @@ def _material(given: Any, reading: Reading, temperature: float | None) -> Materi
             given, name = table.pop("modulus_ratio"), "modulus_ratio"
             ratio = reading.key("material", name, card_of(ModulusRatio), given)
             table["glassy_modulus"] = 1 / ratio
+    if kind is Prony and "file" in table:
+        return _prony(table, reading)
     return read_as(kind, table, reading, "material")
 
 
@@ -433,7 +442,7 @@ def _passport(
     given: Any, reading: Reading, temperature: float | None
 ) -> tuple[Passport, float | None]:
     """Return the passport beside the file, and the requested temperature [K]."""
-    table = read_as(PassportTable, given, reading, "material")
+    table = read_as(PassportTable, given, replace(reading, pure=False), "material")
     if table.passport in MATERIALS:
         passport = published(table.passport)
     else:
@@ -461,6 +470,8 @@ def _prony(table: dict[str, Any], reading: Reading) -> Prony:
             "relaxation_time_s"
         )
     plain = read_as(Elastic, table, reading, "material")
-    second, E0 = parse(f"1 {unit}", "s"), plain.rubbery_modulus
+    # without dimensions the unit of the file is that of the rate
+    second = 1.0 if reading.pure else parse(f"1 {unit}", "s")
+    E0 = plain.rubbery_modulus
     branches = tuple((ratio * E0, time * second) for ratio, time in ratios)
     return Prony(rubbery_modulus=E0, poisson_ratio=plain.poisson_ratio, branches=branches)

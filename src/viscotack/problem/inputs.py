@@ -13,6 +13,7 @@ from typing import Any
 from viscotack.cards import Pairs, Quantity, cards, unusual
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Layer, PowerLawProfile
+from viscotack.problem.case_file import ProfilePoint
 from viscotack.problem.problem import Groups, Problem
 from viscotack.problem.protocol_table import STARTS, STARTS_IN_GROUPS
 from viscotack.problem.rough_case import RoughCase
@@ -21,10 +22,7 @@ from viscotack.protocol import Apart
 # A tip z = A r^q by the height that it has at a radius: the unit of A depends on q.
 _HEIGHT, _AT_RADIUS = "profile.height", "profile.at_radius"
 _EXPONENT, _COEFFICIENT = "profile.exponent", "profile.coefficient"
-_TIP = {
-    _HEIGHT: Quantity("m", "z", "height of the profile there", above=0, example="10 um"),
-    _AT_RADIUS: Quantity("m", "r", "radius at which it has its height", above=0, example="0.2 mm"),
-}
+_TIP = {f"profile.{key}": cards(ProfilePoint)[key].card for key in ("height", "at_radius")}
 _NU, _NU_OF_BASE = "material.poisson_ratio", "layer.poisson_ratio"
 
 Steps = tuple[str | int, ...]

@@ -28,19 +28,20 @@ def law_from_table(given: Any, reading: Reading) -> Traction:
     if reading.pure:
         table = dict.fromkeys(_SCALES, 1.0) | table
     if not has_rest(kind):
-        return _of_gap(kind, table, reading)
+        law = _of_gap(kind, table, reading)
+        return law.reduced() if reading.pure else law
     rest = {word: law for word, law in reading.nouns.laws.items() if not has_rest(law)}
     table = {"base": LennardJones.word} | table
     base = reading.choice(table, "interface", "base", rest, OWN)
     growth = {field.name for field in _constants(kind)}
     own = cards(base).keys() | {"strength", "file", "points"}
-    law: Any = _of_gap(
+    at_rest: Any = _of_gap(
         base, {k: v for k, v in table.items() if k in own and k not in growth}, reading
     )
-    scales = {name: getattr(law, name) for name in _SCALES}
+    scales = {name: 1.0 if reading.pure else getattr(at_rest, name) for name in _SCALES}
     constants = {k: v for k, v in table.items() if k != "base" and (k in growth or k not in own)}
     said = {name: f"{x!r} {reading.unit(cards(kind)[name].card)}" for name, x in scales.items()}
-    return read_as(kind, {**said, **constants, "base": law.reduced()}, reading, "interface")
+    return read_as(kind, {**said, **constants, "base": at_rest.reduced()}, reading, "interface")
 
 
 def _of_gap(kind: Any, table: Mapping[str, Any], reading: Reading) -> Traction:

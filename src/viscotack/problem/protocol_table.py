@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from viscotack.cards import Quantity, cards
+from viscotack.cards import Exact, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.problem.problem import Cohesion, Groups, Rate, Spring, Tabor
 from viscotack.problem.tables import Reading, read_as
@@ -60,7 +60,7 @@ class ProtocolTable:
     start: str | None = None
     history: str | None = None
     moves: tuple[str | dict[str, str | float], ...] = ()
-    cycles: int = 1
+    cycles: Annotated[int, Exact] = 1
     speed: Speed | None = None
     stiffness: Stiffness | None = None
 
@@ -151,7 +151,7 @@ def table_of_protocol(test: Retraction, units: Mapping[str, str]) -> dict[str, A
     return found | _drive(test.moves, units, speed=test.speed, stiffness=test.stiffness)
 
 
-def test_in_groups(given: Any, reading: Reading) -> dict[str, Any]:
+def test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
     """Return the numbers and the test of the table [groups], as arguments of Groups."""
     table = read_as(GroupsTable, given, reading, "groups")
     where = f"{reading.where}, [groups]"

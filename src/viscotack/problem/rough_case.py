@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from viscotack.cards import Quantity, cards, conform
+from viscotack.cards import Exact, Quantity, cards, conform
 from viscotack.errors import InputError
 from viscotack.files.bounded import open_regular
 from viscotack.geometry import HalfSpace
@@ -84,9 +84,9 @@ class StatedSurface:
     kind: tuple[str, ...] = ()
     file: str = ""
     sha256: str = ""
-    periodic: bool | None = None
-    level: bool = False
-    remove_curvature: bool = False
+    periodic: Annotated[bool, Exact] | None = None
+    level: Annotated[bool, Exact] = False
+    remove_curvature: Annotated[bool, Exact] = False
     pixels: _Pixels | None = None
     pixel: _Pixel | None = None
     height_unit: _HeightUnit | None = None

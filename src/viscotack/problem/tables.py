@@ -29,13 +29,8 @@ _WANTED = {
     "tuple_type": "a list",
     "string_type": "text",
     "int_type": "a whole number",
-    "int_from_float": "a whole number",
-    "int_parsing": "a whole number",
     "bool_type": "true or false",
-    "bool_parsing": "true or false",
 }
-# Beginnings of a message that follow the name of a key without a colon.
-_DIRECT = ("must ", "has no unit")
 # Tables of one kind of file: the command that reads it, and what it has.
 _ELSEWHERE = {
     "surface": ("rough", "a map of heights"),
@@ -106,9 +101,7 @@ class Reading:
         try:
             return self.number(card, value)
         except InputError as error:
-            words = str(error).strip()
-            joint = " " if words.startswith(_DIRECT) else ": "
-            raise InputError(f"{self.where}, [{table}] {key}{joint}{words}") from None
+            raise InputError(f"{self.where}, [{table}] {_after(key, str(error))}") from None
 
     def parsed(self, value: Any, unit: str, example: str = "") -> float:
         """Return a number in a unit."""
@@ -224,11 +217,14 @@ def _words(kind: Any, error: "ValidationError", reading: Reading) -> str:
     key = str(first["loc"][0]) if first["loc"] else ""
     own = first.get("ctx", {}).get("error")
     wanted = _WANTED.get(first["type"], first["msg"].removeprefix("Input should be "))
-    words = str(own or f"must be {wanted}, got {first['input']!r:.60}").strip()
-    if not key:
-        return words
-    joint = " " if words.startswith(_DIRECT) else ": "
-    return f"{key}{joint}{words}"
+    words = str(own or f"must be {wanted}, got {first['input']!r:.60}")
+    return _after(key, words) if key else words
+
+
+def _after(key: str, words: str) -> str:
+    """Return what is wrong with a key, behind its name."""
+    words = words.strip()
+    return f"{key} {words}" if words.startswith(("must ", "has no unit")) else f"{key}: {words}"
 
 
 def _example(kind: Any, name: str, reading: Reading) -> str:
@@ -253,13 +249,14 @@ def refuse_unknown(
         if name not in known:
             if what == "table" and name in _ELSEWHERE:
                 command, noun = _ELSEWHERE[name]
-                raise InputError(
+                raise UnknownNoun(
                     f"{where}: unknown table {name!r}: it states {noun}, in a file of "
                     f"`viscotack {command}`; expected {', '.join(known)}"
                 )
             close = difflib.get_close_matches(str(name), known, n=1)
             hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}{more}"
-            raise InputError(f"{where}: unknown {what} {name!r}; {hint}")
+            kind = UnknownNoun if what == "table" else InputError
+            raise kind(f"{where}: unknown {what} {name!r}; {hint}")
 
 
 def refuse_named(where: str, tables: Mapping[str, Any], words: Iterable[str], why: str) -> None:

@@ -20,16 +20,6 @@ STATED_SCHEMA = {
         },
     ],
 }
-EXAMPLE = {
-    "material": {"model": "elastic", "rubbery_modulus": "1 MPa", "poisson_ratio": 0.5},
-    "interface": {
-        "law": "lennard-jones",
-        "work_of_adhesion": "50 mJ/m^2",
-        "equilibrium_gap": "1 um",
-    },
-    "sphere": {"radius": "1 mm"},
-    "protocol": {"preload_depth": "1 um", "speed": "10 um/s"},
-}
 Accuracy = Annotated[
     float,
     Field(ge=1e-6, le=LOOSEST_ACCURACY, description="Required relative error of the force."),

@@ -4,9 +4,10 @@ from typing import Any
 
 from fastapi import FastAPI
 
+from viscotack.operations.parts.examples import FIRST
 from viscotack.problem.schema import schema
 
-from .models import EXAMPLE, STATED_SCHEMA
+from .models import STATED_SCHEMA
 
 _PROBLEMS = "#/$defs/"
 
@@ -21,7 +22,7 @@ def described(app: FastAPI) -> None:
             tables = _moved(schema())
             defined = tables.pop("$defs")
             found["components"]["schemas"] |= defined | {
-                "Tables": tables | {"examples": [EXAMPLE]},
+                "Tables": tables | {"examples": [FIRST]},
                 "Stated": STATED_SCHEMA,
             }
             app.openapi_schema = found

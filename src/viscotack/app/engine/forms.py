@@ -10,6 +10,8 @@ from viscotack.cards import Field, Pairs, Quantity, card_of, cards
 from viscotack.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
 from viscotack.problem import plane, revolution
 from viscotack.problem.accuracy import Accuracy
+from viscotack.problem.case_file import ProfilePoint
+from viscotack.problem.law_table import STRENGTH
 from viscotack.problem.nouns import Nouns, known
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import Tabulated
@@ -26,14 +28,6 @@ _SUGGESTED = {
     "J/m^2": "0.05 J/m^2",
     "1": "0.5",
 }
-# A power-law tip is stated by one point of its flank, as in a file.
-_POINT = {
-    "height": Quantity("m", "z", "height of the flank at that radius", above=0, example="10 um"),
-    "at_radius": Quantity(
-        "m", "r", "radius at which it has that height", above=0, example="0.2 mm"
-    ),
-}
-_STRENGTH = Quantity("Pa", "sigma0", "largest tension of the law", above=0, example="100 kPa")
 # Ways to begin, by what a force is measured in: that of a punch is a mean stress.
 _DEPTH = ("preload_depth", AtDepth, "pressed to a depth")
 _STARTS = {
@@ -101,7 +95,7 @@ def _laws(nouns: Nouns) -> list[dict[str, Any]]:
         choice = _choice(word, kind)
         for field in choice["fields"]:
             if field["key"] == "equilibrium_gap":
-                field["or"] = _asked("strength", _STRENGTH)
+                field["or"] = _asked("strength", STRENGTH)
         found.append(choice)
     return found
 
@@ -109,8 +103,7 @@ def _laws(nouns: Nouns) -> list[dict[str, Any]]:
 def _shape(word: str, kind: Any) -> dict[str, Any]:
     choice = _choice(word, kind) | {"symmetry": kind.symmetry}
     if kind is PowerLawProfile:
-        exponent = [field for field in choice["fields"] if field["key"] == "exponent"]
-        choice["fields"] = [*exponent, *(_asked(name, card) for name, card in _POINT.items())]
+        choice["fields"] = _fields(ProfilePoint)
     return choice
 
 

@@ -7,11 +7,11 @@ An :class:`Indenter` has :attr:`Indenter.questions`, each with name, description
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.files.quantities import read_quantities
 from viscotack.geometry import (
     Bonded,
     Disc,
@@ -36,7 +36,7 @@ from viscotack.materials.library import MATERIALS, passport_of
 from viscotack.materials.passport import Passport
 from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, plane, revolution
-from viscotack.problem.case_file import moved
+from viscotack.problem.case_file import measured_profile, moved
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.prony_file import read_prony
@@ -334,9 +334,7 @@ def _measured(file: str) -> MeasuredProfile:
     """Read a profile without dimensions, scaled to the equivalent radius 1."""
     if not file.endswith(".csv"):
         raise InputError(f"--{_FILE} must name a file FILE.csv, got {file!r:.60}")
-    columns = read_quantities(file, {"radius": "1", "height": "1"})
-    shape = MeasuredProfile(tuple(zip(columns["radius"], columns["height"], strict=True)))
-    return shape.reduced(1.0, 1 / shape.equivalent_radius(1.0))
+    return measured_profile(Path(file), pure=True)
 
 
 def _layer(given: Mapping[str, Any]) -> Layer:

@@ -16,8 +16,10 @@ from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml, toml_value
 from viscotack.materials.passport import Passport
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.problem.case_file import case_of_tables, passport_of_tables
+from viscotack.problem.case_file import case_of_tables, passport_of
+from viscotack.problem.nouns import known
 from viscotack.problem.problem import Problem
+from viscotack.problem.tables import Reading
 
 # Of a case that is sent: it states a few dozen numbers, a Prony series some hundred.
 _MOST_TEXT, _MOST_KEYS = 200_000, 200
@@ -84,7 +86,7 @@ class State:
     @cached_property
     def passport(self) -> Passport | None:
         """The passport of the material at its temperature; None if numbers define it."""
-        return passport_of_tables(self.tables, where=_WHERE, also=self.also)[0]
+        return passport_of(self.tables, Reading(_WHERE, known(self.also)))[0]
 
     @property
     def query(self) -> str:

@@ -117,11 +117,13 @@ class Stated(Card):
             return self._of_case(value, place)
         if _INDENTER in value:
             return self._of_numbers(value, place)
-        from viscotack.problem.case_file import passport_of_tables
-        from viscotack.problem.record import from_dict
+        from viscotack.problem.case_file import passport_of, problem_of
+        from viscotack.problem.nouns import known
+        from viscotack.problem.tables import Reading
 
-        problem = self._checked(from_dict(value, place.also, beside=place.file))
-        passport, deviation = passport_of_tables(value, also=place.also, beside=place.file)
+        reading = Reading("the problem", known(place.also), place.file, bare=True)
+        problem = self._checked(problem_of(value, reading))
+        passport, deviation = passport_of(value, reading)
         return Statement(problem, deviation, value, passport)
 
     def written(self, value: Statement) -> Any:
@@ -163,7 +165,7 @@ class Stated(Card):
 
     def _of_case(self, value: Mapping[str, Any], place: Place) -> Statement:
         from viscotack.files.toml import read_toml
-        from viscotack.problem.case_file import passport_of_tables, problem_of
+        from viscotack.problem.case_file import passport_of, problem_of
         from viscotack.problem.nouns import known
         from viscotack.problem.tables import Reading
 
@@ -181,9 +183,7 @@ class Stated(Card):
         problem = self._checked(problem_of(tables, reading, kelvin))
         if _SET in given:
             problem = _with_numbers(problem, given[_SET], tables)
-        passport, deviation = passport_of_tables(
-            tables, where=str(case), also=place.also, temperature=kelvin, beside=beside
-        )
+        passport, deviation = passport_of(tables, reading, kelvin)
         stated = Statement(
             problem, deviation, {**given, _CASE: case} if len(given) > 1 else case, passport
         )
@@ -230,6 +230,8 @@ def _with_numbers(problem: Any, said: Any, tables: Mapping[str, Any]) -> Any:
     known, values = inputs_of(problem), dict[str, float]()
     for words in [said] if isinstance(said, str) else said:
         name, equals, text = (part.strip() for part in str(words).partition("="))
+        if name in values:
+            raise InputError(f"--set {name} is given twice; remove one")
         if not equals or name not in known:
             raise InputError(
                 f'--set must name a number of the file, sphere.radius="6 mm", got {words!r:.60}; '
