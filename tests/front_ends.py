@@ -1,4 +1,4 @@
-"""One question through every door: Python, command line, HTTP, the form of the page, a study.
+"""One question through every door: Python, command line, HTTP, a study.
 
 A question is the word of an operation and its options as a user states them. Each door gives the
 record of the answer, or the words by which the question was refused.
@@ -8,7 +8,7 @@ import asyncio
 import contextlib
 import io
 import json
-import tomllib
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,27 +17,17 @@ import httpx
 from viscotack import InputError
 from viscotack.app.api import application
 from viscotack.app.cli import main
-from viscotack.app.engine.crew import Refused
 from viscotack.app.engine.jobs import Engine
-from viscotack.app.engine.operating import run_operation
 from viscotack.files.toml import toml_value
 from viscotack.operations import ask, operation
-from viscotack.operations.declare.cards import File, Known, Named, Spelled, Switch
-from viscotack.operations.declare.options import options, spelled
-from viscotack.operations.declare.statement import Stated
 from viscotack.operations.parts.json_data import plain
+from viscotack.operations.request import Contact, Rows, flag_of, option_of
 from viscotack.problem.nouns import own_nouns
 
 # What two runs of one question do not share.
 OF_A_RUN = ("wall_time_s",)
 # What the library of the command line says itself, of flags that it does not know or misses.
-OF_THE_SHELL = (
-    "No such option",
-    "Missing",
-    "is not a valid float",
-    "Got unexpected",
-    "requires an",
-)
+OF_THE_SHELL = ("No such option", "Missing", "Got unexpected", "requires an")
 
 
 @dataclass
@@ -62,25 +52,41 @@ class Told:
     refused: str = ""
 
 
+def refused(words):
+    """Return the words of a refusal with options as Python spells them."""
+    return Told(refused=re.sub(r"--([a-z][a-z0-9-]*)", lambda x: x[1].replace("-", "_"), words))
+
+
 def by_python(question):
     try:
         also = own_nouns(question.own)
         return Told(without_times(plain(ask(question.word, also=also, **question.given).record())))
+    except FileNotFoundError as error:
+        return refused(f"there is no file {error.filename}")
     except (InputError, OSError) as error:
-        return Told(refused=words_of(error))
-
-
-def words_of(error):
-    missing = isinstance(error, FileNotFoundError)
-    return f"there is no file {error.filename}" if missing else str(error)
+        return refused(str(error))
 
 
 def by_command(question):
-    status, out, err = run(arguments(question))
+    return by_arguments(arguments(question))
+
+
+def by_study(question):
+    lines = [f"operation = {toml_value(question.word)}"]
+    lines += [f"{name} = {toml_value(value)}" for name, value in question.given.items()]
+    study = Path("asked.toml")
+    study.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    own = [part for path in question.own for part in ("--with", path)]
+    told = by_arguments(["study", study, "--json", *own])
+    return Told(told.record, told.refused.removeprefix(f"{study}: "))
+
+
+def by_arguments(words):
+    status, out, err = run(words)
     if status in (0, 1, 4):
         return Told(without_times(json.loads(out)))
-    _, ours, words = f"\n{err}".rpartition("\nviscotack: ")
-    return Told(refused=spelled(words.rstrip("\n") if ours else err, question.kind))
+    _, ours, said = f"\n{err}".rpartition("\nviscotack: ")
+    return refused(said.rstrip("\n") if ours else err)
 
 
 def run(arguments):
@@ -96,31 +102,27 @@ def run(arguments):
 def arguments(question):
     """Return the command line of a question."""
     word, flags, places = question.word.split(), [], []
-    for option in options(question.kind):
-        if option.name not in question.given:
+    for name, value in question.given.items():
+        info = question.kind.model_fields.get(name)
+        if info is None:
+            flags += [f"--{name.replace('_', '-')}", value]
             continue
-        value = question.given[option.name]
-        if option.card.form == "rows":
+        option = option_of(info)
+        several = value if isinstance(value, list) else [value]
+        if isinstance(option, Rows) and isinstance(value, list):
             write_rows(value)
-            value = "rows.csv"
-        if isinstance(option.card, Stated):
-            command, stated = problem_flags(option.card, value)
+            several = ["rows.csv"]
+        if isinstance(option, Contact):
+            command, stated = problem_flags(option, value)
             word, flags = [*word, *command], [*flags, *stated]
-        elif isinstance(option.card, Switch) and isinstance(value, bool):
-            spelled_no = f"--no-{option.flag.removeprefix('--')}"
-            flags += [option.flag] if value else [spelled_no] if option.default is True else []
-        elif option.card.argument:
-            places += value if isinstance(value, list) else [value]
-        elif getattr(option.card, "elsewhere", False):
-            word.append(value)
-        elif isinstance(option.card, Known) and isinstance(value, list):
-            flags += [option.flag, value[0], f"{option.flag}-uncertainty", value[1]]
+        elif isinstance(value, bool):
+            flag = flag_of(name, option)
+            spelled_no = f"--no-{flag.removeprefix('--')}"
+            flags += [flag] if value else [spelled_no] if info.default is True else []
+        elif option.argument or getattr(option, "elsewhere", False):
+            places += several
         else:
-            for each in value if isinstance(value, list) else [value]:
-                flags += [option.flag, each]
-    unknown = question.given.keys() - {option.name for option in options(question.kind)}
-    for name in unknown:
-        flags += [f"--{name.replace('_', '-')}", question.given[name]]
+            flags += [part for each in several for part in (flag_of(name, option), each)]
     flags += [part for path in question.own for part in ("--with", path)]
     return [*word, *flags, "--json", *(["--"] if places else []), *places]
 
@@ -131,99 +133,52 @@ def write_rows(rows):
     Path("rows.csv").write_text("\n".join(lines) + "\n")
 
 
-def problem_flags(card, value):
+def problem_flags(option, value):
     """Return what states a problem on the command line: words of the command, and flags."""
+    case = ["case"] if option.spelling == "commands" else []
     if not isinstance(value, dict):
-        return (["case"] if card.spelling == "commands" else []), [value]
+        return case, [value]
     answers = {name: each for name, each in value.items() if name not in ("indenter", "case")}
     flags = [part for n, v in answers.items() for part in (f"--{n.replace('_', '-')}", v)]
     if "case" in value:
-        flags = [value["case"], *flags]
-        return (["case"] if card.spelling == "commands" else []), flags
-    return ([] if card.spelling == "flags" else [value["indenter"]]), flags
-
-
-class InProcess(Engine):
-    """An engine that computes in this process: what it answers is what its processes answer."""
-
-    own = ()
-
-    async def begin(self):
-        pass
-
-    async def end(self):
-        pass
-
-    async def ask(self, task, asked, **more):
-        assert task == "operation"
-        try:
-            return json.loads(
-                json.dumps(run_operation(asked, lambda told: None, own_nouns(self.own)))
-            )
-        except InputError as error:
-            raise Refused(str(error)) from None
+        return case, [value["case"], *flags]
+    return ([] if option.spelling == "flags" else [value["indenter"]]), flags
 
 
 class Http:
-    """A client of the application in this process."""
+    """A client of a server in this process, whose tasks have processes."""
 
     def __init__(self, own=()):
         self.loop = asyncio.new_event_loop()
-        engine = InProcess()
-        engine.own = own
-        transport = httpx.ASGITransport(app=application(engine), raise_app_exceptions=False)
+        app = application(Engine(own=[str(each) for each in own]))
+        self.alive = app.router.lifespan_context(app)
+        transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
         self.client = httpx.AsyncClient(transport=transport, base_url="http://localhost")
+        self.wait(self.alive.__aenter__())
+
+    def wait(self, what):
+        return self.loop.run_until_complete(what)
 
     def __call__(self, path, **more):
-        return self.loop.run_until_complete(self.client.post(path, timeout=600, **more))
+        return self.wait(self.client.post(path, timeout=600, **more))
 
     def get(self, path):
-        return self.loop.run_until_complete(self.client.get(path))
+        return self.wait(self.client.get(path))
+
+    def send(self, names):
+        """Send files; return the query of a request that names them."""
+        files = [("files", (str(name), Path(name).read_bytes())) for name in names]
+        return self("/api/files", files=files).json() if files else {}
 
     def close(self):
-        self.loop.run_until_complete(self.client.aclose())
+        self.wait(self.client.aclose())
+        self.wait(self.alive.__aexit__(None, None, None))
         self.loop.close()
 
 
 def by_http(question, http):
-    """Ask in JSON where no file is to be sent, else as a form."""
     path = f"/api/{question.word.replace(' ', '/')}"
-    sent = files_of(question)
-    if sent:
-        return by_form(question, http)
-    return told(http(path, json=question.given))
-
-
-def by_form(question, http):
-    """Ask as the page does: a form of texts and files."""
-    path = f"/api/{question.word.replace(' ', '/')}"
-    known = {option.name: option for option in options(question.kind)}
-    data, files = {}, []
-    for name, value in question.given.items():
-        card = known[name].card if name in known else None
-        if isinstance(card, File):
-            for each in value if isinstance(value, list) else [value]:
-                if Path(each).is_file():
-                    files.append((name, (str(each), Path(each).read_bytes())))
-                else:
-                    data.setdefault(name, []).append(str(each))
-        elif isinstance(card, Stated) or (card is not None and card.form == "rows"):
-            data[name] = json.dumps(value)
-        else:
-            data[name] = [text(each) for each in (value if isinstance(value, list) else [value])]
-    for name in list(data):
-        if name in known and isinstance(known[name].card, Known) and len(data[name]) == 2:
-            data[name], data[f"{name}_uncertainty"] = data[name][:1], data[name][1:]
-    for each in files_of(question):
-        if not any(each == named for _, (named, _) in files):
-            files.append(("attached", (each, Path(each).read_bytes())))
-    # a form without a file is a multipart form as well
-    files = files or [("attached", ("nothing.txt", b""))]
-    return told(http(path, data=data, files=files))
-
-
-def text(value):
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return told(http(path, json=question.given, params=http.send(files_of(question.given))))
 
 
 def told(response):
@@ -232,43 +187,20 @@ def told(response):
         answer.pop("beside", None)
         return Told(without_times(answer))
     assert response.status_code == 422, response.text
-    return Told(refused=answer["error"])
+    return refused(answer["error"])
 
 
-def files_of(question):
-    """Return the files that the options of a question name and that are there."""
-    known = {option.name: option for option in options(question.kind)}
-    found = []
-    for name, value in question.given.items():
-        card = known[name].card if name in known else None
-        named = value if isinstance(value, list) else [value]
-        if isinstance(card, Stated):
-            if isinstance(value, dict):
-                named = [value.get("case"), *(str(v).rpartition(":")[2] for v in value.values())]
-            found += [each for each in named if isinstance(each, str) and Path(each).is_file()]
-        elif isinstance(card, File | Named | Spelled):
-            found += [
-                bare for each in named if Path(bare := str(each).rpartition(":")[2]).is_file()
-            ]
-    # a study names the files of its tests, which a request must contain too
-    for study in [each for each in found if each.endswith(".toml")]:
-        named = tomllib.loads(Path(study).read_text(encoding="utf-8")).get("files", [])
-        found += [each for each in named if Path(each).is_file()]
-    return list(dict.fromkeys(found))
-
-
-def by_study(question):
-    """Ask by a file."""
-    lines = [f"operation = {toml_value(question.word)}"]
-    lines += [f"{name} = {toml_value(value)}" for name, value in question.given.items()]
-    study = Path("asked.toml")
-    study.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    own = [part for path in question.own for part in ("--with", path)]
-    status, out, err = run(["study", study, "--json", *own])
-    if status in (0, 1, 4):
-        return Told(without_times(json.loads(out)))
-    _, _, words = f"\n{err}".rpartition("\nviscotack: ")
-    return Told(refused=words.removeprefix(f"{study}: ").rstrip("\n"))
+def files_of(value):
+    """Return the files that a request names, and those that its studies name."""
+    if isinstance(value, dict):
+        return list(dict.fromkeys(file for each in value.values() for file in files_of(each)))
+    if isinstance(value, list):
+        return list(dict.fromkeys(file for each in value for file in files_of(each)))
+    file = Path(str(value).rpartition(":")[2])
+    if not file.is_file():
+        return []
+    named = re.findall(r'"([^"]+)"', file.read_text("utf-8")) if file.suffix == ".toml" else []
+    return [file.name, *(each for each in named if Path(each).is_file() and each != file.name)]
 
 
 def without_times(value):
@@ -279,12 +211,10 @@ def without_times(value):
 
 
 def through_all(question, http):
-    """Return what each door answers, those left out in which the operation is refused by design."""
+    """Return what each door answers, HTTP only where it has the operation."""
     found = {
         "Python": by_python(question),
         "command line": by_command(question),
         "study": by_study(question),
     }
-    if "http" not in question.kind.refused:
-        found |= {"HTTP": by_http(question, http), "form": by_form(question, http)}
-    return found
+    return found if question.kind.local else found | {"HTTP": by_http(question, http)}

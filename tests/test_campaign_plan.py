@@ -4,7 +4,8 @@ import pytest
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.columns import KINDS, has_relaxed_contact
 from viscotack.campaign.design import METHODS, fill, grid
-from viscotack.operations.declare import questions
+from viscotack.operations.flags import stated
+from viscotack.operations.request import Caller
 from viscotack.problem.record import run_id
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
@@ -36,10 +37,9 @@ def sphere_fill(cases=256, **changes):
 def test_a_row_of_a_csv_file_is_the_problem_that_the_flags_state(tmp_path):
     path = written(tmp_path, HEADER + "3.24,0.1,0.8,73,316.23\n", "cases.csv")
     plan = read_plan(path)
-    flags = {name.replace("_", "-"): value for name, value in INPUTS.items()}
     (case,) = plan.cases
     assert case.inputs == INPUTS
-    assert case.name == run_id(questions.stated(questions.SPHERE, flags))
+    assert case.name == run_id(stated("sphere", INPUTS, Caller()).problem)
     assert plan.settings == CaseSettings()
 
 

@@ -13,8 +13,9 @@ from viscotack import methods
 from viscotack.app import cli
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw
 from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.result import load
+from viscotack.traction import LennardJones
 
 SPHERE = ["simulate", "sphere"]
 ISSUE = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73 --rate 316.23".split()
@@ -90,37 +91,69 @@ def test_a_prony_file_sets_the_unit_of_time(fake, tmp_path):
         rubbery_modulus=1, branches=((5, 20), (4, 300)), poisson_ratio=0
     )
     assert fake["problem"].rate == 3
-    scales = ["--radius", "5 mm", "--contact-modulus", "2 MPa", "--equilibrium-gap", "1 um"]
-    exit_status([*SPHERE, *flags, *scales, "--poisson-ratio", "0.5"])
-    problem = fake["problem"]
-    assert problem.protocol.speed == pytest.approx(3 * 1e-6 / 1e-3, rel=1e-12)
-    assert problem.material.branches[1] == pytest.approx((4 * 1.5e6, 0.3), rel=1e-12)
+    series = {"material": f"prony:{path}", "modulus_ratio": None, "exponent": None}
+    exit_status(lens(**series))
+    assert fake["problem"].rate == 3  # a time beside those of the file is refused
+    exit_status(lens(**series, tau0=None))
+    assert fake["problem"].material.branches[1] == pytest.approx((4 * 1.458e6, 0.3), rel=1e-12)
 
 
-SCALES = {
+LENS = {
     "--radius": "5.19 mm",
     "--contact-modulus": "1.944 MPa",
-    "--work-of-adhesion": "0.1523 J/m2",
+    "--modulus-ratio": "0.1",
+    "--exponent": "0.8",
     "--tau0": "18.76 ms",
-    "--poisson-ratio": "0.5",
+    "--work-of-adhesion": "0.1523 J/m2",
+    "--equilibrium-gap": "1.55 um",
+    "--preload-force": "1.5 mN",
+    "--speed": "100 um/s",
 }
 
 
-def scales(**changes):
-    chosen = SCALES | {f"--{k.replace('_', '-')}": v for k, v in changes.items()}
-    return [x for pair in chosen.items() if pair[1] is not None for x in pair]
+def lens(**changes):
+    chosen = LENS | {f"--{k.replace('_', '-')}": v for k, v in changes.items()}
+    return [*SPHERE, *(x for pair in chosen.items() if pair[1] is not None for x in pair)]
 
 
-def test_scales_with_units_turn_groups_into_si(fake, capsys):
-    assert exit_status([*SPHERE, *ISSUE, *scales(), "--json"]) == 0
+def test_flags_with_units_state_a_problem_in_si(fake, capsys):
+    assert exit_status([*lens(), "--json"]) == 0
     problem = fake["problem"]
     assert isinstance(problem, Problem)
     assert problem.geometry.radius == 5.19e-3
-    assert problem.material.tau0 == pytest.approx(0.01876, rel=1e-12)
-    assert problem.material.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
-    assert problem.tabor == pytest.approx(3.24, rel=1e-12)
+    solid = problem.material
+    assert (solid.exponent, solid.tau0, solid.poisson_ratio) == (0.8, 0.01876, 0.5)
+    assert solid.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
+    assert solid.glassy_modulus == pytest.approx(1.458e7, rel=1e-12)
+    assert problem.protocol == Retraction(start=AtForce(1.5e-3), speed=1e-4)
+    assert problem.traction == LennardJones(0.1523, 1.55e-6)
     answer = json.loads(capsys.readouterr().out)
     assert answer["pull_off_force_N"] == pytest.approx(3.7248e-3, rel=1e-4)
+    exit_status(lens(contact_modulus=None, rubbery_modulus="1.458 MPa"))
+    assert fake["problem"] == problem
+    exit_status(lens(equilibrium_gap=None, strength=f"{problem.traction.strength!r} Pa"))
+    assert fake["problem"].traction.equilibrium_gap == pytest.approx(1.55e-6, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("changes", "flag"),
+    [
+        ({"radius": "5.19"}, "--radius"),
+        ({"speed": "100 um"}, "--speed"),
+        ({"speed": None}, "--speed"),
+        ({"radius": None}, "--radius"),
+        ({"tabor": "3"}, "--tabor"),
+        ({"preload": "1 um"}, "--preload"),
+        ({"preload_force": None}, "--preload-force"),
+        ({"modulus_ratio": "10"}, "--modulus-ratio"),
+        ({"material": "pdms-10-1"}, "modulus-ratio"),
+        ({"strength": "1 MPa"}, "strength"),
+        ({"tau0": "1 m"}, "--tau0"),
+        ({"half_width": "1 mm"}, "--half-width"),
+    ],
+)
+def test_a_wrong_flag_in_si_is_named(changes, flag, fake, capsys):
+    assert flag in wrong(lens(**changes), capsys)
 
 
 def test_a_failed_simulation_exits_with_one_and_its_status(fake, capsys):
@@ -139,9 +172,10 @@ TAPS = [
     *2 * ["--move", "approach 5 to depth 2", "--move", "retract 5 to depth -15"],
 ]
 HANG = [
-    *"simulate sphere --tabor 2 --material sls --modulus-ratio 0.1 --accuracy 1e-2".split(),
-    *"--preload-force 0 --move".split(),
-    *["load to force -1.5 in 0.001", "--move", "hold force 1000"],
+    *"simulate sphere --material sls --modulus-ratio 0.1 --accuracy 1e-2 --preload-force".split(),
+    *["0 N", "--radius", "5 mm", "--contact-modulus", "2 MPa", "--tau0", "0.1 s", "--strength"],
+    *["150 kPa", "--work-of-adhesion", "0.15 J/m^2"],
+    *["--move", "load to force -5.3 mN in 0.1 ms", "--move", "hold force 100 s"],
 ]
 
 
@@ -162,8 +196,7 @@ def test_each_cycle_is_printed_as_text_json_and_a_table(capsys, tmp_path):
 
 
 def test_time_to_failure_under_a_dead_load_is_printed_as_text_json_and_a_table(capsys, tmp_path):
-    scales = "--radius 5mm --contact-modulus 2MPa --poisson-ratio 0.5 --tau0 0.1s".split()
-    run = [*HANG, *scales, "--work-of-adhesion", "0.15 J/m^2", "--save", tmp_path / "d.npz"]
+    run = [*HANG, "--save", tmp_path / "d.npz"]
     assert exit_status([*run, "--cycles", tmp_path / "d.csv"]) == 0
     words = capsys.readouterr().out
     assert exit_status(["show", tmp_path / "d.npz", "--json"]) == 0

@@ -70,17 +70,17 @@ def test_a_contact_with_a_crack_for_its_edge_in_json_csv_and_a_picture(capsys, t
 
 
 def test_a_contact_in_si_units_is_printed_in_si_units_and_as_text(capsys):
+    # dg with mu = 500: (mu^3 E*^2 h0^3/R)^(1/2)
+    work = (500**3 * 4e12 * 1e-27 / 1e-3) ** 0.5
     scales = ["--radius", "1 mm", "--contact-modulus", "2 MPa", "--equilibrium-gap", "1 nm"]
-    scales += ["--tau0", "1 ms", "--poisson-ratio", 0.5]
-    problem = ["--tabor", 500, "--material", "sls", "--modulus-ratio", 0.1, "--preload", 1e4]
-    command = ["theory", "crack-contact", *problem, "--rate", 100, *scales]
+    scales += ["--tau0", "1 ms", "--work-of-adhesion", f"{work!r} J/m^2", "--preload", "10 um"]
+    problem = ["--material", "sls", "--modulus-ratio", 0.1, "--speed", "100 um/s"]
+    command = ["theory", "crack-contact", *problem, *scales]
     assert exit_status(command) == 0
     words = capsys.readouterr().out
     assert exit_status([*command, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert re.search(rf"^  pull_off_force +{answer['pull_off_force_N'] * 1e3:.5g} mN$", words, re.M)
-    # 1.5 pi R dg with dg = (mu^3 E*^2 h0^3/R)^(1/2)
-    work = (500**3 * 4e12 * 1e-27 / 1e-3) ** 0.5
     unit = 1.5 * 3.141592653589793 * 1e-3 * work
     assert answer["pull_off_force_N"] == pytest.approx(answer["pull_off_force"] * unit, rel=1e-6)
 

@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
+from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from viscotack.operations import ask
 from viscotack.theory import disc, film
 
@@ -47,14 +47,13 @@ def test_a_case_file_states_it(problem):
     assert problem.groups().body.thickness == pytest.approx(60e-6 / unit)
 
 
-@pytest.mark.parametrize("send", [by_http, by_form])
-def test_every_door_gives_the_same_answer(send, problem):
+def test_every_door_gives_the_same_answer(problem):
     question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.01})
     http = Http()
     try:
         found = by_python(question)
         assert found.record["thickness"] == problem.groups().body.thickness
-        assert found == by_command(question) == by_study(question) == send(question, http)
+        assert found == by_command(question) == by_study(question) == by_http(question, http)
     finally:
         http.close()
 

@@ -8,8 +8,9 @@ import pytest
 
 import viscotack as vt
 from viscotack.materials.library import MATERIALS, passport_of, published
-from viscotack.operations.declare.questions import material_from
+from viscotack.operations import operation
 from viscotack.operations.parts.library import library
+from viscotack.operations.request import Caller
 
 DOCS = Path(__file__).parents[1] / "docs" / "materials.md"
 EXAMPLES = DOCS.parents[1] / "examples"
@@ -86,7 +87,8 @@ def test_the_silicones_have_the_stiffness_of_their_tensile_tests(name):
 
 def test_a_published_name_is_a_material_in_every_place(tmp_path):
     solid = published("vhb-4910").material
-    assert material_from({"material": "vhb-4910"}) == (solid.reduced(), "1")
+    asked = operation("theory greenwood").of(material="vhb-4910")
+    assert asked.solid(Caller()) == (solid.reduced(), "1")
     assert passport_of("vhb-4910") is published("vhb-4910")
     lens = (EXAMPLES / "from_toml" / "lens.toml").read_text(encoding="utf-8")
     table = re.sub(r"(?ms)^\[material\]\n.*?(?=^\[)", '[material]\npassport = "vhb-4910"\n\n', lens)

@@ -59,8 +59,8 @@ def test_from_file_to_pull_off_in_two_commands(lab, capsys):
     out, err = printed(FIT + "-o pdms.toml --plot fit.png", capsys)
     assert "power-law: 4 constants on 32 numbers" in out
     assert "wrote pdms.toml" in err and (lab / "fit.png").stat().st_size > 20_000
-    line = "simulate sphere --material pdms.toml --tabor 2.05 --preload 30 --rate 1"
-    scales = ' --radius "5.19 mm" --work-of-adhesion "0.1523 J/m^2"'
+    line = 'simulate sphere --material pdms.toml --preload-force "1.5 mN" --speed "100 um/s"'
+    scales = ' --radius "5.19 mm" --work-of-adhesion "0.1523 J/m^2" --equilibrium-gap "1.55 um"'
     out, _ = printed(f"{line}{scales} --until pull-off --accuracy 1e-2 --json", capsys)
     fitted = json.loads(out)
     write_passport(published("pdms-10-1"), "true.toml")

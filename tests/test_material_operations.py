@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from command_line import exit_status
-from viscotack.app.engine.operating import run_operation
+from viscotack.app.engine.operating import run_request
 from viscotack.materials import StandardSolid, read_passport, write_passport
 from viscotack.materials.library import published
-from viscotack.operations import ask
+from viscotack.operations import ask, operation
+from viscotack.operations.request import request_of
 
 OPTIONS = {
     "poisson_ratio": 0.45,
@@ -57,9 +58,8 @@ def flags(options):
 
 def asked(word, folder, given, outputs=()):
     """Return what a worker process answers to a request with all files of a folder."""
-    files = sorted(str(path) for path in folder.iterdir())
-    request = {"operation": word, "given": given, "outputs": outputs, "files": files}
-    return run_operation(request, lambda told: None, ())
+    request = request_of(operation(word), given)
+    return run_request(request, outputs, str(folder), tell=lambda told: None, also=())
 
 
 def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, monkeypatch, capsys):

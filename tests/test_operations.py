@@ -7,16 +7,21 @@ from pathlib import Path
 import pytest
 
 import tack_files
-from front_ends import OF_THE_SHELL, Http, Question, run, through_all
+from front_ends import (
+    OF_THE_SHELL,
+    Http,
+    Question,
+    by_command,
+    by_python,
+    by_study,
+    run,
+    through_all,
+)
 from stated import PUNCH, SPHERE
 from viscotack.errors import InputError
 from viscotack.operations import operation, operations
-from viscotack.operations.declare.cards import (
-    FileOfNames,
-)
-from viscotack.operations.declare.options import Here, options, take
-from viscotack.operations.declare.statement import Stated
-from viscotack.operations.declare.study import read_study, study_text
+from viscotack.operations.request import request_of
+from viscotack.operations.study import read_study, study_text
 
 ROOT = Path(__file__).parents[1]
 FILES = [
@@ -178,43 +183,32 @@ def test_all_doors_answer_what_takes_seconds_alike(word, folder, http):
     agree(question, found)
 
 
-def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, http, monkeypatch):
+def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, monkeypatch):
     def stiffness_of(series, *, stiffness, **options):
         raise InputError(f"a rig of {stiffness:g} N/m")
 
     monkeypatch.setattr("viscotack.identify.study.identify_rates", stiffness_of)
     (folder / "curve.jpk-force").write_bytes(tack_files.jpk(tack_files.made()))
     question = Question("identify rates", RATES | {"files": ["curve.jpk-force"]})
-    found = through_all(question, http)
+    found = {
+        "Python": by_python(question),
+        "line": by_command(question),
+        "study": by_study(question),
+    }
     agree(question, found)
     assert found["Python"].refused == f"a rig of {tack_files.STIFFNESS:g} N/m"
 
 
-@pytest.mark.parametrize("word", list(ASKED | NOT_DRAWN))
-def test_an_operation_is_written_as_a_study_and_read_again(word, folder):
-    asked = take(operation(word), (ASKED | NOT_DRAWN)[word][-1], Here())
+def test_a_request_is_written_as_a_study_and_read_again(folder):
+    given = RATES | {"temperature": "20 degC", "scatter": "3 %", "title": "one", "curves": True}
+    asked = request_of(operation("identify rates"), given)
     (folder / "sub").mkdir()
     study = folder / "sub/asked.toml"
     study.write_text(study_text(asked, Path("sub")))
-    again = read_study(study.relative_to(folder), known=operation).operation
-    assert normal(again) == normal(asked)
-
-
-def normal(asked):
-    """Return the options of an operation, with names of files as they are from here."""
-    found = {}
-    for option in options(type(asked)):
-        value = getattr(getattr(asked, option.part) if option.part else asked, option.field)
-        if isinstance(option.card, Stated):
-            value = value and value.problem
-        if isinstance(option.card, FileOfNames):
-            value = value and value.path
-        several = value if isinstance(value, tuple) else (value,)
-        found[option.name] = tuple(
-            os.path.normpath(each) if isinstance(each, Path | str) and each else each
-            for each in several
-        )
-    return found
+    again = read_study(study).request
+    names = [os.path.normpath(Path("sub", each)) for each in again.files]
+    assert names == LENS
+    assert again.model_copy(update={"files": asked.files}) == asked
 
 
 def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
+from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from tier_problems import PROBLEMS
 from viscotack.files.toml import read_toml
 from viscotack.forecast.simulation import SIMULATION
@@ -89,7 +89,7 @@ def test_every_door_gives_the_same_answer(tmp_path, monkeypatch):
     assert found.record["problem"]["foundation"] == {"thickness": 50e-6}
     http = Http(own=(FILE,))
     try:
-        assert found == by_command(question) == by_study(question) == by_form(question, http)
+        assert found == by_command(question) == by_study(question) == by_http(question, http)
         tables = Question("simulate", given | {"problem": read_toml(Path("case.toml"))})
         assert by_http(tables, http).record == found.record
     finally:

@@ -4,10 +4,8 @@ import pytest
 
 from stated import case_text
 from viscotack import InputError
-from viscotack.app.engine.operating import Sent
 from viscotack.operations import operation
-from viscotack.operations.declare.answer import Caller
-from viscotack.operations.declare.options import take
+from viscotack.operations.request import Caller, request_of
 
 CASE = case_text('model = "prony"\nfile = "{file}"')
 STUDY = """
@@ -17,16 +15,11 @@ material = "pdms-10-1"
 radius = "5 mm"
 """
 ASKED = {
-    "simulate": ("problem", CASE),
     "predict": ("problem", CASE),
-    "sweep": ("problem", CASE),
     "campaign inputs": ("problem", CASE),
     "forecast": ("study", STUDY),
-    "report": ("study", STUDY),
     "theory punch": ("case", CASE),
 }
-# Operations that read such a file when they answer.
-LATE = ("forecast", "report", "theory punch")
 
 
 @pytest.fixture
@@ -36,13 +29,12 @@ def folder(tmp_path):
     return tmp_path / "sent"
 
 
-def taken(word, folder, file):
-    """Return an operation whose file was sent, with all that lies beside it."""
+def answer(word, folder, file):
+    """Answer a request whose file was sent, with all that lies beside it."""
     name, text = ASKED[word]
     (folder / "asked.toml").write_text(text.format(file=file))
-    cases = {"cases": [{"protocol.speed": 1e-5}]} if word == "sweep" else {}
-    sent = Sent(folder, frozenset(path.name for path in folder.iterdir()))
-    return take(operation(word), {name: "asked.toml", **cases}, sent)
+    asked = request_of(operation(word), {name: "asked.toml"})
+    return asked.answer(Caller(folder=folder, sent=True))
 
 
 @pytest.mark.parametrize("word", ASKED)
@@ -50,7 +42,7 @@ def taken(word, folder, file):
 def test_what_is_sent_names_no_file_of_the_server(word, beside, folder):
     secret = folder.parent / "secret.csv"
     with pytest.raises(InputError) as error:
-        taken(word, folder, "../secret.csv" if beside else secret).answer(Caller())
+        answer(word, folder, "../secret.csv" if beside else secret)
     assert "was sent with the request" in str(error.value)
     assert "a secret" not in str(error.value)
 
@@ -58,8 +50,17 @@ def test_what_is_sent_names_no_file_of_the_server(word, beside, folder):
 @pytest.mark.parametrize("word", ASKED)
 def test_what_is_sent_names_files_that_were_sent_with_it(word, folder):
     (folder / "branches.csv").write_text("modulus_ratio,relaxation_time_s\n5.0,0.001\n")
-    question = taken(word, folder, "branches.csv")
-    if word in LATE:
-        # it is read, and is no pad, or no curve of a rig
-        with pytest.raises(InputError, match=r"asked.toml states a sphere|branches.csv: "):
-            question.answer(Caller())
+    if word in ("predict", "campaign inputs"):
+        answer(word, folder, "branches.csv")
+        return
+    # it is read, and is no pad, or no curve of a rig
+    with pytest.raises(InputError, match=r"asked.toml states a sphere|branches.csv: "):
+        answer(word, folder, "branches.csv")
+
+
+def test_without_files_that_were_sent_none_is_read(folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    (folder / "asked.toml").write_text(CASE)
+    asked = request_of(operation("predict"), {"problem": "asked.toml"})
+    with pytest.raises(InputError, match="was sent with the request"):
+        asked.answer(Caller(sent=True))

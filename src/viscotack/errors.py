@@ -13,7 +13,20 @@ class InputError(ValueError):
     `ImportError` too. Others are `SimulationError`, a `RuntimeError`, for a simulation that stopped
     early; `TypeError` for an argument of the wrong kind; and `OSError` of the operating system. Any
     other exception raised by the package is a defect.
+
+    Parameters
+    ----------
+    message : str
+        The message; with a field it begins with its name.
+    field : str
+        Name of the invalid option of a request, which the command line spells ``--name``.
     """
+
+    field = ""
+
+    def __init__(self, *message: object, field: str = "") -> None:
+        super().__init__(*message)
+        self.field = field
 
 
 class NotInstalled(InputError, ModuleNotFoundError):

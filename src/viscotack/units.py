@@ -153,7 +153,8 @@ def _converted(text: str, number: float, words: str, unit: str) -> float:
         converted = float(quantity.to(target).magnitude)
     except pint.DimensionalityError:
         raise InputError(
-            f"{text!r} has the wrong dimension; expected a quantity in {unit}"
+            f"{text!r} has the wrong dimension; expected "
+            + ("a number without a unit" if unit == "1" else f"a quantity in {unit}")
         ) from None
     except Exception:
         # The unit library raises a dozen kinds of exception for text that it cannot parse.

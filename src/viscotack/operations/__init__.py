@@ -1,111 +1,147 @@
-"""Operations: every task of a user, each declared once for all front ends.
+"""Operations: every task of a user, each declared once as a request for all front ends.
 
-Every module of this folder declares operations: frozen dataclasses with a name (``word``), options
-with cards, and a method that returns a typed answer. The front ends (command line, HTTP, page,
-study files and Python) are generated from these declarations, so a new module adds its operations
-to all of them.
+Every module of this folder has requests: pydantic models with a name (``word``), options, and a
+method that returns an answer. `COMMANDS` lists them by name, so that a front end imports only what
+it runs.
 """
 
-import ast
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import lru_cache
+from collections.abc import Mapping
+from dataclasses import dataclass
 from importlib import import_module
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
-from .declare.answer import Answer, Caller
-from .declare.options import Here, Operation, answered, respelled, take
+if TYPE_CHECKING:
+    from .request import Answer, Request
 
 
 @dataclass(frozen=True)
-class Declared:
-    """An operation whose module is not imported yet.
+class Listed:
+    """A command before its module is imported.
 
     Attributes
     ----------
-    word, help : str
-        Its word and docstring.
     module : str
-        The module of this folder that declares it.
-    helps : mapping
-        Help of each command, where the operation has several.
+        Module of this folder that declares its request.
+    summary : str
+        First line of its help.
+    indenter : str or None
+        Of the problem that its flags state, "" for a file alone; None for a request of one command.
     """
 
-    word: str
-    help: str
     module: str
-    helps: Mapping[str, str] = field(default_factory=dict)
+    summary: str
+    indenter: str | None = None
 
 
-@lru_cache(maxsize=1)
-def declared() -> Mapping[str, Declared]:
-    """List all operations by name, sorted, without importing them.
+# What a person does -> its commands.
+SECTIONS: Mapping[str, Mapping[str, Listed]] = {
+    "Model a contact": {
+        "predict": Listed("predict", "Predict the pull-off force, with an interval."),
+        "advise": Listed(
+            "predict", "Determine the regime of a contact and the reliability of each method."
+        ),
+        "simulate sphere": Listed(
+            "simulate", "Pull a rigid sphere off a soft viscoelastic half-space.", "sphere"
+        ),
+        "simulate punch": Listed(
+            "simulate", "Pull a rigid flat punch off a soft viscoelastic layer.", "punch"
+        ),
+        "simulate profile": Listed(
+            "simulate", "Pull a cone or another profile off a viscoelastic half-space.", "profile"
+        ),
+        "simulate disc": Listed(
+            "simulate", "Pull a disc, the flat end of a cylinder, off a half-space.", "disc"
+        ),
+        "simulate case": Listed(
+            "simulate", "Simulate the problem of a case file in SI, with any indenter.", ""
+        ),
+        "show": Listed("simulate", "Show a saved result."),
+        "rough": Listed("rough", "Press a rough surface against a soft body and pull it off."),
+        "uncertainty": Listed(
+            "uncertainty", "Propagate uncertainties of inputs to the pull-off force."
+        ),
+        "theory jkr": Listed("theory_contacts", "Detachment of an elastic sphere (JKR)."),
+        "theory maugis": Listed(
+            "theory_contacts", "Detachment of an elastic sphere, forces of any range."
+        ),
+        "theory disc": Listed("theory_contacts", "Detachment of a disc (Kendall)."),
+        "theory punch": Listed("theory_punch", "Flat punch on a layer: stress, or thickness."),
+        "theory persson-brener": Listed("theory_cracks", "Surface energy of a moving crack."),
+        "theory greenwood": Listed(
+            "theory_cracks", "Surface energy of a moving crack with a cohesive zone."
+        ),
+        "theory steady-crack": Listed(
+            "theory_cracks", "Surface energy of a steady crack with its whole traction law."
+        ),
+        "theory crack-contact": Listed(
+            "theory_contacts", "Compute a contact history with the steady-crack contact model."
+        ),
+    },
+    "Read measured data": {
+        "material fit": Listed(
+            "fit_material", "Fit a material to a DMA, relaxation or creep test."
+        ),
+        "material list": Listed("library", "List the published materials."),
+        "material show": Listed("passports", "Show a material passport or a published material."),
+        "material convert": Listed("passports", "Convert a passport."),
+        "material export": Listed("passports", "Export a material for another program."),
+        "test read": Listed("rig_tests", "Read tack tests or force curves."),
+        "identify slow": Listed("identify", "Identify the work of adhesion from a slow test."),
+        "identify rates": Listed(
+            "identify", "Identify the interface from tests at several speeds."
+        ),
+        "identify dwell": Listed("identify_dwell", "Identify the growth with contact time."),
+        "forecast": Listed("forecast", "Forecast pull-off forces from a measured rate series."),
+        "next-test": Listed("next_test", "Rank tests by how much each narrows a forecast."),
+        "report": Listed("forecast", "Write a report of a rate series as a web page."),
+    },
+    "Design": {
+        "design": Listed("design", "Find radius, preload, pads and speeds for wanted forces."),
+        "array": Listed("array", "Pull an array of pads off."),
+        "window": Listed("window", "Determine where a stamp picks an object and prints it."),
+        "control": Listed("control", "Tabulate the force for a controller; release at a force."),
+    },
+    "Compute many cases": {
+        "sweep": Listed("sweep", "Simulate variations of a problem, one row for each case."),
+        "campaign inputs": Listed("campaign", "List the numbers of a problem that a plan can set."),
+        "campaign plan": Listed("campaign", "Describe the cases of a plan without running it."),
+        "campaign run": Listed("campaign", "Run the cases of a plan that have no result yet."),
+        "campaign status": Listed("campaign", "Show the progress of a campaign."),
+        "campaign merge": Listed("campaign", "Merge several campaigns into one."),
+        "campaign export": Listed("campaign", "Export the results as a table."),
+        "study": Listed("", "Run the operation of a study file with its options."),
+    },
+    "Serve other programs": {
+        "app": Listed("", "Open the web page and the HTTP API."),
+        "schema": Listed("schema", "Print the JSON schema of a problem."),
+    },
+}
+COMMANDS = {name: each for commands in SECTIONS.values() for name, each in commands.items()}
 
-    The command line imports only the requested operation, because importing all of them takes ten
-    times as long as importing NumPy.
 
-    Returns
-    -------
-    mapping of str to Declared
-        Name of the operation -> its help text and module.
-
-    Examples
-    --------
-    >>> declared()["predict"].module
-    'predict'
-    """
-    modules = Path(__file__).parent.glob("*.py")
-    found = {each.word: each for module in modules for each in _declared_in(module)}
-    return dict(sorted(found.items()))
+def _word(name: str) -> str:
+    """Return the request of a command: those of indenters have one."""
+    return name if COMMANDS[name].indenter is None else name.partition(" ")[0]
 
 
-def _declared_in(source: Path) -> Iterator[Declared]:
-    """Yield the operations that a module declares; it is parsed, not imported."""
-    for node in ast.parse(source.read_bytes()).body:
-        if isinstance(node, ast.ClassDef):
-            values = {
-                each.target.id: each.value
-                for each in node.body
-                if isinstance(each, ast.AnnAssign) and isinstance(each.target, ast.Name)
-            }
-            if word := values.get("word"):
-                helps = values.get("helps")
-                yield Declared(
-                    ast.literal_eval(word),
-                    ast.get_docstring(node, clean=False) or "",
-                    source.stem,
-                    {} if helps is None else ast.literal_eval(helps),
-                )
+OPERATIONS = {_word(name): each.module for name, each in COMMANDS.items() if each.module}
 
 
-def _kinds(module: str) -> Iterator[type[Operation]]:
-    """Yield the operations of a module, which is imported."""
-    for kind in vars(import_module(f"{__name__}.{module}")).values():
-        if isinstance(kind, type) and issubclass(kind, Operation) and "word" in vars(kind):
-            yield kind
-
-
-def operations() -> Mapping[str, type[Operation]]:
+def operations() -> dict[str, "type[Request]"]:
     """Import and return all operations by name, sorted.
-
-    Returns
-    -------
-    mapping of str to class
-        Name of the operation, such as "identify rates" -> its class.
 
     Examples
     --------
     >>> "predict" in operations()
     True
     """
-    return {word: operation(word) for word in declared()}
+    return {word: operation(word) for word in sorted(OPERATIONS)}
 
 
-def operation(word: str) -> type[Operation]:
-    """Import and return the class of an operation.
+def operation(word: str) -> "type[Request]":
+    """Import and return the request of an operation.
 
     Parameters
     ----------
@@ -115,7 +151,7 @@ def operation(word: str) -> type[Operation]:
     Returns
     -------
     class
-        A subclass of `Operation`.
+        A subclass of `Request`.
 
     Raises
     ------
@@ -127,12 +163,14 @@ def operation(word: str) -> type[Operation]:
     >>> operation("predict").__name__
     'Predict'
     """
-    if word not in declared():
-        raise InputError(f"unknown operation {word!r:.60}; known are {', '.join(declared())}")
-    return next(kind for kind in _kinds(declared()[word].module) if kind.word == word)
+    if word not in OPERATIONS:
+        raise InputError(f"unknown operation {word!r:.60}; known are {', '.join(OPERATIONS)}")
+    module = import_module(f"{__name__}.{OPERATIONS[word]}")
+    kinds = (each for each in vars(module).values() if isinstance(each, type))
+    return next(kind for kind in kinds if vars(kind).get("word") == word)
 
 
-def ask(word: str, /, **given: Any) -> Answer:
+def ask(word: str, /, **given: Any) -> "Answer":
     """Run an operation; the answer is the same as on the command line and over HTTP.
 
     Parameters
@@ -160,11 +198,7 @@ def ask(word: str, /, **given: Any) -> Answer:
     >>> f"{found.record()['pull_off_force']:.4f}"
     '1.0548'
     """
-    kind, also = operation(word), tuple(given.pop("also", ()))
-    try:
-        return answered(take(kind, given, Here(also=also)), Caller(also=also))
-    except InputError as error:
-        raise respelled(error, kind) from None
+    from .request import Caller, answered, request_of
 
-
-__all__ = ["Answer", "Caller", "Operation", "ask", "declared", "operation", "operations"]
+    also = tuple(given.pop("also", ()))
+    return answered(request_of(operation(word), given), Caller(also=also))

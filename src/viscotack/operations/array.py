@@ -1,21 +1,18 @@
 """The operation ``array``: many pads on one backing."""
 
-from dataclasses import dataclass
 from math import isfinite, isnan
+from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import FileOfNames, Placed, number_of
-from .declare.options import Operation
+from .request import Answer, Caller, File, Request, csv_file, number_of, picture
 from .simulate import Accuracy
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfArray(Operation):
+class OfArray(Request):
     """Pull an array of pads off: force, order of detachment, load sharing, payload and yield.
 
     Each pad follows the force-depth curve of one pad at the speed of the pull; heights, works,
@@ -34,8 +31,8 @@ class OfArray(Operation):
     takes_own: ClassVar = True
 
     file: Annotated[
-        Placed,
-        FileOfNames(
+        Path,
+        File(
             "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
             metavar="ARRAY.toml",
             argument=True,
@@ -51,7 +48,8 @@ class OfArray(Operation):
 
         from .parts.tables import rows_as_csv
 
-        stated = read_array(self.file.path, also=caller.also, beside=self.file.inside.file)
+        file = caller.file(self.file)
+        stated = read_array(file, also=caller.also, beside=caller.within(file).file)
         how: Any = {
             "speed": stated.speed,
             "preload": stated.preload,

@@ -1,23 +1,24 @@
 """The operations ``campaign ...``: run many problems by a plan, resumable, stored in a folder."""
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
 
 from viscotack.errors import InputError
+from viscotack.files.bounded import note_read
 
-from .declare.answer import Answer, Caller, Output
-from .declare.cards import Choice, File, Folder, Number, Switch, Text, Whole
-from .declare.options import Operation, Part
-from .declare.statement import INDENTERS, Stated, Statement
+from .flags import INDENTERS
+from .request import Answer, Caller, Contact, File, Number, Option, Output, Request
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress
 
 _COLUMNS = "a CSV file with the columns tabor, modulus_ratio, exponent, preload and rate, as for"
-_OF_FOLDERS = {"http": "a campaign is stored in a folder of the machine that runs it"}
-_OF_PLANS = {"http": "a plan names other files, and Python files that are executed"}
+_OF_FOLDERS = "a campaign is stored in a folder of the machine that runs it"
+_OF_PLANS = "a plan names other files, and Python files that are executed"
 # Exit status of an interrupted run, and of a complete run with failed cases.
 _STOPPED, _SOME_FAILED = 1, 4
 
@@ -27,11 +28,10 @@ AtTemperature = Annotated[
         'Temperature of the base problem\'s material (a passport), "0 degC".', unit="K", metavar="T"
     ),
 ]
-AFolder = Annotated[Path, Folder("The folder of a campaign.", metavar="DIR", argument=True)]
+AFolder = Annotated[Path, File("The folder of a campaign.", metavar="DIR", argument=True)]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Inputs(Operation):
+class Inputs(Request):
     """List the numbers of a problem that a plan can set, with their names and current values.
 
     Example: viscotack campaign inputs pad.toml
@@ -41,8 +41,8 @@ class Inputs(Operation):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Statement,
-        Stated(
+        Any,
+        Contact(
             "A problem in SI, or a rough surface.",
             indenters=INDENTERS,
             spelling="case",
@@ -54,7 +54,7 @@ class Inputs(Operation):
         """List the numbers of the problem by path."""
         from viscotack.campaign import inputs_of
 
-        found = inputs_of(self.problem.problem)
+        found = inputs_of(self.stated(caller).problem)
         return Answer(
             found,
             record=lambda: {
@@ -70,8 +70,7 @@ def _input_words(entry: Any) -> str:
     return f"{entry.path:<30}{value:>14} {entry.unit:<10} {entry.card.words}"
 
 
-@dataclass(frozen=True, kw_only=True)
-class DescribePlan(Operation):
+class DescribePlan(Request):
     """Describe the cases and settings of a plan without running it.
 
     Example: viscotack campaign plan study.toml --csv cases.csv
@@ -82,7 +81,7 @@ class DescribePlan(Operation):
         Output("csv", "Write the cases as a table; - is standard output.", endings=(".csv",)),
     )
     takes_own: ClassVar = True
-    refused: ClassVar = _OF_PLANS
+    local: ClassVar = _OF_PLANS
 
     plan: Annotated[
         Path,
@@ -98,7 +97,7 @@ class DescribePlan(Operation):
         """Read the plan and count its cases."""
         from viscotack.campaign import export, read_plan
 
-        plan = read_plan(self.plan, own=caller.own, temperature=self.temperature)
+        plan = read_plan(caller.file(self.plan), own=caller.own, temperature=self.temperature)
 
         def write(target: Any) -> None:
             export([case.inputs for case in plan.cases], target)
@@ -152,22 +151,18 @@ def _plan_words(plan: "Plan") -> str:
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Settings(Part):
+class Settings(Request):
     """Options that replace the settings of a plan; `CaseSettings` checks their ranges."""
-
-    table: ClassVar = "settings"
 
     accuracy: Annotated[
         float | None,
         Number("Relative error of the pull-off force; replaces the plan's.", metavar="RELATIVE"),
     ] = None
     until: Annotated[
-        str | None,
-        Choice(
+        Literal["pull-off", "detached"] | None,
+        Option(
             "End of each case; replaces the plan's. Default: pull-off.",
             metavar="pull-off|detached",
-            choices=("pull-off", "detached"),
         ),
     ] = None
     time_limit: Annotated[
@@ -186,8 +181,7 @@ class Settings(Part):
     ] = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Run(Operation):
+class Run(Settings):
     """Run the cases of a plan that have no result in the folder yet.
 
     An interrupted run resumes when called again. The first ctrl-C lets running cases finish, a
@@ -199,7 +193,7 @@ class Run(Operation):
 
     word: ClassVar = "campaign run"
     takes_own: ClassVar = True
-    refused: ClassVar = _OF_FOLDERS
+    local: ClassVar = _OF_FOLDERS
 
     plan: Annotated[
         Path | None,
@@ -211,18 +205,18 @@ class Run(Operation):
         ),
     ] = None
     out: Annotated[
-        Path | None,
-        Folder(
+        Path,
+        File(
             "Folder of the campaign; created if missing. Cases with a result are not repeated.",
             metavar="DIR",
         ),
-    ] = None
+    ]
     workers: Annotated[
-        int, Whole("Processes on this machine, one thread each.", metavar="N", least=1)
+        int, Option("Processes on this machine, one thread each.", metavar="N"), Field(ge=1)
     ] = 1
     scheduler: Annotated[
         str | None,
-        Text(
+        Option(
             'A Dask scheduler, "tcp://host:8786", whose workers run the cases.',
             metavar="ADDRESS",
         ),
@@ -238,70 +232,68 @@ class Run(Operation):
     tls_key: Annotated[Path | None, File("Key of the client certificate.", metavar="FILE")] = None
     shard: Annotated[
         str | None,
-        Text(
+        Option(
             "Run only part K of N of the plan, for job arrays of a batch system; viscotack "
             "campaign merge combines the folders.",
             metavar="K/N",
         ),
     ] = None
-    settings: Settings = field(default_factory=Settings)
     temperature: AtTemperature = None
-    retry: Annotated[bool, Switch("Also repeat the cases that failed before.")] = False
+    retry: Annotated[bool, Option("Also repeat the cases that failed before.")] = False
 
-    def __post_init__(self) -> None:
-        if self.out is None:
-            raise InputError("--out is missing; give the folder of the campaign")
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         if self.plan is None and self.shard is not None:
-            raise InputError("--shard needs the plan; give its file")
+            raise InputError("shard needs the plan; give its file")
 
     def answer(self, caller: Caller) -> Answer:
         """Run the missing cases and report progress."""
         from viscotack.campaign import AllCrashed, Dask, NoWorker, run
 
-        assert self.out is not None
+        out = _folder(self.out, caller)
         plan, options = self._plan(caller), {"own": caller.own, "retry": self.retry}
         options["report"] = lambda now: caller.tell(_told(now))
         try:
             if self.scheduler is None:
-                end = run(plan, self.out, workers=self.workers, **options)
+                end = run(plan, out, workers=self.workers, **options)
             else:
-                with Dask(self.scheduler, self._tls()) as dask:
-                    end = run(plan, self.out, workers=dask.threads, executor=dask, **options)
+                with Dask(self.scheduler, self._tls(caller)) as dask:
+                    end = run(plan, out, workers=dask.threads, executor=dask, **options)
         except (KeyboardInterrupt, AllCrashed, NoWorker) as error:
-            return _ended(self.out, error)
+            return _ended(out, error)
         status = _STOPPED if end.stopped else _SOME_FAILED if end.failed else 0
-        return replace(_standing(self.out, end), status=status)
+        return replace(_standing(out, end), status=status)
 
-    def _tls(self) -> tuple[Path, Path, Path] | None:
+    def _tls(self, caller: Caller) -> tuple[Path, Path, Path] | None:
         files = self.tls_ca, self.tls_cert, self.tls_key
         if any(files) and not all(files):
-            raise InputError("TLS needs three files: --tls-ca, --tls-cert and --tls-key")
-        return files if all(files) else None  # type: ignore[return-value]
+            raise InputError("TLS needs three files: tls_ca, tls_cert and tls_key")
+        ca, cert, key = (None if each is None else caller.file(each) for each in files)
+        return (ca, cert, key) if ca and cert and key else None
 
     def _plan(self, caller: Caller) -> "Plan | None":
         """Return the plan or its shard; None for the plan in the folder."""
         from viscotack.campaign import read_plan, shard_of
 
-        changed = asdict(self.settings) | {"temperature": self.temperature}
+        changed = {name: getattr(self, name) for name in (*Settings.model_fields, "temperature")}
         if self.plan is None:
             if any(value is not None for value in changed.values()):
                 raise InputError(
                     "the settings are stored in the folder; give the plan to change limits"
                 )
             return None
-        plan = read_plan(self.plan, own=caller.own, **changed)
+        plan = read_plan(caller.file(self.plan), own=caller.own, **changed)
         return plan if self.shard is None else shard_of(plan, self.shard)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Status(Operation):
+class Status(Request):
     """Show the progress of a campaign and the reasons of failures, also while it runs.
 
     Example: viscotack campaign status study
     """
 
     word: ClassVar = "campaign status"
-    refused: ClassVar = _OF_FOLDERS
+    local: ClassVar = _OF_FOLDERS
 
     folder: AFolder
 
@@ -309,12 +301,12 @@ class Status(Operation):
         """Count the stored results and failures."""
         from viscotack.campaign import Store
 
-        store = Store(self.folder)
-        return _standing(self.folder, _progress(store), store.reasons())
+        folder = _folder(self.folder, caller)
+        store = Store(folder)
+        return _standing(folder, _progress(store), store.reasons())
 
 
-@dataclass(frozen=True, kw_only=True)
-class Merge(Operation):
+class Merge(Request):
     """Merge several campaigns, such as the shards of one plan, into one.
 
     Kind, accuracy and version of viscotack must be the same.
@@ -323,27 +315,23 @@ class Merge(Operation):
     """
 
     word: ClassVar = "campaign merge"
-    refused: ClassVar = _OF_FOLDERS
+    local: ClassVar = _OF_FOLDERS
 
     folders: Annotated[
-        tuple[Path, ...], Folder("Folders of campaigns.", metavar="DIR...", argument=True)
+        tuple[Path, ...], File("Folders of campaigns.", metavar="DIR...", argument=True)
     ]
-    out: Annotated[Path | None, Folder("Folder of the merged campaign.", metavar="DIR")] = None
-
-    def __post_init__(self) -> None:
-        if self.out is None:
-            raise InputError("--out is missing; give the folder of the merged campaign")
+    out: Annotated[Path, File("Folder of the merged campaign.", metavar="DIR")]
 
     def answer(self, caller: Caller) -> Answer:
         """Merge the campaigns."""
         from viscotack.campaign import merge
 
-        assert self.out is not None
-        return _standing(self.out, _progress(merge(self.folders, self.out)))
+        out = _folder(self.out, caller)
+        folders = tuple(_folder(each, caller) for each in self.folders)
+        return _standing(out, _progress(merge(folders, out)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Export(Operation):
+class Export(Request):
     """Export the results as a table: inputs, pull-off force, work, error estimate and others.
 
     Rows are in the order of the plan. Failed cases are not included.
@@ -358,12 +346,12 @@ class Export(Operation):
         Output("mat", "Write a MATLAB file.", "binary", endings=(".mat",)),
         Output("failures", "Write the failures, as a .csv table.", endings=(".csv",)),
     )
-    refused: ClassVar = _OF_FOLDERS
+    local: ClassVar = _OF_FOLDERS
 
     folder: AFolder
     trajectories: Annotated[
         bool,
-        Switch("Include the 24 points of each curve in the CSV file; other formats have them."),
+        Option("Include the 24 points of each curve in the CSV file; other formats have them."),
     ] = False
 
     def answer(self, caller: Caller) -> Answer:
@@ -371,8 +359,9 @@ class Export(Operation):
         from viscotack.campaign import Store, export
 
         if not caller.wants:
-            raise InputError("no output; give --csv, --parquet, --mat or --failures FILE")
-        store = Store(self.folder)
+            raise InputError("no output; give csv, parquet, mat or failures FILE")
+        folder = _folder(self.folder, caller)
+        store = Store(folder)
         results = store.results()
         files = {
             "csv": lambda target: export(results, target, trajectories=self.trajectories),
@@ -380,7 +369,14 @@ class Export(Operation):
             "mat": lambda target: export(results, target),
             "failures": lambda target: export(store.failures(), target),
         }
-        return replace(_standing(self.folder, _progress(store)), files=files)
+        return replace(_standing(folder, _progress(store)), files=files)
+
+
+def _folder(name: Path, caller: Caller) -> Path:
+    """Return the folder of a campaign, into which no output may be written."""
+    path = caller.file(name)
+    note_read(path)
+    return path
 
 
 def _progress(store: Any) -> "Progress":

@@ -1,6 +1,5 @@
 """The operation ``control``: the force table of a contact for controllers, and a release."""
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -9,10 +8,19 @@ from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import Number, Text, number_of
-from .declare.options import Operation
-from .declare.statement import INDENTERS, Stated, Statement
+from .flags import INDENTERS
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    Number,
+    Option,
+    Output,
+    Request,
+    csv_file,
+    number_of,
+    picture,
+)
 from .simulate import Accuracy
 
 if TYPE_CHECKING:
@@ -22,8 +30,7 @@ if TYPE_CHECKING:
 _TABLE = 0.7
 
 
-@dataclass(frozen=True, kw_only=True)
-class Control(Operation):
+class Control(Request):
     """Tabulate the force by depth and speed for a controller, and release at a wanted force.
 
     Simulates the retraction at as many speeds as the interpolation needs, and writes the table as
@@ -52,8 +59,8 @@ class Control(Operation):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Statement,
-        Stated(
+        Any,
+        Contact(
             "The contact in SI, on a rigid machine; the speed of its protocol does not matter.",
             indenters=INDENTERS,
             spelling="case",
@@ -75,7 +82,7 @@ class Control(Operation):
         ),
     ] = 0.01
     name: Annotated[
-        str, Text("Name of the model, and prefix of the functions in C.", metavar="NAME")
+        str, Option("Name of the model, and prefix of the functions in C.", metavar="NAME")
     ] = "contact"
     wanted: Annotated[
         float | None,
@@ -98,7 +105,8 @@ class Control(Operation):
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         if self.wanted is None and self.stiffness is not None:
             raise InputError("the stiffness is that of the rig of a release; give wanted too")
 
@@ -111,8 +119,9 @@ class Control(Operation):
         from .parts.tables import rows_as_csv
 
         if self.wanted is None and "ticks" in caller.wants:
-            raise InputError("--ticks is of a release; give --wanted")
-        problem: Any = self.problem.problem
+            raise InputError("ticks is of a release; give wanted")
+        stated = self.stated(caller)
+        problem: Any = stated.problem
         part = 1.0 if self.wanted is None else _TABLE
         table = force_table(
             problem,
@@ -147,7 +156,7 @@ class Control(Operation):
             words=lambda: _words(table, released, speed),
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
-            notes=self.problem.notes,
+            notes=stated.notes,
         )
 
 

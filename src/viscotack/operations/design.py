@@ -1,22 +1,22 @@
 """The operation ``design``: what to build for wanted forces."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import exp
+from pathlib import Path
 from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
 
 from viscotack.cards import card_of
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import FileOfNames, Placed, Whole, number_of
-from .declare.options import Operation
 from .predict import OF_METHOD
+from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
 from .simulate import Accuracy
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfDesign(Operation):
+class OfDesign(Request):
     """Find radius, preload, number of pads and speeds that hold and release wanted forces.
 
     Targets are forces, works, loads held for a time and the yield, at all stated speeds and
@@ -38,16 +38,16 @@ class OfDesign(Operation):
     takes_own: ClassVar = True
 
     file: Annotated[
-        Placed,
-        FileOfNames(
+        Path,
+        File(
             "The [targets], [bounds] of variables, the [interface], and [material] or "
             "[[materials]].",
             metavar="DESIGN.toml",
             argument=True,
         ),
     ]
-    confirm: Annotated[int, Whole("Number of designs that are simulated.", least=0, most=3)] = 3
-    seed: Annotated[int, Whole("Seed of the search.", least=0, most=2**32 - 1)] = 0
+    confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
+    seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
 
@@ -58,7 +58,8 @@ class OfDesign(Operation):
 
         from .parts.tables import rows_as_csv
 
-        stated = read_design(self.file.path, also=caller.also, beside=self.file.inside.file)
+        file = caller.file(self.file)
+        stated = read_design(file, also=caller.also, beside=caller.within(file).file)
         found = find_design(
             stated.materials,
             stated.traction,

@@ -1,22 +1,20 @@
 """The operation ``material fit``: fit a material model to measured data."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from viscotack.errors import InputError
 
-from .declare.answer import Answer, Caller, Output, picture
-from .declare.cards import Choice, File, Number, Switch, Text, Whole
-from .declare.options import Operation
 from .parts.dma import Dma
 from .parts.shifting import Shifting
+from .request import Answer, Caller, File, Number, Option, Output, picture
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport
     from viscotack.materials.passport import Passport
 
-_MODELS = (
+Model = Literal[
     "best",
     "power-law",
     "relaxation-power-law",
@@ -25,11 +23,10 @@ _MODELS = (
     "fractional-maxwell",
     "fractional-kelvin-voigt",
     "prony",
-)
+]
 
 
-@dataclass(frozen=True, kw_only=True)
-class FitMaterial(Operation):
+class FitMaterial(Dma, Shifting):
     """Fit a material to a DMA, relaxation or creep test, and issue its passport.
 
     Sweeps at several temperatures become a master curve first.
@@ -61,12 +58,12 @@ class FitMaterial(Operation):
         float, Number("0.5 for rubber, about 0.35 for a glass.", metavar="NU", example="0.5")
     ]
     model: Annotated[
-        str,
-        Choice("Model; best: fit all and select by an information criterion.", choices=_MODELS),
+        Model,
+        Option("Model; best: fit all and select by an information criterion."),
     ] = "best"
     arms: Annotated[
         int | None,
-        Whole("Number of relaxation times of a Prony series; default: by the data.", metavar="N"),
+        Option("Number of relaxation times of a Prony series; default: by the data.", metavar="N"),
     ] = None
     glassy_modulus: Annotated[
         float | None,
@@ -79,19 +76,18 @@ class FitMaterial(Operation):
     rubbery_modulus: Annotated[
         float | None, Number("Known modulus, as above.", unit="Pa", metavar="PRESSURE")
     ] = None
-    loss: Annotated[bool, Switch("Whether to fit the loss modulus as well.")] = True
+    loss: Annotated[bool, Option("Whether to fit the loss modulus as well.")] = True
     level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
     name: Annotated[
-        str | None, Text("Name of the material; default: the file name.", metavar="WORDS")
+        str | None, Option("Name of the material; default: the file name.", metavar="WORDS")
     ] = None
-    source: Annotated[str, Text("Who measured it, for the passport.", metavar="WORDS")] = ""
-    dma: Dma = field(default_factory=Dma)
-    shifting: Shifting = field(default_factory=Shifting)
+    source: Annotated[str, Option("Who measured it, for the passport.", metavar="WORDS")] = ""
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
         """Check that options for sweeps are given for sweeps only."""
-        if self.dma.test in ("relaxation", "creep"):
-            self._refuse_of_sweeps(f"for --test {self.dma.test}")
+        super().check()
+        if self.test in ("relaxation", "creep"):
+            self._refuse_of_sweeps(f"for a test of {self.test}")
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files, build the master curve and fit the model."""
@@ -101,7 +97,7 @@ class FitMaterial(Operation):
 
         from .parts.records import fit_record
 
-        report, shift = self._fitted()
+        report, shift = self._fitted(caller)
         passport = None
         if "output" in caller.wants or not hasattr(report.material, "no_contact"):
             passport = self._passport(report, shift)
@@ -121,18 +117,18 @@ class FitMaterial(Operation):
             notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
         )
 
-    def _fitted(self) -> "tuple[FitReport, Any]":
+    def _fitted(self, caller: Caller) -> "tuple[FitReport, Any]":
         """Return the fit and the shift law."""
         from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
 
-        measured = self.dma.measured(self.files)
+        measured = self.measured(tuple(caller.file(each) for each in self.files))
         if isinstance(measured, FrequencySweeps):
-            data, shift, cautions = self.shifting.swept(measured)
+            data, shift, cautions = self.swept(measured, caller)
         else:
             first = measured[0] if isinstance(measured, tuple) else measured
             found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
             self._refuse_of_sweeps(f"for the {found} test in the file")
-            data, shift, cautions = self.shifting.stepped(measured)
+            data, shift, cautions = self.stepped(measured, caller)
         known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
         report = fit(
             data,
@@ -162,10 +158,9 @@ class FitMaterial(Operation):
         return replace(passport, origin=replace(passport.origin, file=names))
 
     def _refuse_of_sweeps(self, why: str) -> None:
-        said = {"--frequency-unit": self.dma.frequency_unit, "--shift-by": self.shifting.shift_by}
-        given = [flag for flag, value in said.items() if value is not None]
+        given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
         if given:
-            raise InputError(f"{' and '.join(given)} cannot be used {why}; remove it")
+            raise InputError(f"{' and '.join(given)} cannot be used {why}; leave it out")
 
 
 def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """The operations ``forecast`` and ``report``: forecasts of pull-off forces from a study."""
 
-from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -8,21 +8,18 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
-from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import FileOfNames, Number, Place, Placed, Text
-from .declare.options import Operation, Part
-from .declare.study import read_study
 from .identify import IdentifyRates
 from .parts.records import forecast_rows
 from .parts.rig import refusals
+from .request import Answer, Caller, File, Number, Output, Request, Text, csv_file, picture
 from .simulate import HowLong
 
 _MOST = 50  # speeds between two ends
 
 
 StudyFile = Annotated[
-    Placed,
-    FileOfNames(
+    Path,
+    File(
         "Study written by `viscotack identify rates ... -o study.toml`.",
         metavar="STUDY",
         argument=True,
@@ -30,40 +27,32 @@ StudyFile = Annotated[
 ]
 
 
-@dataclass(frozen=True)
-class Speeds(Text):
-    """Option: a speed or a range of speeds; the value is a tuple of speeds [m/s]."""
-
-    def read(self, value: Any, place: Place) -> tuple[float, ...]:
-        """Return the speeds."""
-        if isinstance(value, list | tuple):
-            return tuple(parse(one, "m/s") for one in value)
-        first, dots, last = value.partition("..") if isinstance(value, str) else (value, "", "")
-        if not dots:
-            return (parse(first, "m/s"),)
-        low, high = parse(first, "m/s"), parse(last, "m/s")
-        if not 0 < low < high:
-            raise InputError(f"{value}: a range needs two positive speeds, the smaller one first")
-        count = min(_MOST, 1 + round(8 * (np.log10(high) - np.log10(low))))
-        return tuple(np.geomspace(low, high, max(count, 2)).tolist())
-
-    def written(self, value: Any) -> Any:
-        """Return a speed with its unit; a range is written as its speeds."""
-        return [f"{float(one)!r} m/s" for one in value]
+def speeds_of(value: Any) -> tuple[float, ...]:
+    """Return the speeds [m/s] of an option: one, or a range."""
+    if isinstance(value, list | tuple):
+        return tuple(parse(one, "m/s") for one in value)
+    first, dots, last = value.partition("..") if isinstance(value, str) else (value, "", "")
+    if not dots:
+        return (parse(first, "m/s"),)
+    low, high = parse(first, "m/s"), parse(last, "m/s")
+    if not 0 < low < high:
+        raise InputError(f"{value}: a range needs two positive speeds, the smaller one first")
+    count = min(_MOST, 1 + round(8 * (np.log10(high) - np.log10(low))))
+    return tuple(np.geomspace(low, high, max(count, 2)).tolist())
 
 
-@dataclass(frozen=True, kw_only=True)
-class Wish(Part):
-    """Speeds and conditions of a forecast."""
+class Wish(Request):
+    """A forecast from a study at some speeds and conditions."""
 
-    table: ClassVar = "forecast"
+    study: StudyFile
 
     speed: Annotated[
-        tuple[tuple[float, ...], ...],
-        Speeds(
+        tuple[Any, ...],
+        Text(
             'Retraction speed, "30 um/s", or a range, "1 um/s..1 mm/s"; can be repeated. Default: '
             "the range of the series.",
             metavar="SPEED|FROM..TO",
+            to=speeds_of,
         ),
     ] = ()
     preload: Annotated[
@@ -91,7 +80,7 @@ class Wish(Part):
         float | None, Number("Approach speed; needs --dwell.", unit="m/s", metavar="SPEED")
     ] = None
 
-    def of(self, fit: Any) -> Any:
+    def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""
         from viscotack.identify import forecast_rates
 
@@ -110,8 +99,7 @@ class Wish(Part):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Forecast(Operation):
+class Forecast(Wish):
     """Forecast pull-off forces with a band, from a measured rate series.
 
     The interface is fitted to the files of the study. The band combines its posterior with the
@@ -127,8 +115,6 @@ class Forecast(Operation):
         picture(),
     )
 
-    study: StudyFile
-    wish: Wish = field(default_factory=Wish)
     time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
@@ -149,8 +135,7 @@ class Forecast(Operation):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Report(Operation):
+class Report(Wish):
     """Write a report as a web page: curves, interface, forecast, method and references.
 
     The page is a single file and suited to printing.
@@ -169,8 +154,6 @@ class Report(Operation):
         ),
     )
 
-    study: StudyFile
-    wish: Wish = field(default_factory=Wish)
     time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
@@ -194,30 +177,20 @@ def _forecast(asked: Forecast | Report, caller: Caller) -> tuple[Any, Any]:
 
     with limited(asked.time_limit):
         found = fitted(asked.study, caller)
-        return found, asked.wish.of(found.fit)
+        return found, asked.of_fit(found.fit)
 
 
-def fitted(study: Placed, caller: Caller) -> Any:
+def fitted(study: Path, caller: Caller) -> Any:
     """Fit the interface to the files of a study, with the forces of the file beside it."""
     from viscotack.identify.computed import SUFFIX
     from viscotack.identify.study import answer
 
-    return answer(_asked(study).study(caller.also), study.path.with_suffix(SUFFIX))
+    from .study import read_study
 
-
-def _asked(study: Placed) -> IdentifyRates:
-    """Read a study, which must contain the operation `identify rates`."""
-    word, place = IdentifyRates.word, study.place
-
-    # the operation is checked before the options are read
-    def known(found: str) -> type[Operation]:
-        if found != word:
-            raise InputError(f"its operation is {found}; a forecast needs a study of {word}")
-        return IdentifyRates
-
-    asked = read_study(study.path, known=known, also=place.also, place=place).operation
-    assert isinstance(asked, IdentifyRates), "no other is known"
-    return asked
+    path = caller.file(study)
+    asked = read_study(path, IdentifyRates.word).request
+    assert isinstance(asked, IdentifyRates), "no other has its word"
+    return answer(asked.study(caller.within(path)), path.with_suffix(SUFFIX))
 
 
 def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, Any]:

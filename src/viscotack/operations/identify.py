@@ -2,20 +2,18 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
+
+from pydantic import Field
 
 from viscotack.errors import InputError
-from viscotack.materials.passport import Passport
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, Output, picture
-from .declare.cards import Choice, Known, Named, Number, Switch, Text, Whole
-from .declare.options import Operation
 from .parts.layer import BONDED, THICKNESS, body_of
-from .parts.rig import Files, Rig, refusals
-from .parts.solid import TABLE, Solid, published, solid_of
+from .parts.rig import Rig, refusals
+from .parts.solid import Solid, solid_of
+from .request import Answer, Caller, Named, Number, Option, Output, picture
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -23,15 +21,14 @@ if TYPE_CHECKING:
     from viscotack.identify.computed import Computed
     from viscotack.identify.study import Study
 
-_MODELS = ("jkr", "dmt", "maugis", "carpick")
+Model = Literal["jkr", "dmt", "maugis", "carpick"]
 Radius = Annotated[
     float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
 ]
 Level = Annotated[float, Number("Confidence level of the intervals.")]
 
 
-@dataclass(frozen=True, kw_only=True)
-class IdentifySlow(Operation):
+class IdentifySlow(Rig):
     """Identify work of adhesion and Tabor number from one slow retraction of a sphere.
 
     JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
@@ -48,43 +45,39 @@ class IdentifySlow(Operation):
     word: ClassVar = "identify slow"
     outputs: ClassVar = (picture(),)
 
-    files: Files
     radius: Radius
     cycle: Annotated[
-        int, Whole("Number of the cycle in the files, from 1.", metavar="N", least=1, most=10**6)
+        int, Option("Number of the cycle in the files, from 1.", metavar="N"), Field(ge=1, le=10**6)
     ] = 1
-    model: Annotated[
-        tuple[str, ...], Choice("Models to compare; default: all four.", choices=_MODELS)
-    ] = ()
+    model: Annotated[tuple[Model, ...], Option("Models to compare; default: all four.")] = ()
     against: Annotated[
-        str | None,
-        Choice(
+        Literal["radius", "depth"] | None,
+        Option(
             "Abscissa: contact radius or depth; default: the radius if the file contains it.",
-            choices=("radius", "depth"),
         ),
     ] = None
     contact_modulus: Annotated[
-        tuple[float, float] | None,
-        Known(
+        float | None,
+        Number(
             'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
             "uncertainty is known, else fitted.",
             unit="Pa",
             metavar="PRESSURE",
         ),
     ] = None
+    contact_modulus_uncertainty: Annotated[
+        float | None,
+        Number("Its standard uncertainty; needed with it.", unit="Pa", metavar="PRESSURE"),
+    ] = None
     material: Annotated[
-        str | Passport | None,
+        Any,
         Named(
             "Passport or published name of the solid, to check that the test was slow; default: "
             "not checked.",
             metavar="PASSPORT",
-            published=published,
-            text=TABLE,
-            objects=(Passport,),
         ),
     ] = None
     level: Level = 0.9
-    rig: Rig = field(default_factory=Rig)
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the elastic models to one cycle."""
@@ -94,15 +87,17 @@ class IdentifySlow(Operation):
         from .parts.json_data import drawn
         from .parts.records import slow_record
 
-        found = self.rig.survey(self.files)
+        found = self.survey(caller)
         if not 1 <= self.cycle <= len(found.cycles):
-            raise InputError(f"--cycle must be 1 to {len(found.cycles)}, got {self.cycle}")
+            raise InputError(
+                f"cycle must be 1 to {len(found.cycles)}, got {self.cycle}", field="cycle"
+            )
         test = slow_test(found.cycles[self.cycle - 1], self.radius, self.against)
         fit = identify_slow(
             test,
-            models=self.model or _MODELS,
-            contact_modulus=self.contact_modulus,
-            material=None if self.material is None else solid_of(self.material, caller.also),
+            models=self.model or get_args(Model),
+            contact_modulus=self.known("contact_modulus"),
+            material=None if self.material is None else solid_of(self.material, caller),
             level=self.level,
         )
         return Answer(
@@ -118,8 +113,7 @@ class IdentifySlow(Operation):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class IdentifyRates(Operation):
+class IdentifyRates(Rig):
     """Identify work of adhesion and range of attraction from pull-offs at several speeds.
 
     The steady-crack contact model is fitted to the true speed and pull-off force of every cycle;
@@ -147,7 +141,6 @@ class IdentifyRates(Operation):
         picture("Draw the posterior of the interface.", "corner"),
     )
 
-    files: Files
     material: Solid
     radius: Radius
     thickness: Annotated[float | None, THICKNESS] = None
@@ -162,12 +155,16 @@ class IdentifyRates(Operation):
         ),
     ] = None
     work_of_adhesion: Annotated[
-        tuple[float, float] | None,
-        Known(
+        float | None,
+        Number(
             'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
             unit="J/m^2",
             metavar="ENERGY/AREA",
         ),
+    ] = None
+    work_of_adhesion_uncertainty: Annotated[
+        float | None,
+        Number("Its standard uncertainty; needed with it.", unit="J/m^2", metavar="ENERGY/AREA"),
     ] = None
     temperature: Annotated[
         float | None,
@@ -189,18 +186,18 @@ class IdentifyRates(Operation):
     ] = None
     curves: Annotated[
         bool,
-        Switch("Fit whole curves by their travel between forces; one speed is then sufficient."),
+        Option("Fit whole curves by their travel between forces; one speed is then sufficient."),
     ] = False
     growth: Annotated[
         bool,
-        Switch(
+        Option(
             "Fit an interface that grows with the opening speed: amount, exponent, significance. "
             "Takes 1 to 2 minutes."
         ),
     ] = False
     history: Annotated[
         bool,
-        Switch(
+        Option(
             "Compute the forces with approach and dwell of each test, mostly by simulation; "
             "default: contacts relaxed under the preload."
         ),
@@ -214,33 +211,33 @@ class IdentifyRates(Operation):
     ] = 0.0
     level: Level = 0.9
     time_limit: HowLong = None
-    title: Annotated[str, Text("Title of the report.", metavar="WORDS")] = ""
-    notes: Annotated[str, Text("Notes for the report.", metavar="WORDS")] = ""
-    rig: Rig = field(default_factory=Rig)
+    title: Annotated[str, Option("Title of the report.", metavar="WORDS")] = ""
+    notes: Annotated[str, Option("Notes for the report.", metavar="WORDS")] = ""
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         body_of(self.thickness, self.bonded)
 
-    def study(self, also: tuple[Any, ...] = ()) -> "Study":
+    def study(self, caller: Caller) -> "Study":
         """Convert the options to a study for :func:`viscotack.identify.study.answer`."""
         from viscotack.identify.study import Study
 
         return Study(
-            files=self.files,
-            material=solid_of(self.material, also),
+            files=tuple(caller.file(each) for each in self.files),
+            material=solid_of(self.material, caller),
             radius=self.radius,
             body=body_of(self.thickness, self.bonded),
             preload=self.preload,
             temperature=self.temperature,
             temperature_uncertainty=self.temperature_uncertainty,
-            work_of_adhesion=self.work_of_adhesion,
+            work_of_adhesion=self.known("work_of_adhesion"),
             curves=self.curves,
             growth=self.growth,
             history=self.history,
             scatter=self.scatter,
             level=self.level,
-            reading=self.rig.reading,
-            evaluation=self.rig.evaluation,
+            reading=self.reading,
+            evaluation=self.evaluation,
             title=self.title,
             notes=self.notes,
         )
@@ -255,7 +252,7 @@ class IdentifyRates(Operation):
         from .parts.records import rates_record
 
         with limited(self.time_limit):
-            found = answer(self.study(caller.also))
+            found = answer(self.study(caller))
         fit = found.fit
         return Answer(
             found,
@@ -273,15 +270,18 @@ class IdentifyRates(Operation):
 
     def _written(self, computed: "Computed", caller: Caller) -> Callable[["Target"], None]:
         """Return a function that writes the study, and beside it the forces for a forecast."""
-        from viscotack.files.whole import is_standard_output
+        from viscotack.files.whole import is_standard_output, write_whole
         from viscotack.identify.computed import SUFFIX
 
-        from .declare.study import study_file
+        from .study import study_text
 
         def write(target: "Target") -> None:
-            study_file(self, caller.folder)(target)
-            if isinstance(target, str | os.PathLike) and not is_standard_output(target):
-                computed.write(Path(target).with_suffix(SUFFIX))
+            if not isinstance(target, str | os.PathLike) or is_standard_output(target):
+                write_whole(target, study_text(self, caller.folder).encode())
+                return
+            file = Path(target)
+            write_whole(file, study_text(self, file.parent).encode())
+            computed.write(file.with_suffix(SUFFIX))
 
         return write
 

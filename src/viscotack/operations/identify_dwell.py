@@ -1,17 +1,13 @@
 """The operation ``identify dwell``: growth of the work of adhesion with contact time."""
 
-from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar
 
-from .declare.answer import Answer, Caller, picture
-from .declare.cards import Number
-from .declare.options import Operation
-from .parts.rig import Files, Rig, refusals
+from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
+from .request import Answer, Caller, Number, picture
 
 
-@dataclass(frozen=True, kw_only=True)
-class IdentifyDwell(Operation):
+class IdentifyDwell(Rig):
     """Identify the growth of the work of adhesion with contact time, from tests of several dwells.
 
     All tests are slow pulls of one sphere at one speed, so that the solid is relaxed and the force
@@ -26,13 +22,11 @@ class IdentifyDwell(Operation):
     word: ClassVar = "identify dwell"
     outputs: ClassVar = (picture("Draw force by contact time to a .png, .pdf or .svg file."),)
 
-    files: Files
     material: Solid
     radius: Annotated[
         float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
     ]
     level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
-    rig: Rig = field(default_factory=Rig)
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the growth to the pull-off forces of all cycles."""
@@ -40,9 +34,9 @@ class IdentifyDwell(Operation):
         from viscotack.materials.passport import Passport
         from viscotack.pictures.identify import draw_dwells
 
-        found = self.rig.survey(self.files)
+        found = self.survey(caller)
         times, forces, uncertainty = tests_by_dwell(found.cycles)
-        solid = solid_of(self.material, caller.also)
+        solid = solid_of(self.material, caller)
         if isinstance(solid, Passport):
             solid.refuse_liquid("its contacts do not relax, so that the growth is not identified")
         check_relaxed(solid.material if isinstance(solid, Passport) else solid, times)

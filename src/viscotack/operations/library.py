@@ -1,16 +1,13 @@
 """The operation ``material list``: list the library of published materials."""
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller
-from .declare.options import Operation
+from .request import Answer, Caller, Request
 
 
-@dataclass(frozen=True, kw_only=True)
-class ListMaterials(Operation):
+class ListMaterials(Request):
     """List the published materials, each with its source and as a table of a case file.
 
     Example: viscotack material list

@@ -1,17 +1,16 @@
 """The operation ``next-test``: which test narrows a forecast or the interface most."""
 
-from dataclasses import dataclass
 from itertools import product
 from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
 
 from viscotack.errors import InputError
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import Number, Whole
-from .declare.options import Operation
-from .forecast import Speeds, StudyFile, fitted
+from .forecast import StudyFile, fitted, speeds_of
 from .parts.rig import refusals
+from .request import Answer, Caller, Number, Option, Request, Text, csv_file, picture
 from .simulate import HowLong
 
 Loads = Annotated[
@@ -34,8 +33,7 @@ Radii = Annotated[
 ]
 
 
-@dataclass(frozen=True, kw_only=True)
-class NextTest(Operation):
+class NextTest(Request):
     """Rank tests by how much each narrows a forecast or the interface.
 
     Candidates are all combinations of --speed, --preload, --radius and --dwell. The posterior of
@@ -55,10 +53,11 @@ class NextTest(Operation):
 
     study: StudyFile
     speed: Annotated[
-        tuple[tuple[float, ...], ...],
-        Speeds(
+        tuple[Any, ...],
+        Text(
             'Speeds of the tests, "30 um/s" or a range "1 um/s..1 mm/s"; can be repeated.',
             metavar="SPEED|FROM..TO",
+            to=speeds_of,
         ),
     ]
     preload: Loads = ()
@@ -77,11 +76,12 @@ class NextTest(Operation):
         Number("Approach speed; needs --dwell.", unit="m/s", above=0, metavar="SPEED"),
     ] = None
     forecast_speed: Annotated[
-        tuple[tuple[float, ...], ...],
-        Speeds(
+        tuple[Any, ...],
+        Text(
             "Speed of the wanted forecast, or a range; can be repeated. Default: the interface "
             "is wanted.",
             metavar="SPEED|FROM..TO",
+            to=speeds_of,
         ),
     ] = ()
     forecast_preload: Annotated[
@@ -101,8 +101,8 @@ class NextTest(Operation):
             metavar="PART",
         ),
     ] = None
-    repeats: Annotated[int, Whole("Repetitions of each test.", least=1, most=1000)] = 1
-    count: Annotated[int, Whole("Length of the best sequence.", least=1, most=20)] = 3
+    repeats: Annotated[int, Option("Repetitions of each test."), Field(ge=1, le=1000)] = 1
+    count: Annotated[int, Option("Length of the best sequence."), Field(ge=1, le=20)] = 3
     time_limit: HowLong = None
 
     def answer(self, caller: Caller) -> Answer:
@@ -114,8 +114,6 @@ class NextTest(Operation):
 
         from .parts.tables import rows_as_csv
 
-        if not self.speed:
-            raise InputError("needs the speeds of the tests: --speed")
         candidates = [
             Trial(v, load, radius, dwell, None if dwell is None else self.approach_speed)
             for v, load, radius, dwell in product(
@@ -126,14 +124,14 @@ class NextTest(Operation):
             )
         ]
         if self.approach_speed is not None and not self.dwell:
-            raise InputError("--approach-speed needs --dwell")
+            raise InputError("approach_speed needs dwell")
         wanted = [
             Trial(v, self.forecast_preload, self.forecast_radius)
             for some in self.forecast_speed
             for v in some
         ]
         if not wanted and (self.forecast_preload or self.forecast_radius):
-            raise InputError("the wanted forecast needs its speed: --forecast-speed")
+            raise InputError("the wanted forecast needs its speed, forecast_speed")
         with limited(self.time_limit):
             study = fitted(self.study, caller)
             found = next_tests(

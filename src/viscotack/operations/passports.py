@@ -1,26 +1,22 @@
 """The operations ``material show``, ``convert`` and ``export``: passports and other formats."""
 
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials.passport import Passport
-from viscotack.units import readable
+from viscotack.units import parse, readable
 
-from .declare.answer import Answer, Caller, Output
-from .declare.cards import Choice, Named, Number, Switch, Text, Two
-from .declare.options import Operation
-from .declare.wording import flag
-from .parts.solid import Known, passport_of, published
+from .parts.solid import APassport, passport_of
+from .request import Answer, Caller, Named, Number, Option, Output, Request, Text, two_of
 
 if TYPE_CHECKING:
     from viscotack.materials.conversion import PronyForm
+    from viscotack.materials.passport import Passport
 
 # Programs whose input is written and read.
-_CODES = ("abaqus", "ansys", "comsol")
+Code = Literal["abaqus", "ansys", "comsol"]
 # Of these the input states modulus and Poisson ratio.
 _STATING = ("abaqus", "ansys")
 _OUTPUT = Output(
@@ -39,38 +35,37 @@ Temperature = Annotated[
 ]
 Tolerance = Annotated[float, Number("Largest relative error of the series.")]
 PressureUnit = Annotated[
-    str | None, Text("Unit of moduli in the other program, MPa.", metavar="UNIT", example="MPa")
+    str | None, Option("Unit of moduli in the other program, MPa.", metavar="UNIT", example="MPa")
 ]
 TimeUnit = Annotated[
-    str | None, Text("Unit of times in the other program, s.", metavar="UNIT", example="s")
+    str | None, Option("Unit of times in the other program, s.", metavar="UNIT", example="s")
 ]
 
 
-@dataclass(frozen=True)
-class Band(Two):
-    """Two frequencies; the value is angular [rad/s], and so are numbers without a unit."""
+def _band(value: Any) -> tuple[float, float]:
+    """Return two angular frequencies [rad/s]: a hertz is 2 pi radians a second."""
+    low, high = two_of(value)
 
-    units: tuple[str, str] = ("rad/s", "rad/s")
-
-    def number(self, value: Any, unit: str) -> float:
-        """Return an angular frequency: a hertz is 2 pi radians a second."""
-        if isinstance(value, str) and "rad" not in value:
+    def angular(one: Any) -> float:
+        if isinstance(one, str) and "rad" not in one:
             # the unit library takes hertz for 1/s: the factor is set here, where it is seen
-            return 2 * np.pi * super().number(value, "1/s")
-        return super().number(value, unit)
+            return 2 * np.pi * parse(one, "1/s")
+        return parse(one, "rad/s")
+
+    return angular(low), angular(high)
 
 
 Frequencies = Annotated[
     tuple[float, float] | None,
-    Band(
+    Text(
         'Range of the Prony series, "1 mHz,1 MHz"; default: the measured range.',
         metavar="LOW,HIGH",
+        to=_band,
     ),
 ]
 
 
-@dataclass(frozen=True, kw_only=True)
-class ShowMaterial(Operation):
+class ShowMaterial(Request):
     """Show a material passport or a published material.
 
     Example: viscotack material show pdms-10-1
@@ -79,15 +74,14 @@ class ShowMaterial(Operation):
     word: ClassVar = "material show"
     takes_own: ClassVar = True
 
-    passport: Known
+    passport: APassport
 
     def answer(self, caller: Caller) -> Answer:
         """Read the passport."""
-        return _answer(passport_of(self.passport, caller.also))
+        return _answer(passport_of(self.passport, caller))
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConvertMaterial(Operation):
+class ConvertMaterial(Request):
     """Convert a passport: to another temperature, to a Prony series, from another program.
 
     Without -o the passport goes to standard output.
@@ -101,23 +95,21 @@ class ConvertMaterial(Operation):
     takes_own: ClassVar = True
 
     source: Annotated[
-        str | Passport,
+        Any,
         Named(
             "A material passport, or the name of a published material such as pdms-10-1. Or, with "
             "--from, another program's input.",
             metavar="PASSPORT|FILE",
             argument=True,
-            published=published,
-            objects=(Passport,),
         ),
     ]
     temperature: Temperature = None
-    prony: Annotated[bool, Switch("Convert to a Prony series with a stated error.")] = False
+    prony: Annotated[bool, Option("Convert to a Prony series with a stated error.")] = False
     frequencies: Frequencies = None
     tolerance: Tolerance = 3e-4
     code: Annotated[
-        str | None,
-        Choice("Program whose input file is read.", choices=_CODES, flags=("--from",)),
+        Code | None,
+        Option("Program whose input file is read.", flags=("--from",)),
     ] = None
     pressure_unit: PressureUnit = None
     time_unit: TimeUnit = None
@@ -133,37 +125,40 @@ class ConvertMaterial(Operation):
         float | None, Number("Poisson ratio, if not in the input file.", metavar="NU")
     ] = None
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
         """Check that options of other programs' input, and of a series, are given for these."""
+        from viscotack.materials.library import MATERIALS
+        from viscotack.materials.passport import Passport
+
         constants = self._constants()
         if self.code is None:
             names = (*constants, "pressure_unit", "time_unit")
-            given = [flag(n) for n in names if getattr(self, n) is not None]
+            given = [name for name in names if getattr(self, name) is not None]
             if given:
                 raise InputError(
-                    f"{' and '.join(given)} cannot be used without --from; leave it out"
+                    f"{' and '.join(given)} cannot be used without code, the other program"
                 )
         elif isinstance(self.source, Passport):
-            raise InputError(f"{self.source.name} is a passport; --from takes a file")
-        elif self.source in published():
-            raise InputError(f"{self.source} is a published material; --from takes a file")
+            raise InputError(f"{self.source.name} is a passport; code takes a file")
+        elif self.source in MATERIALS:
+            raise InputError(f"{self.source} is a published material; code takes a file")
         elif (self.pressure_unit is None) != (self.time_unit is None):
-            raise InputError("give both --pressure-unit and --time-unit")
+            raise InputError("give both pressure_unit and time_unit")
         elif constants and self.code in _STATING:
             raise InputError(
                 f"input of {self.code} holds modulus and Poisson ratio; leave them out"
             )
         if self.frequencies is not None and not self.prony:
-            raise InputError("--frequencies go with --prony")
+            raise InputError("frequencies go with prony", field="frequencies")
 
     def answer(self, caller: Caller) -> Answer:
         """Read the material and convert it."""
         from viscotack.materials.passport_file import write_passport
 
         if self.code is None:
-            passport = passport_of(self.source, caller.also)
+            passport = passport_of(self.source, caller)
         else:
-            passport = self._imported()
+            passport = self._imported(caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
         if self.prony:
@@ -175,13 +170,13 @@ class ConvertMaterial(Operation):
         said = {n: getattr(self, n) for n in ("rubbery_modulus", "poisson_ratio")}
         return {name: value for name, value in said.items() if value is not None}
 
-    def _imported(self) -> "Passport":
+    def _imported(self, caller: Caller) -> "Passport":
         from viscotack.files.text import read_text
         from viscotack.materials.exchange import Units, imported
-        from viscotack.materials.passport import Origin
+        from viscotack.materials.passport import Origin, Passport
         from viscotack.version import __version__
 
-        file, code = Path(str(self.source)), str(self.code)
+        file, code = caller.file(self.source), str(self.code)
         pressure, time = self.pressure_unit, self.time_unit
         units = Units(pressure, time) if pressure and time else None
         text = read_text(file)
@@ -203,8 +198,7 @@ class ConvertMaterial(Operation):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class ExportMaterial(Operation):
+class ExportMaterial(Request):
     """Export a material as input of another program, in its convention and units.
 
     Without units: Pa and s. Without -o it goes to standard output.
@@ -217,8 +211,8 @@ class ExportMaterial(Operation):
     outputs: ClassVar = (replace(_OUTPUT, endings=_CARDS),)
     takes_own: ClassVar = True
 
-    passport: Known
-    to: Annotated[str, Choice("The program to write for.", choices=_CODES)]
+    passport: APassport
+    to: Annotated[Code, Option("The program to write for.")]
     temperature: Temperature = None
     frequencies: Frequencies = None
     tolerance: Tolerance = 3e-4
@@ -239,7 +233,7 @@ class ExportMaterial(Operation):
 
         from .parts.tables import as_text
 
-        passport = passport_of(self.passport, caller.also)
+        passport = passport_of(self.passport, caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
         form = _series(passport, self.frequencies, self.tolerance)
@@ -294,7 +288,7 @@ def _series(
     if bounds is None:
         raise InputError(
             f"{passport.name} does not say where it was measured; say where the series must hold, "
-            '--frequencies "1 mHz,1 MHz"'
+            'frequencies "1 mHz,1 MHz"'
         )
     return prony_form(passport.material, frequencies=bounds, tolerance=tolerance)
 

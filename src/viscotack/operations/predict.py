@@ -1,7 +1,7 @@
 """The operations ``predict`` and ``advise``: fast predictions and their reliability."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -10,10 +10,18 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import FileOrRows, Number, Switch, rows_of_file
-from .declare.options import Operation
-from .declare.statement import Stated, Statement
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    Number,
+    Option,
+    Output,
+    Request,
+    Rows,
+    csv_file,
+    picture,
+)
 from .simulate import HowLong
 
 if TYPE_CHECKING:
@@ -37,8 +45,7 @@ _SAID_ONCE = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Predict(Operation):
+class Predict(Request):
     """Predict the pull-off force, with an interval.
 
     Surrogates trained on simulations answer in a millisecond, with force, work and curve. Outside
@@ -76,8 +83,8 @@ class Predict(Operation):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Statement | None,
-        Stated(
+        Any,
+        Contact(
             "The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
             "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
             "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
@@ -91,8 +98,8 @@ class Predict(Operation):
         ),
     ] = None
     cases: Annotated[
-        Path | Sequence[Mapping[str, Any]] | None,
-        FileOrRows(
+        Path | tuple[Mapping[str, Any], ...] | None,
+        Rows(
             "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "
             "changes it: columns are keys of the problem file, with units in the headings, "
             '"radius [mm]", or in the cells, "5.19 mm". Alone it has a case without dimensions '
@@ -121,12 +128,13 @@ class Predict(Operation):
     ] = None
     exact: Annotated[
         bool,
-        Switch("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
+        Option("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
     ] = False
-    compare: Annotated[bool, Switch("Also simulate, and show the error of the prediction.")] = False
+    compare: Annotated[bool, Option("Also simulate, and show the error of the prediction.")] = False
     time_limit: HowLong = None
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         if self.problem is None and not isinstance(self.cases, Path):
             got = "none" if self.cases is None else "rows, which change a problem"
             raise InputError(f"give a problem or a table of cases, got {got}")
@@ -141,27 +149,26 @@ class Predict(Operation):
         from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
 
-        assert self.problem is not None
+        stated = self.stated(caller)
         if table := sorted(caller.wants & {"csv", "xlsx"}):
             raise InputError(
-                f"--{table[0]} is for a table of cases; --curve writes the curve; leave out "
-                f"--{table[0]}"
+                f"{table[0]} is for a table of cases; curve writes the curve; leave out {table[0]}"
             )
         with limited(self.time_limit):
             found = predict(
-                self.problem.problem,
-                shift_deviation=self.problem.deviation,
+                stated.problem,
+                shift_deviation=stated.deviation,
                 confidence=self.confidence,
                 budget=SOON if self.budget is None else self.budget,
                 exact=self.exact,
-                passport=self.problem.passport,
+                passport=stated.passport,
             )
             if found.curve is None and caller.wants & {"curve", "plot"}:
                 raise InputError(
-                    f"{found.why}. The tier {found.method!r} gives no curve; leave out --curve and "
-                    "--plot, or simulate"
+                    f"{found.why}. The tier {found.method!r} gives no curve; leave out curve and "
+                    "plot, or simulate"
                 )
-            result = _simulated(self.problem.problem) if self.compare else None
+            result = _simulated(stated.problem) if self.compare else None
         record = prediction_summary(found)
         if result is not None:
             record |= _comparison(found, result)
@@ -171,7 +178,7 @@ class Predict(Operation):
             words=lambda: _words(found, record),
             files={"curve": lambda target: _write_curve(found, target)},
             pictures={"plot": lambda: _draw(found, result)},
-            notes=self.problem.improbable,
+            notes=stated.improbable,
             status=int(result is not None and result.outcome is Outcome.STOPPED),
         )
 
@@ -179,14 +186,14 @@ class Predict(Operation):
         """Predict all rows of a table."""
         alone = self.problem is None
         others = {
-            "--compare": self.compare,
-            "--exact": alone and self.exact,
-            "--budget": alone and self.budget is not None,
-            "--time-limit": alone and self.time_limit is not None,
-            "--curve": "curve" in caller.wants,
-            "--plot": "plot" in caller.wants,
+            "compare": self.compare,
+            "exact": alone and self.exact,
+            "budget": alone and self.budget is not None,
+            "time_limit": alone and self.time_limit is not None,
+            "curve": "curve" in caller.wants,
+            "plot": "plot" in caller.wants,
         }
-        if given := [flag for flag, is_given in others.items() if is_given]:
+        if given := [name for name, is_given in others.items() if is_given]:
             what = f"{self.cases} is a table of cases" if alone else "there is a table of cases"
             raise InputError(f"{what}; leave out {', '.join(given)}")
         if self.problem is None:
@@ -194,18 +201,16 @@ class Predict(Operation):
 
             assert isinstance(self.cases, Path), "checked before"
             if len(caller.wants & {"csv", "xlsx"}) != 1:
-                raise InputError(
-                    f"choose one output for the answers to {self.cases}: --csv or --xlsx"
-                )
-            return predict_file(self.cases, self.confidence, caller.tell)
+                raise InputError(f"choose one output for the answers to {self.cases}: csv or xlsx")
+            return predict_file(caller.file(self.cases), self.confidence, caller.tell)
         from viscotack.forecast.tiers import SOON
 
         from .parts.predict_changes import predict_changes
 
         assert self.cases is not None, "checked before"
         return predict_changes(
-            self.problem,
-            rows_of_file(self.cases) if isinstance(self.cases, Path) else self.cases,
+            self.stated(caller),
+            caller.rows(self.cases),
             caller.tell,
             also=caller.also,
             time_limit=self.time_limit,
@@ -215,8 +220,7 @@ class Predict(Operation):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Advise(Operation):
+class Advise(Request):
     """Determine the regime of a contact and the reliability of each method.
 
     The problem is stated as for simulate sphere, by flags or by a file in SI with any indenter of
@@ -231,8 +235,8 @@ class Advise(Operation):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Statement,
-        Stated("The contact, of revolution.", indenters=("sphere", "profile", "disc")),
+        Any,
+        Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc")),
     ]
 
     def answer(self, caller: Caller) -> Answer:
@@ -240,21 +244,22 @@ class Advise(Operation):
         from viscotack.forecast.advice import advise
         from viscotack.forecast.cautions import cautions_on
 
-        problem = self.problem.problem
+        stated = self.stated(caller)
+        problem = stated.problem
         if problem.groups().in_plane_strain:
             raise InputError(
                 "advice is for shapes of revolution; this problem contains a punch, which "
                 "viscotack predict answers"
             )
         advice = advise(problem)
-        warned = cautions_on(problem, passport=self.problem.passport)
+        warned = cautions_on(problem, passport=stated.passport)
         # the sentences of the advice have one of the cautions already
         sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
         return Answer(
             advice,
             record=lambda: _advised(advice, sentences, warned),
             words=lambda: "\n".join(sentences),
-            notes=self.problem.notes,
+            notes=stated.notes,
         )
 
 

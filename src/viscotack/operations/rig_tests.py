@@ -1,23 +1,19 @@
 """The operation ``test read``: evaluate the files of a tack tester or microscope."""
 
-from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import Number
-from .declare.options import Operation
-from .parts.rig import Files, Rig, refusals
+from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
+from .request import Answer, Caller, Number, Output, csv_file, picture
 
 # An apparent work [J/m2] a hundred times that of any two surfaces without chemical bonds.
 _LARGEST_WORK = 10.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class ReadTests(Operation):
+class ReadTests(Rig, ShiftLaw):
     """Read tack tests or force curves: pull-off, work, depth and true speed of every cycle.
 
     Approach, dwell and retraction are detected in the signal. Zero, tilt and drift of the force are
@@ -49,7 +45,6 @@ class ReadTests(Operation):
         picture(),
     )
 
-    files: Files
     radius: Annotated[
         float | None,
         Number(
@@ -59,14 +54,13 @@ class ReadTests(Operation):
             metavar="LENGTH",
         ),
     ] = None
-    rig: Rig = field(default_factory=Rig)
-    shifting: ShiftLaw = field(default_factory=ShiftLaw)
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
         """Refuse a reference temperature without a shift."""
-        if self.shifting.reference_temperature is not None and not self.shifting.named:
+        super().check()
+        if self.reference_temperature is not None and not self.named:
             raise InputError(
-                "--reference-temperature needs a shift: --wlf, --glass-transition or --shift-file"
+                "needs a shift: wlf, glass_transition or shift_file", field="reference_temperature"
             )
 
     def answer(self, caller: Caller) -> Answer:
@@ -85,8 +79,8 @@ class ReadTests(Operation):
         from .parts.tables import rows_as_csv
         from .parts.workbook import as_workbook
 
-        found = self.rig.survey(self.files)
-        law = self.shifting.referred()
+        found = self.survey(caller)
+        law = self.referred(caller)
         table = speed_table(found.cycles, law)
         rows = [
             {"file": one.record.source.path, **cycle_row(cycle, self.radius, law)}

@@ -1,25 +1,23 @@
 """The operation ``rough``: a rough surface pulled off a soft body."""
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
 
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import Choice, File, FileOfNames, Placed, Switch, Whole, number_of
-from .declare.options import Operation
+from .request import Answer, Caller, File, Option, Output, Request, csv_file, number_of, picture
 from .simulate import Accuracy
 
 # Frames of a film, by default.
 _FRAMES = 60
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfRough(Operation):
+class OfRough(Request):
     """Press a rough surface against a soft body and pull it off, by simulation on a grid.
 
     The surface is a map of heights from a file or generated. Force, contact area, energies and maps
@@ -49,8 +47,8 @@ class OfRough(Operation):
     takes_own: ClassVar = True
 
     file: Annotated[
-        Placed,
-        FileOfNames(
+        Path,
+        File(
             "The tables [surface], [material], [interface] and [protocol]; perhaps [layer].",
             metavar="ROUGH.toml",
             argument=True,
@@ -58,24 +56,22 @@ class OfRough(Operation):
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
     theory: Annotated[
-        str | None,
-        Choice(
+        Literal["superposition"] | None,
+        Option(
             "Answer by a theory instead of a simulation: the asperities by themselves.",
-            choices=("superposition",),
         ),
     ] = None
     moments: Annotated[
         int | None,
-        Whole(
+        Option(
             "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
             "the largest tension.",
-            least=2,
-            most=1000,
         ),
+        Field(ge=2, le=1000),
     ] = None
     anyway: Annotated[
         bool,
-        Switch(
+        Option(
             "Answer although a zone at an edge has less than one pixel, or asperities "
             "are neighbours."
         ),
@@ -106,7 +102,8 @@ class OfRough(Operation):
 
         if "movie" in caller.wants:
             check_ffmpeg()
-        problem = read_rough(self.file.path, also=caller.also, beside=self.file.inside.file)
+        file = caller.file(self.file)
+        problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
         moments = self.moments or (_FRAMES if caller.wants & {"film", "movie"} else 0)
         found = pull(
             problem,
@@ -151,11 +148,12 @@ class OfRough(Operation):
         if unknown := sorted(caller.wants & {"maps", "film", "movie"}):
             raise InputError(
                 f"--{unknown[0]} needs the simulation; superposition has no fields, leave out "
-                "--theory"
+                "theory"
             )
         if self.checkpoint is not None or self.moments is not None:
-            raise InputError("--checkpoint and --moments belong to the simulation, not to --theory")
-        problem = read_rough(self.file.path, also=caller.also, beside=self.file.inside.file)
+            raise InputError("checkpoint and moments belong to the simulation, not to theory")
+        file = caller.file(self.file)
+        problem = read_rough(file, also=caller.also, beside=caller.within(file).file)
         found = superposed(
             problem,
             accuracy=self.accuracy,

@@ -1,16 +1,12 @@
 """The operation ``schema``: the JSON schema of a problem."""
 
 import json
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
-from .declare.answer import Answer, Caller
-from .declare.cards import Switch
-from .declare.options import Operation
+from .request import Answer, Caller, Option, Request
 
 
-@dataclass(frozen=True, kw_only=True)
-class Schema(Operation):
+class Schema(Request):
     """Print the JSON schema of a problem: every number with its unit, symbol and range.
 
     It describes the object `problem` of --json, which results and campaigns keep as well.
@@ -21,7 +17,7 @@ class Schema(Operation):
     word: ClassVar = "schema"
     takes_own: ClassVar = True
 
-    words: Annotated[bool, Switch("Tables in Markdown for people, in place of the schema.")] = False
+    words: Annotated[bool, Option("Tables in Markdown for people, in place of the schema.")] = False
 
     def answer(self, caller: Caller) -> Answer:
         """Read the cards of all nouns."""

@@ -1,9 +1,9 @@
 """The operations ``simulate`` and ``show``: simulate a contact, and show a saved result."""
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from viscotack.cards import card_of
 from viscotack.errors import InputError
@@ -11,10 +11,19 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import Choice, File, Switch, number_of
-from .declare.options import Operation
-from .declare.statement import INDENTERS, Stated, Statement
+from .flags import INDENTERS
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    File,
+    Option,
+    Output,
+    Request,
+    csv_file,
+    number_of,
+    picture,
+)
 
 if TYPE_CHECKING:
     from viscotack.result import Result
@@ -22,10 +31,9 @@ if TYPE_CHECKING:
 
 # How far to pull, and the accuracy of a simulation.
 Until = Annotated[
-    str,
-    Choice(
+    Literal["pull-off", "detached"],
+    Option(
         "Stop past the largest tension, or when the surfaces are apart.",
-        choices=("pull-off", "detached"),
     ),
 ]
 Accuracy = Annotated[float, number_of(card_of(AccuracyCard), metavar="RELATIVE")]
@@ -34,11 +42,10 @@ HowLong = Annotated[
     number_of(card_of(TimeLimit), metavar="TIME"),
 ]
 PlotKind = Annotated[
-    str,
-    Choice(
+    Literal["force", "radius", "overview", "energy", "sensitivities"],
+    Option(
         "force: against depth; radius: force against contact radius; overview: four pictures; "
         "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed.",
-        choices=("force", "radius", "overview", "energy", "sensitivities"),
     ),
 ]
 _FILES = (
@@ -52,8 +59,7 @@ _FILES = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Simulate(Operation):
+class Simulate(Request):
     """Simulate the detachment of a sphere, cone, other profile, or punch on a layer.
 
     The problem is given by dimensionless numbers, or in SI by a case file.
@@ -121,8 +127,8 @@ class Simulate(Operation):
     }
 
     problem: Annotated[
-        Statement,
-        Stated(
+        Any,
+        Contact(
             "The contact and the moves of the machine.",
             indenters=INDENTERS,
             spelling="commands",
@@ -133,17 +139,17 @@ class Simulate(Operation):
     time_limit: HowLong = None
     whole: Annotated[
         bool,
-        Switch(
+        Option(
             "Simulate the whole retraction. By default a retraction from more than 1000 h0 starts "
             "at a smaller depth with the same result."
         ),
     ] = False
     profiles: Annotated[
-        bool, Switch("Also keep pressure and gap along the radius, at the steps of the solver.")
+        bool, Option("Also keep pressure and gap along the radius, at the steps of the solver.")
     ] = False
     sensitivities: Annotated[
         bool,
-        Switch(
+        Option(
             "Also compute the elasticities of force, work, depth and contact radius at pull-off "
             "by every input, from simulations with each changed by 2 %."
         ),
@@ -156,8 +162,9 @@ class Simulate(Operation):
 
         from .parts.running import run
 
+        stated = self.stated(caller)
         result = run(
-            self.problem.problem,
+            stated.problem,
             caller.tell,
             accuracy=self.accuracy,
             until=self.until,
@@ -169,12 +176,11 @@ class Simulate(Operation):
         )
         answer = _answer(result, self.plot_kind, caller)
         files = {**answer.files, "save": lambda target: save(result, target)}
-        notes = (*self.problem.notes, *answer.notes)
+        notes = (*stated.notes, *answer.notes)
         return replace(answer, files=files, notes=notes)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Show(Operation):
+class Show(Request):
     """Show a saved result.
 
     Prints its summary; writes its curve as a table or draws it if wanted.
@@ -189,7 +195,7 @@ class Show(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Load the result."""
-        return _answer(saved(self.file, caller), self.plot_kind, caller)
+        return _answer(saved(caller.file(self.file), caller), self.plot_kind, caller)
 
 
 def saved(file: Path, caller: Caller) -> "Result":

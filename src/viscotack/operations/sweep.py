@@ -1,7 +1,7 @@
 """The operation ``sweep``: simulate variations of a problem, one row for each case."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -11,10 +11,8 @@ from viscotack.problem import RoughCase
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, csv_file
-from .declare.cards import Table, number_of
-from .declare.options import Operation
-from .declare.statement import INDENTERS, Stated, Statement
+from .flags import INDENTERS
+from .request import Answer, Caller, Contact, Request, Rows, csv_file, number_of
 from .simulate import Accuracy, Until
 
 if TYPE_CHECKING:
@@ -26,8 +24,7 @@ if TYPE_CHECKING:
 _SOME_FAILED = 4
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sweep(Operation):
+class Sweep(Request):
     """Simulate variations of a problem, one row for each case.
 
     The first row of the table, CSV or the first sheet of an .xlsx workbook, names the replaced
@@ -43,8 +40,8 @@ class Sweep(Operation):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Statement,
-        Stated(
+        Any,
+        Contact(
             "The problem whose numbers are replaced, in SI; a case or a rough surface.",
             indenters=INDENTERS,
             spelling="case",
@@ -52,8 +49,8 @@ class Sweep(Operation):
         ),
     ]
     cases: Annotated[
-        Sequence[Mapping[str, Any]],
-        Table(
+        Path | tuple[Mapping[str, Any], ...],
+        Rows(
             'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
             "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
             metavar="CASES.csv",
@@ -64,10 +61,6 @@ class Sweep(Operation):
     until: Until = "pull-off"
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
 
-    def __post_init__(self) -> None:
-        if any(row.keys() != self.cases[0].keys() for row in self.cases):
-            raise InputError("all cases must replace the same numbers of the problem")
-
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share`` and the new ``rows``."""
         from viscotack.campaign import CaseSettings
@@ -75,25 +68,28 @@ class Sweep(Operation):
 
         from .parts.tables import rows_as_csv
 
-        changes = changes_of(self.problem.problem, self.cases[0])
+        stated, cases = self.stated(caller), caller.rows(self.cases)
+        if not cases or any(row.keys() != cases[0].keys() for row in cases):
+            raise InputError("all cases must replace the same numbers of the problem")
+        changes = changes_of(stated.problem, cases[0])
         kind = changes.kind(caller.also)
-        inputs_of_rows = [_inputs(changes, number, row) for number, row in enumerate(self.cases, 1)]
+        inputs_of_rows = [_inputs(changes, number, row) for number, row in enumerate(cases, 1)]
         settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
         rows: list[dict[str, Any]] = []
         warnings: list[str] = []
         for number, inputs in enumerate(inputs_of_rows, 1):
-            carried = changes.carried_of(self.cases[number - 1])
+            carried = changes.carried_of(cases[number - 1])
             rows.append(_row(kind, inputs, settings) | ({"carried": carried} if carried else {}))
             warnings += [f"case {number}: {words}" for words in changes.unusual(inputs or {})]
-            words = f"{number} of {len(self.cases)} cases done"
-            caller.tell({"share": number / len(self.cases), "rows": rows[-1:], "words": words})
+            words = f"{number} of {len(cases)} cases done"
+            caller.tell({"share": number / len(cases), "rows": rows[-1:], "words": words})
         failed = sum(bool(row["reason"]) for row in rows if row["inputs"] is not None)
         return Answer(
             rows,
             record=lambda: {"rows": rows, "failed": failed},
             words=lambda: _words(changes, rows, failed),
-            files={"csv": rows_as_csv(_flat(self.cases, rows))},
-            notes=(*self.problem.notes, *changes.notes, *warnings),
+            files={"csv": rows_as_csv(_flat(cases, rows))},
+            notes=(*stated.notes, *changes.notes, *warnings),
             status=_SOME_FAILED if failed else 0,
         )
 

@@ -1,21 +1,16 @@
 """The operations ``theory jkr``, ``disc``, ``maugis`` and ``crack-contact``: no simulation."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 
 from viscotack.errors import InputError
 
-from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import Number
-from .declare.options import Operation
-from .declare.statement import Stated, Statement
-from .declare.wording import flag
 from .parts.closed_form import closed_form
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.record_words import record_words
 from .parts.tables import as_text
+from .request import Answer, Caller, Contact, Number, Request, csv_file, picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,8 +22,7 @@ _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0, metavar=
 _WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0, metavar="ENERGY")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Jkr(Operation):
+class Jkr(Request):
     """Detachment of an elastic sphere, forces of short range (JKR), from a half-space or a film.
 
     Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
@@ -44,7 +38,8 @@ class Jkr(Operation):
     thickness: Annotated[float | None, THICKNESS] = None
     bonded: Annotated[float | None, BONDED] = None
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
@@ -106,8 +101,7 @@ class Jkr(Operation):
         return closed_form(end, record, (depth(a), force(a)), ("depth [m]", "force [N]"))
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfDisc(Operation):
+class OfDisc(Request):
     """Detachment of a disc, the flat end of a cylinder, from a half-space or a film (Kendall).
 
     Example: viscotack theory disc --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
@@ -134,7 +128,8 @@ class OfDisc(Operation):
     thickness: Annotated[float | None, THICKNESS] = None
     bonded: Annotated[float | None, BONDED] = None
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         body_of(self.thickness, self.bonded)
 
     def answer(self, caller: Caller) -> Answer:
@@ -170,8 +165,7 @@ class OfDisc(Operation):
         return closed_form(force, record, curve, labels, logarithmic=True)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Maugis(Operation):
+class Maugis(Request):
     """Detachment of an elastic sphere, forces of any range (Maugis-Dugdale).
 
     Example: viscotack theory maugis --radius "1 um" --contact-modulus "1 GPa" --work-of-adhesion
@@ -198,14 +192,16 @@ class Maugis(Operation):
         ),
     ] = None
 
-    def __post_init__(self) -> None:
-        flags = {flag(name): value for name, value in self._sphere.items()}
-        given = [flag for flag, value in flags.items() if value is not None]
-        missing = [flag for flag, value in flags.items() if value is None]
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
+        given = [name for name, value in self._sphere.items() if value is not None]
+        missing = [name for name, value in self._sphere.items() if value is None]
         if self.tabor is not None and given:
-            raise InputError(f"--tabor states the whole problem; leave out {', '.join(given)}")
+            raise InputError(
+                f"tabor states the whole problem; leave out {', '.join(given)}", field="tabor"
+            )
         if self.tabor is None and missing:
-            raise InputError(f"{' and '.join(missing)} missing; or give --tabor alone")
+            raise InputError(f"{' and '.join(missing)} missing; or give tabor alone")
 
     @property
     def _sphere(self) -> dict[str, Any]:
@@ -243,8 +239,7 @@ class Maugis(Operation):
         return closed_form(end, record, (states.depth / height, states.force / load), labels)
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfCrack(Operation):
+class OfCrack(Request):
     """Compute a contact history with the steady-crack contact model.
 
     The problem is given as for simulate sphere, by options or by a file in SI. The model has no
@@ -258,14 +253,15 @@ class OfCrack(Operation):
     outputs: ClassVar = (csv_file("Write the history as CSV, dimensionless.", "curve"), picture())
     takes_own: ClassVar = True
 
-    problem: Annotated[Statement, Stated("The contact, of a sphere.", whole=False)]
+    problem: Annotated[Any, Contact("The contact, of a sphere.", whole=False)]
 
     def answer(self, caller: Caller) -> Answer:
         """Compute the history."""
         from viscotack.methods.by_crack import crack_contact, summary
         from viscotack.problem import Groups, Problem
 
-        problem = self.problem.problem
+        stated = self.stated(caller)
+        problem = stated.problem
         assert isinstance(problem, Problem | Groups), "stated as that of a sphere"
         found = crack_contact(problem)
         record = summary(found)
@@ -275,7 +271,7 @@ class OfCrack(Operation):
             words=lambda: record_words(record),
             files={"curve": as_text(lambda: _table(found))},
             pictures={"plot": lambda: _drawn(found)},
-            notes=self.problem.notes,
+            notes=stated.notes,
         )
 
 

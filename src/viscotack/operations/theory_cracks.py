@@ -1,7 +1,7 @@
 """The operations ``theory persson-brener``, ``greenwood`` and ``steady-crack``: moving cracks."""
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -11,12 +11,10 @@ from viscotack.errors import InputError
 from viscotack.theory.crack.steady.comparison import THESIS_RATIO
 from viscotack.units import parse
 
-from .declare.answer import Answer, Caller, picture
-from .declare.cards import File, Number, Place, Spelled
-from .declare.options import Operation, Part
-from .declare.questions import SCALES, SPHERE, require
+from .flags import LAW
 from .parts.closed_form import closed_form
 from .parts.solid import Reduced
+from .request import Answer, Caller, File, Number, Option, Text, picture
 
 if TYPE_CHECKING:
     from viscotack.theory import SteadyCrack
@@ -26,14 +24,12 @@ if TYPE_CHECKING:
 _ROWS = 41
 # Where it begins and ends: parts of ln Gamma between the slowest and the fastest crack.
 _PARTS = (0.005, 0.995)
-_LAW = next(question.words for question in SPHERE.questions if question.name == "law")
-_SCALES = ("contact-modulus", "work-of-adhesion", "equilibrium-gap", "tau0")
+_SCALES = ("contact_modulus", "work_of_adhesion", "equilibrium_gap", "tau0")
 _THEORIES = ("persson_brener", "greenwood", "slow", "fast")
 _STILL = "an elastic solid has an amplification of 1 at every speed"
 
 
-@dataclass(frozen=True, kw_only=True)
-class _OfTheory(Operation):
+class _OfTheory(Reduced):
     """A theory of the moving crack, named by the last word: of a solid, or of a measured modulus.
 
     Measured moduli end somewhere, so that their answer is two bounds.
@@ -41,7 +37,6 @@ class _OfTheory(Operation):
 
     outputs: ClassVar = (picture(),)
 
-    solid: Reduced = field(default_factory=Reduced)
     speed: Annotated[
         tuple[float, ...],
         Number(
@@ -72,10 +67,10 @@ class _OfTheory(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory at the speeds, or over the range that matters."""
         if self.modulus_table is None and self.rubbery_modulus is None:
-            v, found = self._of_solid()
+            v, found = self._of_solid(caller)
             unit = "the time of the material"
         else:
-            v, found = self._of_table()
+            v, found = self._of_table(caller)
             unit = "s"
         columns = {"speed": v} | found
         return closed_form(
@@ -86,11 +81,11 @@ class _OfTheory(Operation):
             logarithmic=True,
         )
 
-    def _of_solid(self) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    def _of_solid(self, caller: Caller) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         from viscotack.theory.crack.law import THEORIES
 
         law: Any = THEORIES[self.word.removeprefix("theory ")]
-        solid, _ = self.solid.stated()
+        solid, _ = self.solid(caller)
         if self.speed:
             v = np.array(self.speed)
         elif solid.modulus_ratio < 1:
@@ -102,18 +97,14 @@ class _OfTheory(Operation):
             raise InputError(_STILL)
         return v, {"amplification": np.asarray(law.amplification(v, material=solid))}
 
-    def _of_table(self) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    def _of_table(self, caller: Caller) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         from viscotack.theory import tabulated_modulus
         from viscotack.theory.crack.modulus_file import read_modulus
 
-        if given := self.solid.given:
-            others = ", ".join(f"--{flag}" for flag in given)
-            raise InputError(f"--modulus-table states the solid; leave out {others}")
+        if given := self.given:
+            raise InputError(f"modulus_table states the solid; leave out {', '.join(given)}")
         if self.modulus_table is None or self.rubbery_modulus is None:
-            missing = "--modulus-table" if self.modulus_table is None else "--rubbery-modulus"
-            raise InputError(
-                f"{missing} missing; --modulus-table and --rubbery-modulus go together"
-            )
+            raise InputError("modulus_table and rubbery_modulus go together; give both")
         amplification, speed_range = {
             "theory persson-brener": (
                 tabulated_modulus.amplification,
@@ -124,7 +115,9 @@ class _OfTheory(Operation):
                 tabulated_modulus.greenwood_speed_range,
             ),
         }[self.word]
-        modulus = read_modulus(self.modulus_table, rubbery_modulus=self.rubbery_modulus)
+        modulus = read_modulus(
+            caller.file(self.modulus_table), rubbery_modulus=self.rubbery_modulus
+        )
         # not the ends themselves, which round-off may put outside
         low, high = speed_range(modulus=modulus)
         v = np.geomspace(low * (1 + 1e-9), high * (1 - 1e-9), _ROWS)
@@ -136,7 +129,6 @@ class _OfTheory(Operation):
         }
 
 
-@dataclass(frozen=True, kw_only=True)
 class PerssonBrener(_OfTheory):
     """Effective over intrinsic surface energy of a moving crack (Persson and Brener).
 
@@ -147,7 +139,6 @@ class PerssonBrener(_OfTheory):
     word: ClassVar = "theory persson-brener"
 
 
-@dataclass(frozen=True, kw_only=True)
 class Greenwood(_OfTheory):
     """Effective over intrinsic surface energy of a moving crack with a cohesive zone (Greenwood).
 
@@ -166,53 +157,43 @@ class Speed:
     in_si: bool = False
 
 
-@dataclass(frozen=True)
-class _Speed(Number):
-    """A crack speed: a number without a unit is one of the theory."""
-
-    def read(self, value: Any, place: Place) -> Speed:
-        """Return the speed."""
-        if isinstance(value, Speed):
-            return value
-        if not isinstance(value, str) or re.fullmatch(r"[-+0-9.eE]+", value.strip()):
-            return Speed(super().read(value, place))
-        return Speed(parse(value, "m/s"), in_si=True)
-
-    def written(self, value: Speed) -> Any:
-        """Return the number, with its unit if it has one."""
-        return f"{value.value!r} m/s" if value.in_si else value.value
+def _speed(value: Any) -> Speed:
+    """Return a crack speed: a number without a unit is one of the theory."""
+    if isinstance(value, Speed):
+        return value
+    if not isinstance(value, str) or re.fullmatch(r"[-+0-9.eE]+", value.strip()):
+        return Speed(parse(value, "1"))
+    return Speed(parse(value, "m/s"), in_si=True)
 
 
-def _scale(name: str) -> Number:
-    card = SCALES[name]
-    words = f"For an answer in SI as well: {card.words}."
-    return Number(words, unit=card.unit, above=0, metavar=card.unit)
+def _scale(words: str, unit: str) -> Number:
+    words = f"For an answer in SI as well: {words}."
+    return Number(words, unit=unit, above=0, metavar=unit)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Scales(Part):
-    """What takes a crack to SI: all of them or none."""
+class Scales(Reduced):
+    """A request with what takes a crack to SI: all of them or none."""
 
-    contact_modulus: Annotated[float | None, _scale("contact-modulus")] = None
-    work_of_adhesion: Annotated[float | None, _scale("work-of-adhesion")] = None
-    equilibrium_gap: Annotated[float | None, _scale("equilibrium-gap")] = None
-    tau0: Annotated[float | None, _scale("tau0")] = None
+    contact_modulus: Annotated[float | None, _scale("rubbery contact modulus E0*", "Pa")] = None
+    work_of_adhesion: Annotated[float | None, _scale("work of adhesion dg", "J/m^2")] = None
+    equilibrium_gap: Annotated[float | None, _scale("equilibrium gap h0", "m")] = None
+    tau0: Annotated[float | None, _scale("time of the material", "s")] = None
 
     @property
     def units(self) -> tuple[float, float] | None:
         """The units of length [m], E0* h0^2/dg, and speed [m/s], or None where none is given."""
-        numbers = [getattr(self, name.replace("-", "_")) for name in _SCALES]
-        given = {n: x for n, x in zip(_SCALES, numbers, strict=True) if x is not None}
-        if not given:
+        numbers = [getattr(self, name) for name in _SCALES]
+        missing = [n for n, x in zip(_SCALES, numbers, strict=True) if x is None]
+        if len(missing) == len(_SCALES):
             return None
-        require(given, _SCALES, " for an answer in SI")
+        if missing:
+            raise InputError(f"{', '.join(missing)} missing for an answer in SI")
         E, w, h0, tau = numbers
         length = E * h0**2 / w
         return length, length / tau
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfSteadyCrack(Operation):
+class OfSteadyCrack(Scales):
     """Effective over intrinsic surface energy of a steady crack with its whole traction law.
 
     Beside it by which part Persson-Brener, Greenwood and the slow and fast asymptotes are off.
@@ -226,21 +207,20 @@ class OfSteadyCrack(Operation):
     word: ClassVar = "theory steady-crack"
     outputs: ClassVar = (picture(),)
 
-    solid: Reduced = field(default_factory=Reduced)
     speed: Annotated[
-        tuple[Speed, ...],
-        _Speed(
+        tuple[Any, ...],
+        Text(
             "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
             "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
             "it a table over the range that matters.",
             metavar="V",
+            to=_speed,
         ),
     ] = ()
-    law: Annotated[str | None, Spelled(_LAW, metavar="LAW", before=("table:",))] = None
+    law: Annotated[str | None, Option(LAW, metavar="LAW")] = None
     strength_ratio: Annotated[
         float, Number("Alpha of Persson and Brener's length.", above=0, metavar="ALPHA")
     ] = THESIS_RATIO
-    scales: Scales = field(default_factory=Scales)
 
     def answer(self, caller: Caller) -> Answer:
         """Solve the crack at the speeds, or over the range that matters."""
@@ -248,10 +228,12 @@ class OfSteadyCrack(Operation):
         from viscotack.theory import SteadyCrack
         from viscotack.traction import LennardJones
 
-        given = self.solid.given
-        solid, _ = self.solid.stated("power-law" if "exponent" in given else "sls")
-        crack = SteadyCrack(solid, law_from_words(self.law or LennardJones.word))
-        units = self.scales.units
+        given = self.given
+        solid, _ = self.solid(caller, "power-law" if "exponent" in given else "sls")
+        crack = SteadyCrack(
+            solid, law_from_words(caller.naming(self.law or LennardJones.word, ("table:",)))
+        )
+        units = self.units
         v = self._speeds(crack, units)
         record, curves = _columns(crack, v, units, self.strength_ratio)
         labels = ("speed [E0* h0^2/(dg tau)]", "amplification")
@@ -270,8 +252,7 @@ def _without_unit(speed: Speed, units: tuple[float, float] | None) -> float:
     if not speed.in_si:
         return speed.value
     if units is None:
-        names = ", ".join(f"--{name}" for name in _SCALES)
-        raise InputError(f"--speed '{speed.value:g} m/s' has a unit; it needs {names}")
+        raise InputError(f"speed {speed.value:g} m/s has a unit; it needs {', '.join(_SCALES)}")
     return speed.value / units[1]
 
 

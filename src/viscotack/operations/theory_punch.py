@@ -1,28 +1,18 @@
 """The operation ``theory punch``: theory of a flat punch on a layer."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials.passport import Passport
 from viscotack.units import parse
 
-from .declare.answer import Answer, Caller, picture
-from .declare.cards import Choice, FileOfNames, Number, Placed, Switch
-from .declare.options import Operation
-from .declare.questions import (
-    PUNCH,
-    is_passport,
-    passport_in,
-    refuse_beside,
-    refuse_time,
-    require,
-)
+from .flags import FLAGS
 from .parts.record_words import record_words
-from .parts.solid import Reduced, material_words
+from .parts.solid import Reduced, passport_of
+from .request import Answer, Caller, File, Named, Number, Option, picture
 
 if TYPE_CHECKING:
     from viscotack.materials import Material
@@ -34,25 +24,10 @@ _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
 _SLOW, _FAST = 0.003, 0.99
 # What states a solid and its scales, which a passport does alone.
-_OF_SOLID = ("contact-modulus", "modulus-ratio", "exponent", "tau0")
-_GLUED = next(question.words for question in PUNCH.questions if question.name == "bonded")
+_OF_SOLID = ("contact_modulus", "modulus_ratio", "exponent", "tau0")
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfLayer(Reduced):
-    """The solid of a layer."""
-
-    material: Annotated[
-        str | Passport | None,
-        material_words(
-            "sls (also when left out): standard linear solid, tau0 is its retardation time. "
-            "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere."
-        ),
-    ] = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class OfPad(Operation):
+class OfPad(Reduced):
     """Flat punch on a layer: pull-off stress for a thickness, or thickness for a stress.
 
     A theory without simulation; its stress is up to 19 % above simulations. The problem is given in
@@ -67,8 +42,8 @@ class OfPad(Operation):
     outputs: ClassVar = (picture("Draw that map to a .png, .pdf or .svg file."),)
 
     case: Annotated[
-        Placed | None,
-        FileOfNames(
+        Path | None,
+        File(
             "A problem in SI with units, instead of the flags of the problem; docs/input.md "
             "describes it.",
             metavar="CASE.toml",
@@ -112,8 +87,17 @@ class OfPad(Operation):
         float | None,
         Number('Of the interface, sigma0, "50 kPa".', unit="Pa", above=0, metavar="PRESSURE"),
     ] = None
-    bonded: Annotated[float | None, Number(_GLUED, least=0, most=0.5, metavar="NU")] = None
-    solid: OfLayer = field(default_factory=OfLayer)
+    bonded: Annotated[
+        float | None, Number(FLAGS["bonded"].words, least=0, most=0.5, metavar="NU")
+    ] = None
+    material: Annotated[
+        Any,
+        Named(
+            "sls (also when left out): standard linear solid, tau0 is its retardation time. "
+            "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere.",
+            metavar="MATERIAL",
+        ),
+    ] = None
     tau0: Annotated[
         float | None,
         Number(
@@ -121,21 +105,22 @@ class OfPad(Operation):
         ),
     ] = None
     theory: Annotated[
-        str, Choice("Theory of the moving crack.", choices=("greenwood", "persson-brener"))
+        Literal["greenwood", "persson-brener"], Option("Theory of the moving crack.")
     ] = "greenwood"
-    map: Annotated[bool, Switch("Add to the JSON how the pad detaches by thickness and speed.")] = (
+    map: Annotated[bool, Option("Add to the JSON how the pad detaches by thickness and speed.")] = (
         False
     )
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
         if self.thickness is not None and self.stress is not None:
-            raise InputError("give either --thickness or --stress, not both")
+            raise InputError("give either thickness or stress, not both", field="stress")
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
         from viscotack.pictures.plot import draw_regimes
 
-        pad, solid, wanted = self._stated()
+        pad, solid, wanted = self._pad(caller)
         # overflow must raise an error rather than return nan
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             crack = pad.crack_law(self.theory, material=solid)
@@ -150,21 +135,20 @@ class OfPad(Operation):
         )
 
     @property
-    def _given(self) -> dict[str, Any]:
+    def _of_pad(self) -> dict[str, Any]:
         """Options that define the pad."""
         names = ("half_width", "contact_modulus", "work_of_adhesion", "strength", "bonded")
-        said = {name.replace("_", "-"): getattr(self, name) for name in names}
-        said |= self.solid.given | {"tau0": self.tau0}
-        return {flag: value for flag, value in said.items() if value is not None}
+        said = {name: getattr(self, name) for name in (*names, "tau0")} | self.given
+        return {name: value for name, value in said.items() if value is not None}
 
-    def _stated(self) -> "tuple[Pad, Material, dict[str, float]]":
+    def _pad(self, caller: Caller) -> "tuple[Pad, Material, dict[str, float]]":
         """Return the pad and its solid in SI, and the requested numbers."""
         wanted = {"thickness": self.thickness, "stress": self.stress, "speed": self.speed}
         wanted = {name: value for name, value in wanted.items() if value is not None}
         if self.case is None:
-            pad, solid = self._of_flags()
+            pad, solid = self._of_flags(caller)
         else:
-            problem = self._of_case(self.case)
+            problem = self._of_case(caller.file(self.case), caller)
             pad, solid = _pad_of(problem), problem.material
             stated = {} if "stress" in wanted else {"thickness": problem.body.thickness}
             if problem.protocol.speed is not None:
@@ -172,62 +156,68 @@ class OfPad(Operation):
             wanted = stated | wanted
         if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
             raise InputError(
-                '--speed missing, the retraction speed; for example --speed "100 um/s"'
+                'speed is missing, the retraction speed; for example "100 um/s"', field="speed"
             )
         return pad, solid, wanted
 
-    def _of_case(self, case: Placed) -> Any:
+    def _of_case(self, case: Path, caller: Caller) -> Any:
         """Return the problem of a case file."""
         from viscotack.geometry import FlatPunch
         from viscotack.problem import Groups
         from viscotack.problem.case_file import read_case
 
-        if self._given:
-            flags = ", ".join(f"--{flag}" for flag in self._given)
-            raise InputError(f"{case.path} defines the whole problem; remove {flags}")
-        problem = read_case(case.path, beside=case.inside.file)
+        if self._of_pad:
+            given = ", ".join(self._of_pad)
+            raise InputError(f"{case} defines the whole problem; leave out {given}")
+        problem = read_case(case, beside=caller.within(case).file)
         if not isinstance(problem.geometry, FlatPunch) or isinstance(problem, Groups):
             raise InputError(
-                f"{case.path} states a {problem.geometry.word} or no units; this command needs a "
+                f"{case} states a {problem.geometry.word} or no units; this command needs a "
                 "flat punch in SI"
             )
         return problem
 
-    def _of_flags(self) -> "tuple[Pad, Material]":
+    def _of_flags(self, caller: Caller) -> "tuple[Pad, Material]":
         from viscotack.geometry import Bonded, Frictionless
+        from viscotack.materials.library import MATERIALS
         from viscotack.theory.punch import Pad
 
-        given, stated = self._given, self.solid.material or ""
-        needed = ["half-width", "work-of-adhesion", "strength"]
-        require(given, needed if is_passport(stated) else [*needed, "contact-modulus"])
-        if is_passport(stated):
-            refuse_beside(stated, given, _OF_SOLID)
-            solid = passport_in(stated).material
+        given, words = self._of_pad, self.material or ""
+        passport = not isinstance(words, str) or words.endswith(".toml") or words in MATERIALS
+        needed = ["half_width", "work_of_adhesion", "strength"]
+        needed += [] if passport else ["contact_modulus"]
+        if missing := [name for name in needed if name not in given]:
+            raise InputError(f"{', '.join(missing)} missing")
+        if passport:
+            if beside := [name for name in _OF_SOLID if name in given]:
+                raise InputError(f"{words} defines the whole material; leave out {beside[0]}")
+            solid = passport_of(words, caller).material
             modulus = solid.contact_modulus
         else:
-            modulus = given["contact-modulus"]
-            solid = self._solid_in_si(modulus)
+            modulus = given["contact_modulus"]
+            solid = self._solid_in_si(modulus, caller)
         pad = Pad(
-            half_width=given["half-width"],
+            half_width=given["half_width"],
             contact_modulus=modulus,
-            work_of_adhesion=given["work-of-adhesion"],
+            work_of_adhesion=given["work_of_adhesion"],
             strength=given["strength"],
             base=Frictionless() if self.bonded is None else Bonded(poisson_ratio=self.bonded),
         )
         return pad, solid
 
-    def _solid_in_si(self, contact_modulus: float) -> "Material":
+    def _solid_in_si(self, contact_modulus: float, caller: Caller) -> "Material":
         from viscotack.materials import Elastic
         from viscotack.problem.units import material_in_si
 
-        solid, unit = self.solid.stated("sls")
-        unit = "s" if isinstance(solid, Elastic) else unit
-        if unit == "1":
-            require(self._given, ["tau0"])
-            time = self._given["tau0"]
+        solid, unit = self.solid(caller, "sls")
+        if isinstance(solid, Elastic) or unit != "1":
+            if self.tau0 is not None:
+                raise InputError("the material has its times; leave out tau0", field="tau0")
+            time = parse("1 s" if unit == "1" else f"1 {unit}", "s")
+        elif self.tau0 is None:
+            raise InputError("tau0 is missing, the time of the material", field="tau0")
         else:
-            refuse_time(self._given, unit)
-            time = parse(f"1 {unit}", "s")
+            time = self.tau0
         # only times and ratios of it are used
         return material_in_si(solid, contact_modulus, time, 0.0)
 

@@ -1,19 +1,31 @@
 """The operation ``uncertainty``: the band of a force by its inputs, and which of them matters."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import log
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
+from pydantic import Field
+
 from viscotack.errors import InputError
-from viscotack.materials.passport import Passport
 from viscotack.units import is_number, readable
 
-from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import FileOfNames, Named, Number, Place, Placed, Text, Whole
-from .declare.options import Operation
-from .declare.statement import INDENTERS, Stated, Statement
+from .flags import INDENTERS
 from .forecast import fitted
-from .parts.solid import passport_of, published
+from .parts.solid import passport_of
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    File,
+    Named,
+    Number,
+    Option,
+    Request,
+    Text,
+    csv_file,
+    picture,
+)
 
 if TYPE_CHECKING:
     from viscotack.forecast.uncertainty import Uncertainty
@@ -32,19 +44,13 @@ def deviation_of(text: str) -> tuple[str, float]:
     return name, float(number) / (100 if rest.endswith("%") else 1)
 
 
-@dataclass(frozen=True)
-class Deviation(Text):
-    """The path of a number and its relative standard deviation, as text."""
-
-    def read(self, value: Any, place: Place) -> str:
-        """Return the text, which must have both."""
-        words = super().read(value, place)
-        deviation_of(words)
-        return words
+def _deviation(value: Any) -> str:
+    """Return the text of a deviation, which must have a path and a number."""
+    deviation_of(str(value))
+    return str(value)
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfUncertainty(Operation):
+class OfUncertainty(Request):
     """Propagate uncertainties of inputs to the pull-off force, and show which input matters.
 
     Each --scatter names a number of the problem, as listed by viscotack campaign inputs, and its
@@ -65,23 +71,23 @@ class OfUncertainty(Operation):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Statement,
-        Stated("The problem at its stated inputs.", indenters=INDENTERS, spelling="case"),
+        Any,
+        Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case"),
     ]
     scatter: Annotated[
         tuple[str, ...],
-        Deviation(
-            'A number and its relative standard deviation, "protocol.speed 5 %".', metavar="TEXT"
+        Text(
+            'A number and its relative standard deviation, "protocol.speed 5 %".',
+            metavar="TEXT",
+            to=_deviation,
         ),
     ] = ()
     passport: Annotated[
-        str | Passport | None,
+        Any,
         Named(
             "A passport, or the name of a published material, in place of the material; its "
             "sampled solids, or its intervals, are its uncertainty.",
             metavar="PASSPORT",
-            published=published,
-            objects=(Passport,),
         ),
     ] = None
     temperature: Annotated[
@@ -99,8 +105,8 @@ class OfUncertainty(Operation):
         ),
     ] = None
     study: Annotated[
-        Placed | None,
-        FileOfNames(
+        Path | None,
+        File(
             "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
             "place of the interface.",
             metavar="STUDY",
@@ -109,8 +115,8 @@ class OfUncertainty(Operation):
     confidence: Annotated[
         float, Number("Fraction inside the band.", above=0, most=0.999, metavar="PART")
     ] = 0.9
-    samples: Annotated[int, Whole("Number of predictions.", least=6, most=10_000)] = 256
-    seed: Annotated[int, Whole("Seed of the drawn problems.", least=0, most=2**32 - 1)] = 0
+    samples: Annotated[int, Option("Number of predictions."), Field(ge=6, le=10_000)] = 256
+    seed: Annotated[int, Option("Seed of the drawn problems."), Field(ge=0, lt=2**32)] = 0
     budget: Annotated[
         float,
         Number(
@@ -135,7 +141,7 @@ class OfUncertainty(Operation):
         problem, sampled, times = self._known(caller)
         if not (deviations or sampled or times):
             raise InputError(
-                'give --scatter, such as "sphere.radius 2 %", or what a passport or a study knows'
+                'give scatter, such as "sphere.radius 2 %", or what a passport or a study knows'
             )
         found = uncertainty(
             problem,
@@ -171,19 +177,19 @@ class OfUncertainty(Operation):
 
     def _known(self, caller: Caller) -> tuple[Any, dict[str, Any], dict[str, float]]:
         """Return the problem, sampled parts, and the deviations of ln of the material's times."""
-        problem: Any = self.problem.problem
+        stated = self.stated(caller)
+        problem: Any = stated.problem
         sampled: dict[str, Any] = {}
         times: dict[str, float] = {}
-        given = {"--passport": self.passport, "--study": self.study}
-        stated = [flag for flag, value in given.items() if value is not None]
-        if stated and problem.scales() is None:
-            raise InputError(f"{stated[0]} needs a problem with dimensions, in SI")
+        given = [name for name in ("passport", "study") if getattr(self, name) is not None]
+        if given and problem.scales() is None:
+            raise InputError(f"{given[0]} needs a problem with dimensions, in SI")
         if self.passport is not None:
             problem, sampled, times = self._of_passport(problem, caller)
         elif self.temperature is not None or self.temperature_uncertainty is not None:
-            raise InputError("a temperature needs --passport, which has the shift of the times")
-        elif self.problem.deviation > 0:
-            times["shift"] = self.problem.deviation * log(10.0)
+            raise InputError("a temperature needs a passport, which has the shift of the times")
+        elif stated.deviation > 0:
+            times["shift"] = stated.deviation * log(10.0)
         if self.study is not None:
             from viscotack.identify import interfaces
             from viscotack.identify.forward import law_of
@@ -201,7 +207,7 @@ class OfUncertainty(Operation):
         """Return the problem on the material of the passport, its solids, and its times."""
         from viscotack.materials.passport_uncertainty import allowed, shift_error
 
-        passport = passport_of(self.passport or "", caller.also)
+        passport = passport_of(self.passport, caller)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
         problem = replace(problem, material=passport.material)
@@ -211,12 +217,12 @@ class OfUncertainty(Operation):
             if not times["temperature"]:
                 raise InputError(
                     f"{passport.name}: the temperature dependence of its times is unknown; omit "
-                    "--temperature-uncertainty"
+                    "temperature_uncertainty"
                 )
         if not solids and not times:
             raise InputError(
                 f"{passport.name}: the uncertainty of this material is unknown (no sampled solids "
-                "and no intervals); omit --passport, or state --scatter of its constants"
+                "and no intervals); omit passport, or state scatter of its constants"
             )
         return problem, {"material": solids} if solids else {}, times
 

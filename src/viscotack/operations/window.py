@@ -1,20 +1,17 @@
 """The operation ``window``: pick and print by speed and preload."""
 
-from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
-from .declare.answer import Answer, Caller, csv_file, picture
-from .declare.cards import FileOfNames, Placed, Switch, number_of
-from .declare.options import Operation
+from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
 from .simulate import Accuracy
 
 
-@dataclass(frozen=True, kw_only=True)
-class OfWindow(Operation):
+class OfWindow(Request):
     """Determine where a stamp picks an object from a donor and prints it on a receiver.
 
     The object has a contact with the stamp and one with donor or receiver, which carry the same
@@ -34,8 +31,8 @@ class OfWindow(Operation):
     takes_own: ClassVar = True
 
     file: Annotated[
-        Placed,
-        FileOfNames(
+        Path,
+        File(
             "The contacts [stamp], [donor] and [receiver], and [pull] with speeds and preloads.",
             metavar="WINDOW.toml",
             argument=True,
@@ -43,7 +40,7 @@ class OfWindow(Operation):
     ]
     simulate: Annotated[
         bool,
-        Switch("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
+        Option("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
     ] = False
     accuracy: Accuracy = DEFAULT_ACCURACY
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
@@ -55,7 +52,8 @@ class OfWindow(Operation):
 
         from .parts.tables import rows_as_csv
 
-        stated = read_window(self.file.path, also=caller.also, beside=self.file.inside.file)
+        file = caller.file(self.file)
+        stated = read_window(file, also=caller.also, beside=caller.within(file).file)
         files = stated.variants or ((None, None, stated),)
         maps, chances = [], []
         for number, (_, _, each) in enumerate(files):

@@ -51,6 +51,8 @@ from viscotack.problem.tables import OWN, Reading, read_as, refuse_unknown, stat
 from viscotack.units import parse, readable
 
 Tables = Mapping[str, Any]
+# Largest thickness of a layer over the contact's length.
+_THICKEST = 1e9
 # Tables of files with several contacts, and the commands that read them.
 _OF_SEVERAL = {
     "stamp": "window", "donor": "window", "receiver": "window", "pad": "array", "array": "array",
@@ -224,7 +226,7 @@ def problem_of(
             "docs/input.md"
         )
     reading = replace(reading, units=(plane if plain else revolution).SI)
-    material = _material(tables.get("material"), reading, temperature)
+    material = material_of(tables.get("material"), reading, temperature)
     law = law_from_table(tables.get("interface"), reading)
     body = _body(tables.get(bodies[0]), bodies[0], reading, material) if bodies else HalfSpace()
     parts: dict[str, Any] = {"material": material, "traction": law, "body": body}
@@ -239,8 +241,9 @@ def problem_of(
             return RoughCase(surface=_surface(tables["surface"], reading), **parts)
         return Problem(geometry=_shape(tables.get(shape), shape, reading), **parts)
     except ValueError as error:
-        already = str(error).startswith(where)
-        raise InputError(str(error) if already else f"{where}: {error}") from None
+        if isinstance(error, InputError) and str(error).startswith(where):
+            raise
+        raise InputError(f"{where}: {error}") from None
 
 
 def tables_of(problem: Problem | Groups | RoughCase) -> dict[str, Any]:
@@ -344,6 +347,12 @@ def _body(entries: Any, name: str, reading: Reading, material: Material) -> Any:
     if kind is not Layer:
         return read_as(kind, entries, reading, name)
     table = read_as(LayerTable, entries, reading, name)
+    if reading.pure and table.thickness > _THICKEST:
+        raise InputError(
+            f"{reading.where}, [{name}] thickness must be at most {_THICKEST:g}, got "
+            f"{table.thickness:g}; leave out the layer for a half-space",
+            field=f"{name}.thickness",
+        )
     bases = {base.word: base for base in (Frictionless, Bonded)}
     word = table.base or (Frictionless.word if reading.pure else None)
     base = reading.choice({} if word is None else {"base": word}, name, "base", bases)
@@ -401,7 +410,8 @@ class PassportTable:
     rubbery_modulus: Annotated[float, cards(Elastic)["rubbery_modulus"].card] | None = None
 
 
-def _material(given: Any, reading: Reading, temperature: float | None) -> Material:
+def material_of(given: Any, reading: Reading, temperature: float | None = None) -> Material:
+    """Return the material that a table [material] states."""
     where = f"{reading.where}, [material]"
     if not isinstance(given, Mapping):
         raise InputError(f"{reading.where}: the table [material] is missing; see docs/input.md")

@@ -1,15 +1,16 @@
 """Traction laws as tables, [interface], and as words of an option."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from viscotack.cards import Field, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
+from viscotack.problem.nouns import known
 from viscotack.problem.tables import OWN, Reading, UnknownNoun, read_as, stated
 from viscotack.traction import LAWS, LennardJones, Tabulated, Traction, has_rest
-from viscotack.units import finite
 
 STRENGTH = Quantity("Pa", "sigma0", "largest tension of the law", above=0, example="100 kPa")
 _SCALES = ("work_of_adhesion", "equilibrium_gap")
@@ -90,6 +91,20 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     >>> law_from_words("gent-schultz:10,0.4:exponential:0.25").base.decay
     0.25
     """
+    return law_from_table(
+        table_of_words(words, laws),
+        Reading("the law", replace(known(), laws=laws), Path, pure=True),
+    )
+
+
+def table_of_words(words: str, laws: Mapping[str, Any] = LAWS) -> dict[str, Any]:
+    """Return the table [interface] that the words of an option state.
+
+    Examples
+    --------
+    >>> table_of_words("gent-schultz:10,0.4:exponential:0.25")["base"]
+    'exponential'
+    """
     name, _, rest = words.partition(":")
     if name not in laws:
         raise UnknownNoun(f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}")
@@ -97,8 +112,8 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     if kind is Tabulated:
         if not rest:
             raise InputError("the law table needs a file: table:FILE.csv")
-        return _tabulated(rest).reduced()
-    base = None
+        return {"law": name, "file": rest}
+    base = ""
     if has_rest(kind):
         rest, _, base = rest.partition(":")
     constants = [constant.name for constant in _constants(kind)]
@@ -106,15 +121,11 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     given = rest.split(",") if rest else []
     if not len(needed) <= len(given) <= len(constants):
         wanted = ",".join(constant.upper() for constant in constants)
-        more = "" if base is None else "[:LAW AT REST]"
+        more = "[:LAW AT REST]" if has_rest(kind) else ""
         raise InputError(f"write {name}{':' if wanted else ''}{wanted}{more}, got {words!r}")
-    values: dict[str, Any] = {
-        constant: finite(constant, text, "1")
-        for constant, text in zip(constants, given, strict=False)
-    }
-    if base:
-        values["base"] = law_from_words(base, laws)
-    return kind(1.0, 1.0, **values)
+    of_base = table_of_words(base, laws) if base else {}
+    of_base = {"base" if key == "law" else key: value for key, value in of_base.items()}
+    return {**of_base, "law": name, **dict(zip(constants, given, strict=False))}
 
 
 def _constants(kind: Any) -> list[Field]:

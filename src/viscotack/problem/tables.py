@@ -101,7 +101,8 @@ class Reading:
         try:
             return self.number(card, value)
         except InputError as error:
-            raise InputError(f"{self.where}, [{table}] {_after(key, str(error))}") from None
+            words = f"{self.where}, [{table}] {_after(key, str(error))}"
+            raise InputError(words, field=f"{table}.{key}") from None
 
     def parsed(self, value: Any, unit: str, example: str = "") -> float:
         """Return a number in a unit."""
@@ -200,7 +201,9 @@ def read_as(kind: type[T], table: Any, reading: Reading, name: str) -> T:
     try:
         return adapter(kind).validate_python(dict(table), context=reading)
     except ValidationError as error:
-        raise InputError(f"{where} {_words(kind, error, reading)}") from None
+        loc = error.errors()[0]["loc"]
+        at = f"{name}.{loc[0]}" if loc else ""
+        raise InputError(f"{where} {_words(kind, error, reading)}", field=at) from None
     except ArithmeticError as error:
         raise InputError(f"{where}: {error}") from None
 

@@ -10,28 +10,37 @@ from viscotack.errors import InputError, install_command
 if TYPE_CHECKING:
     from fastapi import FastAPI
 
-    from .guard import Guard
 
-
-def application(engine: Engine | None = None) -> "FastAPI":
-    """Create the FastAPI application of page and API, without its guard.
+def application(
+    engine: Engine | None = None, *, hosts: tuple[str, ...] = (), token: str = ""
+) -> "FastAPI":
+    """Create the FastAPI application of page and API.
 
     Parameters
     ----------
     engine : Engine, optional
         Runs the tasks; default: an engine with default limits.
+    hosts : tuple of str
+        Accepted host names; () for any.
+    token : str
+        Token that every request must contain; "" for none.
 
     Raises
     ------
     ValueError
         If the libraries of the extra ``app`` are missing.
     """
-    FastAPI = _fastapi()
+    try:
+        import python_multipart  # noqa: F401  # files are sent with it
+        from fastapi import FastAPI
+    except ImportError as error:
+        raise InputError(
+            f"the page and the API need {error.name}; install it with: {install_command('app')}"
+        ) from None
     from viscotack.version import __version__
 
-    from .openapi import described
-    from .refusals import words_for
-    from .routes import routes
+    from .guard import Rules, guard
+    from .routes import refusals, routes
 
     engine = Engine() if engine is None else engine
 
@@ -52,40 +61,7 @@ def application(engine: Engine | None = None) -> "FastAPI":
         redoc_url=None,
         lifespan=alive,
     )
-    words_for(app)
+    refusals(app)
     app.include_router(routes(engine))
-    described(app)
-    return app
-
-
-def guarded(
-    engine: Engine | None = None, *, hosts: tuple[str, ...] = (), token: str = ""
-) -> "Guard":
-    """Create the application with its guard, as run by a server.
-
-    Parameters
-    ----------
-    engine : Engine, optional
-        Runs the tasks.
-    hosts : tuple of str
-        Accepted host names; () for any.
-    token : str
-        Token that every request must contain; "" for none.
-    """
-    engine = Engine() if engine is None else engine
-    app = application(engine)
-    from .guard import Guard, Rules
-
     limits = engine.limits
-    return Guard(app, Rules(hosts=hosts, token=token, body=limits.body, uploads=limits.uploads))
-
-
-def _fastapi() -> type["FastAPI"]:
-    try:
-        import python_multipart  # noqa: F401  # files are sent with it
-        from fastapi import FastAPI
-    except ImportError as error:
-        raise InputError(
-            f"the page and the API need {error.name}; install it with: {install_command('app')}"
-        ) from None
-    return FastAPI
+    return guard(app, Rules(hosts, token, limits.body, limits.uploads))

@@ -1,23 +1,14 @@
-"""Access control: host, origin, token, size, time and number of requests are bounded."""
+"""Access control: host, origin, token and size of a request."""
 
-import asyncio
-import json
-import re
 import secrets
-from collections.abc import Awaitable, Callable, Iterable, MutableMapping
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
-from http.cookies import CookieError, SimpleCookie
-from typing import Any
-from urllib.parse import parse_qs, parse_qsl, urlencode, urlsplit
 
-Message = MutableMapping[str, Any]
-Receive = Callable[[], Awaitable[Message]]
-Send = Callable[[Message], Awaitable[None]]
-Application = Callable[[Message, Receive, Send], Awaitable[None]]
+from fastapi import FastAPI, Request, Response
+from fastapi.responses import JSONResponse, RedirectResponse
+from starlette.middleware.trustedhost import TrustedHostMiddleware
 
 _COOKIE = "viscotack"
-_BUSY = "this server answers as many requests as it may; ask again later"
-_HOST = re.compile(r"(\[[^\]]*\]|[^:\[\]]*)(?::\d*)?")
 # The page, and uploads that it shows, load nothing from other servers and send nothing to them.
 _HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; style-src 'self' "
@@ -29,7 +20,7 @@ _HEADERS = {
 
 @dataclass(frozen=True)
 class Rules:
-    """Rules of access and size limits.
+    """Rules of access.
 
     Attributes
     ----------
@@ -39,212 +30,80 @@ class Rules:
         Token that a request must contain; "" for none.
     body, uploads : int
         Largest request, and largest request with files [bytes].
-    together : int
-        Largest size of all requests that are being answered [bytes].
-    requests : int
-        Largest number of simultaneous requests.
-    patience : float
-        Longest time within which a request must arrive [s].
     """
 
     hosts: tuple[str, ...] = ()
     token: str = ""
     body: int = 1_000_000
     uploads: int = 20_000_000
-    together: int = 100_000_000
-    requests: int = 200
-    patience: float = 60.0
 
 
-class Rejected(Exception):
-    """A request exceeds a limit while it arrives."""
+def guard(app: FastAPI, rules: Rules) -> FastAPI:
+    """Add the rules to an application."""
 
+    @app.middleware("http")
+    async def guarded(
+        request: Request, forward: Callable[[Request], Awaitable[Response]]
+    ) -> Response:
+        refused = _refusal(request, rules)
+        response = refused or _entered(request, rules) or await forward(request)
+        response.headers.update(_HEADERS)
+        return response
 
-class Guard:
-    """ASGI application that enforces the rules.
-
-    Attributes
-    ----------
-    rules : Rules
-        Rules of access and limits.
-    held : int
-        Size of all requests that are being answered [bytes].
-    """
-
-    def __init__(self, application: Application, rules: Rules) -> None:
-        self._application, self.rules = application, rules
-        self._requests = self.held = 0
-
-    async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
-        """Forward a request, or reject it with a reason."""
-        if scope["type"] != "http":
-            await self._application(scope, receive, send)
-            return
-        headers = {k.decode("latin-1"): v.decode("latin-1") for k, v in scope["headers"]}
-        refusal = self._refusal(scope, headers)
-        if refusal is not None:
-            await _refuse(send, *refusal)
-            return
-        entered = self._entered(scope)
-        if entered:
-            await _redirect(send, _without_token(scope), entered)
-            return
-        limit = self._limit(headers)
-        if int(_digits(headers.get("content-length", "0"))) > limit:
-            await _refuse(send, 413, _too_large(limit))
-            return
-        if self._requests >= self.rules.requests:
-            await _refuse(send, 503, _BUSY)
-            return
-        self._requests += 1
-        arriving = _Arriving(self, receive, limit)
-        try:
-            await self._forward(scope, arriving, send)
-        finally:
-            self._requests -= 1
-            self.held -= arriving.taken
-
-    async def _forward(self, scope: Message, arriving: "_Arriving", send: Send) -> None:
-        began = False
-
-        async def guarded(message: Message) -> None:
-            nonlocal began
-            if arriving.rejected is not None and not began:
-                return  # the application may answer with an error of its own
-            if message["type"] == "http.response.start":
-                began = True
-                message["headers"] = [*message["headers"], *_pairs(_HEADERS)]
-            await send(message)
-
-        try:
-            await self._application(scope, arriving.receive, guarded)
-        except Exception:
-            if arriving.rejected is None:
-                raise
-        if arriving.rejected is not None and not began:
-            await _refuse(send, *arriving.rejected)
-
-    def _limit(self, headers: MutableMapping[str, str]) -> int:
-        is_upload = headers.get("content-type", "").startswith("multipart/form-data")
-        return self.rules.uploads if is_upload else self.rules.body
-
-    def _refusal(self, scope: Message, headers: MutableMapping[str, str]) -> tuple[int, str] | None:
-        """Return status and reason for a rejected request, None for an accepted one."""
-        host = headers.get("host", "")
-        if self.rules.hosts and _bare(host) not in self.rules.hosts:
-            return 403, f"this server is called {' or '.join(self.rules.hosts)}, not {host!r}"
-        origin = headers.get("origin", "")
-        if origin and _place(origin) != host:
-            # a page of another origin in the browser of the user
-            return 403, "pages from elsewhere may not ask this server"
-        if not self.rules.token or self._knows(scope, headers):
-            return None
-        return 401, (
-            "this server wants its token: the header Authorization: Bearer TOKEN, or in a browser "
-            "the link that viscotack app has printed"
+    if rules.hosts:
+        app.add_middleware(
+            TrustedHostMiddleware, allowed_hosts=list(rules.hosts), www_redirect=False
         )
-
-    def _knows(self, scope: Message, headers: MutableMapping[str, str]) -> bool:
-        """Whether a request contains the token, in a header, a cookie or the link."""
-        given = [headers.get("authorization", "").removeprefix("Bearer ")]
-        try:
-            morsel = SimpleCookie(headers.get("cookie", "")).get(_COOKIE)
-        except CookieError:
-            morsel = None
-        given += [] if morsel is None else [morsel.value]
-        given += parse_qs(scope["query_string"].decode("latin-1")).get("token", [])
-        return any(secrets.compare_digest(x.encode(), self.rules.token.encode()) for x in given)
-
-    def _entered(self, scope: Message) -> str:
-        """Return the cookie for a browser that opened the link with the token, else ""."""
-        query = parse_qs(scope["query_string"].decode("latin-1"))
-        if not self.rules.token or scope["path"] != "/" or "token" not in query:
-            return ""
-        return f"{_COOKIE}={self.rules.token}; Path=/; HttpOnly; SameSite=Strict"
+    return app
 
 
-def _without_token(scope: Message) -> str:
-    """Return the link without the token, to which the browser is redirected."""
-    pairs = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
-    query = urlencode([(name, value) for name, value in pairs if name != "token"])
-    return scope["path"] + (f"?{query}" if query else "")
-
-
-class _Arriving:
-    """A request that arrives within the limits of size and time, or is rejected."""
-
-    def __init__(self, guard: Guard, receive: Receive, limit: int) -> None:
-        self._guard, self._receive, self._limit = guard, receive, limit
-        self._until = asyncio.get_running_loop().time() + guard.rules.patience
-        self._complete, self.taken = False, 0
-        self.rejected: tuple[int, str] | None = None
-
-    async def receive(self) -> Message:
-        if self._complete:  # only the end of the connection may follow, at any time
-            return await self._receive()
-        try:
-            async with asyncio.timeout_at(self._until):
-                message = await self._receive()
-        except TimeoutError:
-            words = f"the request did not arrive within {self._guard.rules.patience:g} s"
-            raise self._reject(408, words) from None
-        count = len(message.get("body", b""))
-        self.taken += count
-        self._guard.held += count
-        if self.taken > self._limit:
-            raise self._reject(413, _too_large(self._limit))
-        if self._guard.held > self._guard.rules.together:
-            raise self._reject(503, _BUSY)
-        self._complete = not message.get("more_body")
-        return message
-
-    def _reject(self, status: int, words: str) -> Rejected:
-        self.rejected = status, words
-        return Rejected(words)
-
-
-def _place(origin: str) -> str | None:
-    """Return host and port of an origin, None if it has another form."""
-    try:
-        return urlsplit(origin).netloc
-    except ValueError:
+def _refusal(request: Request, rules: Rules) -> Response | None:
+    """Return the refusal of a request, None for an accepted one."""
+    origin = request.headers.get("origin", "")
+    if origin and origin.partition("://")[2] != request.headers.get("host", ""):
+        # a page of another origin in the browser of the user
+        return _said(403, "pages from elsewhere may not ask this server")
+    if rules.token and not _knows(request, rules.token):
+        return _said(
+            401,
+            "this server wants its token: the header Authorization: Bearer TOKEN, or in a browser "
+            "the link that viscotack app has printed",
+        )
+    if request.method != "POST":
         return None
+    is_upload = request.headers.get("content-type", "").startswith("multipart/form-data")
+    most = rules.uploads if is_upload else rules.body
+    length = request.headers.get("content-length", "")
+    if not length.isdigit():
+        return _said(411, "the request must state its length")
+    if int(length) > most:
+        return _said(413, f"the request is longer than the {most:,} bytes that this server takes")
+    return None
 
 
-def _bare(host: str) -> str:
-    """Return the name of a host without its port; all of it if it has another form."""
-    found = _HOST.fullmatch(host)
-    return host if found is None else found[1]
+def _knows(request: Request, token: str) -> bool:
+    """Whether a request contains the token, in a header, a cookie or the link."""
+    given = (
+        request.headers.get("authorization", "").removeprefix("Bearer "),
+        request.cookies.get(_COOKIE, ""),
+        request.query_params.get("token", ""),
+    )
+    return any(secrets.compare_digest(x.encode(), token.encode()) for x in given)
 
 
-def _digits(text: str) -> str:
-    return text if text.isascii() and text.isdigit() and len(text) < 20 else "0"
+def _entered(request: Request, rules: Rules) -> Response | None:
+    """Return the way to the page, with a cookie, for a browser that opened the link with a token.
+
+    The token does not appear in histories and logs.
+    """
+    if not rules.token or request.url.path != "/" or "token" not in request.query_params:
+        return None
+    bare = request.url.remove_query_params("token")
+    response = RedirectResponse(f"{bare.path}?{bare.query}" if bare.query else bare.path, 303)
+    response.set_cookie(_COOKIE, rules.token, httponly=True, samesite="strict")
+    return response
 
 
-def _too_large(limit: int) -> str:
-    return f"the request is longer than the {limit:,} bytes that this server takes"
-
-
-def _pairs(headers: MutableMapping[str, str]) -> Iterable[tuple[bytes, bytes]]:
-    return [(name.encode(), value.encode()) for name, value in headers.items()]
-
-
-async def _refuse(send: Send, status: int, words: str) -> None:
-    content = json.dumps({"error": words}).encode()
-    headers = {"content-type": "application/json", "content-length": str(len(content))}
-    if status == 401:
-        headers["www-authenticate"] = "Bearer"
-    await _respond(send, status, headers, content)
-
-
-async def _redirect(send: Send, path: str, cookie: str) -> None:
-    # without the token, so that it does not appear in histories and logs
-    await _respond(send, 303, {"location": path, "set-cookie": cookie, "content-length": "0"}, b"")
-
-
-async def _respond(
-    send: Send, status: int, headers: MutableMapping[str, str], content: bytes
-) -> None:
-    pairs = [*_pairs(headers), *_pairs(_HEADERS)]
-    await send({"type": "http.response.start", "status": status, "headers": pairs})
-    await send({"type": "http.response.body", "body": content})
+def _said(status: int, words: str) -> Response:
+    headers = {"www-authenticate": "Bearer"} if status == 401 else None
+    return JSONResponse({"error": words}, status, headers)

@@ -6,20 +6,6 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 
-# What an option that is a problem takes.
-STATED_SCHEMA = {
-    "description": "A problem: its tables, as in a file (docs/input.md), with quantities as text "
-    "with units or as numbers in SI; or the numbers of an indenter, "
-    '{"indenter": "sphere", "tabor": 3.24, ...}, as the flags of the commands.',
-    "anyOf": [
-        {"$ref": "#/components/schemas/Tables"},
-        {
-            "type": "object",
-            "properties": {"indenter": {"type": "string", "enum": ["sphere", "profile", "punch"]}},
-            "required": ["indenter"],
-        },
-    ],
-}
 Accuracy = Annotated[
     float,
     Field(ge=1e-6, le=LOOSEST_ACCURACY, description="Required relative error of the force."),
@@ -67,6 +53,12 @@ class AskedTheory(AskedVerdict):
 
     crack: Annotated[bool, Field(description="The contact whose edge is a steady crack.")] = True
     speeds: Annotated[bool, Field(description="The best theory at other speeds.")] = False
+
+
+class SentFiles(BaseModel):
+    """Files that were sent, for the query of requests that name them."""
+
+    files: str
 
 
 class Refusal(BaseModel):

@@ -1,19 +1,21 @@
 """Routes of the API and of the page, and the static files of the page."""
 
 import asyncio
-from collections.abc import Mapping
 from importlib.resources import files as files_of
 from inspect import cleandoc
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi import APIRouter, FastAPI, Path, Query, Response, UploadFile
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
 
-from viscotack.app.engine.crew import Refused
-from viscotack.app.engine.jobs import Engine, Job
-from viscotack.operations import Operation, operations
-from viscotack.operations.declare.cards import File
-from viscotack.operations.declare.description import described, path, request_schema
-from viscotack.operations.declare.options import options, spelled, summary
+from viscotack.app.engine import page_tasks
+from viscotack.app.engine.jobs import Engine, Job, TooMany, Unknown
+from viscotack.app.engine.lane import Defect
+from viscotack.errors import InputError
+from viscotack.operations import operations
+from viscotack.operations.request import Request, described, refusal, summary
 
 from .models import (
     Answer,
@@ -23,8 +25,8 @@ from .models import (
     AskedVerdict,
     JobAnswer,
     Refusal,
+    SentFiles,
 )
-from .requests import received
 
 # Longest time that a request for the state of a job waits for changes [s].
 _LONGEST_WAIT = 10.0
@@ -50,6 +52,12 @@ _FULL: dict[int | str, dict[str, Any]] = {
     429: {"model": Refusal, "description": "There are as many jobs as there may be."}
 }
 Id = Annotated[str, Path(max_length=64)]
+Outputs = Annotated[
+    tuple[str, ...],
+    Query(description="More than the record of the answer: words, drawn, or names of files."),
+]
+Sent = Annotated[str, Query(max_length=64, description="Files that were sent to /api/files.")]
+_STATUS = {Unknown: 404, TooMany: 429}
 
 
 def routes(engine: Engine) -> APIRouter:
@@ -57,82 +65,43 @@ def routes(engine: Engine) -> APIRouter:
     router = APIRouter(responses=_REFUSED)
     _jobs(router, engine)
     for kind in operations().values():
-        if reason := kind.refused.get("http"):
-            _refused(router, kind.word, reason)
-        else:
+        if not kind.local:
             _operation(router, engine, kind)
     _page(router, engine)
     return router
 
 
-def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None:
+def _operation(router: APIRouter, engine: Engine, kind: type[Request]) -> None:
     """Add the routes of an operation: direct answer, and job."""
-    word = path(kind.word)
 
-    async def answer(request: Request) -> Answer:
-        given, files = await received(request, kind)
-        upload = engine.held(files)
-        with upload.folder:
-            return Answer(**await engine.ask("operation", given | {"files": list(upload.paths)}))
+    async def answer(asked: Any, outputs: Outputs = (), files: Sent = "") -> Answer:
+        return Answer(**await engine.ask(asked, outputs, files))
 
-    async def job(request: Request) -> JobAnswer:
-        given, files = await received(request, kind)
-        _check_rows(given["given"], engine.limits.cases)
-        upload = engine.held(files)
-        try:
-            started = engine.start(given | {"files": list(upload.paths)}, upload)
-        except BaseException:
-            upload.folder.cleanup()
-            raise
-        return _told(started)
+    async def job(asked: Any, outputs: Outputs = (), files: Sent = "") -> JobAnswer:
+        _check_rows(asked, engine.limits.cases)
+        return _told(engine.start(asked, outputs, files))
 
-    name, words = word.replace("/", "_"), summary(kind)
-    more = {"requestBody": {"required": True, "content": _content(kind)}}
-    told = spelled(cleandoc(kind.__doc__ or ""), kind)
-    router.post(
-        f"/api/{word}",
-        tags=["operations"],
-        operation_id=name,
-        summary=words,
-        description=told,
-        openapi_extra=more,
-    )(answer)
-    router.post(
-        f"/api/jobs/{word}",
-        tags=["jobs"],
-        operation_id=f"job_{name}",
-        summary=words,
-        description=told,
-        openapi_extra=more,
-        status_code=202,
-        responses=_FULL,
-    )(job)
+    name, word = kind.word.replace(" ", "_"), kind.word.replace(" ", "/")
+    for prefix, route, more in (
+        ("", answer, {}),
+        ("jobs/", job, {"status_code": 202, "responses": _FULL}),
+    ):
+        route.__annotations__["asked"] = kind
+        router.post(
+            f"/api/{prefix}{word}",
+            tags=[prefix.removesuffix("/") or "operations"],
+            operation_id=f"{prefix.replace('/', '_')}{name}",
+            summary=summary(kind),
+            description=cleandoc(kind.__doc__ or ""),
+            **more,
+        )(route)
 
 
-def _refused(router: APIRouter, word: str, reason: str) -> None:
-    """Add a route that rejects an operation with the reason."""
-
-    async def refuse() -> None:
-        raise Refused(f"{word} is not available over HTTP: {reason}")
-
-    for place in ("/api", "/api/jobs"):
-        router.post(f"{place}/{path(word)}", include_in_schema=False)(refuse)
-
-
-def _content(kind: type[Operation]) -> dict[str, Any]:
-    """Return the content types of a request for an operation."""
-    needs_files = any(isinstance(o.card, File) and o.needed for o in options(kind))
-    plain = (
-        {} if needs_files else {"application/json": {"schema": request_schema(kind, sent=False)}}
-    )
-    return plain | {"multipart/form-data": {"schema": request_schema(kind, sent=True)}}
-
-
-def _check_rows(given: Mapping[str, Any], most: int) -> None:
+def _check_rows(asked: Request, most: int) -> None:
     """Reject more cases than the limit per request."""
-    count = max((len(value) for value in given.values() if isinstance(value, list)), default=0)
+    count = max((len(x) for _, x in asked if isinstance(x, tuple)), default=0)
     if count > most:
-        raise Refused(
+        raise InputError(
             f"{count} cases exceed the limit of {most} per request; use viscotack campaign, which "
             "has no limit"
         )
@@ -182,7 +151,43 @@ def _told(job: Job, points_from: int = 0, rows_from: int = 0, *, whole: bool = T
     )
 
 
+def refusals(app: FastAPI) -> None:
+    """Install handlers that return all errors as ``{"error": message}``."""
+
+    async def refused(request: Any, error: Exception) -> JSONResponse:
+        status = next((s for kind, s in _STATUS.items() if isinstance(error, kind)), 422)
+        return JSONResponse({"error": str(error)}, status)
+
+    async def malformed(request: Any, error: Exception) -> JSONResponse:
+        assert isinstance(error, RequestValidationError)
+        errors = error.errors()
+        kind = request.scope["route"].endpoint.__annotations__.get("asked")
+        inside = [each for each in errors if each["loc"][0] == "body"]
+        if inside and isinstance(kind, type) and issubclass(kind, Request):
+            return JSONResponse({"error": str(refusal(kind, inside))}, 422)
+        first = errors[0]
+        place = ".".join(str(part) for part in first["loc"])
+        return JSONResponse({"error": f"{place}: {first['msg']}"}, 422)
+
+    async def failed(request: Any, error: Exception) -> JSONResponse:
+        return JSONResponse({"error": f"this is a defect of viscotack: {error}"}, 500)
+
+    async def plain(request: Any, error: Exception) -> JSONResponse:
+        assert isinstance(error, HTTPException)
+        return JSONResponse({"error": str(error.detail)}, error.status_code, error.headers)
+
+    app.add_exception_handler(InputError, refused)
+    app.add_exception_handler(Defect, failed)
+    app.add_exception_handler(RequestValidationError, malformed)
+    app.add_exception_handler(HTTPException, plain)
+
+
 def _page(router: APIRouter, engine: Engine) -> None:
+    @router.post("/api/files", tags=["operations"])
+    async def send(files: list[UploadFile]) -> SentFiles:
+        """Send files; requests name them, with the id in the query: ``?files=ID``."""
+        return SentFiles(files=engine.keep([(x.filename or "file", await x.read()) for x in files]))
+
     @router.get("/api/operations", tags=["operations"])
     async def known() -> Answer:
         """List the operations: their options with words, units, choices and defaults."""
@@ -191,32 +196,32 @@ def _page(router: APIRouter, engine: Engine) -> None:
     @router.get("/api/forms", tags=["page"])
     async def forms() -> Answer:
         """Say what can be asked, read from the cards: choices, fields, units, ranges, examples."""
-        return Answer(**await engine.ask("forms", {}))
+        return Answer(**await engine.page(page_tasks.ask_forms, {}))
 
     @router.post("/api/state", tags=["page"])
     async def state(asked: AskedState) -> Answer:
         """Return a state as tables, file and link, from one of the three."""
-        return Answer(**await engine.ask("state", asked.model_dump()))
+        return Answer(**await engine.page(page_tasks.ask_state, asked.model_dump()))
 
     @router.post("/api/quick", tags=["page"])
     async def quick(asked: AskedQuick) -> Answer:
         """Evaluate theory and surrogate for a state (milliseconds): curves, numbers, intervals."""
-        return Answer(**await engine.ask("quick", asked.model_dump()))
+        return Answer(**await engine.page(page_tasks.ask_quick, asked.model_dump()))
 
     @router.post("/api/moduli", tags=["page"])
     async def moduli(asked: AskedQuick) -> Answer:
         """Return storage and loss modulus of a state's material over the frequency."""
-        return Answer(**await engine.ask("moduli", asked.model_dump()))
+        return Answer(**await engine.page(page_tasks.ask_moduli, asked.model_dump()))
 
     @router.post("/api/verdict", tags=["page"])
     async def verdict(asked: AskedVerdict) -> Answer:
         """Return the advisor's words on a state."""
-        return Answer(**await engine.ask("verdict", asked.model_dump()))
+        return Answer(**await engine.page(page_tasks.ask_verdict, asked.model_dump()))
 
     @router.post("/api/theory", tags=["page"])
     async def theory(asked: AskedTheory) -> Answer:
         """Return the curves of the theories that may take seconds."""
-        return Answer(**await engine.ask("theory", asked.model_dump()))
+        return Answer(**await engine.page(page_tasks.ask_theory, asked.model_dump()))
 
     @router.get("/", include_in_schema=False)
     async def page() -> Response:

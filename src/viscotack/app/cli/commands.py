@@ -5,11 +5,12 @@ file could not be written; 3 a defect of viscotack; 130 interrupted by ctrl-C.
 With --json exactly one object is written to standard output, everything else to standard error.
 """
 
+import re
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 from typer import Option
@@ -18,6 +19,9 @@ from viscotack.errors import TOO_LARGE, InputError
 from viscotack.files.bounded import forget_reads
 from viscotack.files.text import harmless
 from viscotack.version import __version__
+
+if TYPE_CHECKING:
+    from viscotack.operations.request import Request
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
@@ -55,8 +59,10 @@ def _viscotack(
 
 
 @contextmanager
-def wrong_input() -> Iterator[None]:
+def wrong_input(kind: "type[Request] | None" = None) -> Iterator[None]:
     """Report invalid input on standard error and exit with status 2.
+
+    An option of the request `kind` that an error names is spelled as a flag.
 
     Any unexpected exception is a defect: its traceback is printed, and the exit status is 3.
     """
@@ -64,7 +70,7 @@ def wrong_input() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        _stop(str(error))
+        _stop(_spelled(error, kind))
     except FileNotFoundError as error:
         _stop(f"there is no file {error.filename}")
     except IsADirectoryError as error:
@@ -82,6 +88,23 @@ def wrong_input() -> Iterator[None]:
         _stop(
             "this is a defect of viscotack and not of the input; please report the lines above", 3
         )
+
+
+def _spelled(error: InputError, kind: "type[Request] | None") -> str:
+    """Return the message of an error, with the field that it names as the flag."""
+    words, name = str(error), error.field.replace("-", "_")
+    for option in () if kind is None else kind.model_fields:
+        if "_" in option and option != name:
+            words = re.sub(rf"\b{option}\b", f"--{option.replace('_', '-')}", words)
+    if not name or not words.startswith(name):
+        return words
+    flag = f"--{name.replace('_', '-')}"
+    if kind is not None and name in kind.model_fields:
+        from viscotack.operations.request import flag_of, option_of
+
+        option = option_of(kind.model_fields[name])
+        flag = name if option.argument else flag_of(name, option)
+    return f"{flag}{words.removeprefix(name)}"
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:

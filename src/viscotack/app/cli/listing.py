@@ -4,9 +4,9 @@ from collections.abc import Callable
 from typing import Any
 
 import typer
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 
-from viscotack.operations import Declared, declared
+from viscotack.operations import COMMANDS, SECTIONS
 
 from .commands import application
 
@@ -18,6 +18,17 @@ _GROUPS = {
     "identify": "Fit work of adhesion and range of attraction to measured curves.",
     "campaign": "Run many problems by a plan; resumable, results as a table.",
 }
+
+
+class BySection(TyperGroup):
+    """A group whose help lists the commands by what a person does."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the commands of each section."""
+        for title, commands in SECTIONS.items():
+            names = dict.fromkeys(name.partition(" ")[0] for name in commands)
+            with formatter.section(title):
+                formatter.write_dl([(n, self.commands[n].get_short_help_str(70)) for n in names])
 
 
 class Later(TyperCommand):
@@ -32,37 +43,28 @@ class Later(TyperCommand):
 
 def add_commands() -> None:
     """Add the commands of all operations to the application."""
+    application.info.cls = BySection
     groups: dict[str, typer.Typer] = {}
-    for each in declared().values():
-        for path, words, complete in _commands(each):
-            first, _, rest = path.partition(" ")
-            place = application
-            if rest:
-                if first not in groups:
-                    groups[first] = typer.Typer(
-                        help=_GROUPS.get(first, ""), no_args_is_help=True, rich_markup_mode=None
-                    )
-                    application.add_typer(groups[first], name=first)
-                place = groups[first]
-            place.command(rest or first, cls=Later, help=words)(complete)
+    for name, each in COMMANDS.items():
+        if not each.module:
+            continue
+        first, _, rest = name.partition(" ")
+        place = application
+        if rest:
+            if first not in groups:
+                words = _GROUPS[first]
+                groups[first] = typer.Typer(help=words, no_args_is_help=True, rich_markup_mode=None)
+                application.add_typer(groups[first], name=first)
+            place = groups[first]
+        place.command(rest or first, cls=Later, help=each.summary)(_completing(name))
 
 
-def _commands(each: Declared) -> list[tuple[str, str, Callable[[], Any]]]:
-    """Return the commands of an operation: path, help and completion."""
-    if not each.helps:
-        return [(each.word, each.help, _completing(each.word))]
-    return [
-        (f"{each.word} {name}", words, _completing(each.word, name))
-        for name, words in each.helps.items()
-    ]
-
-
-def _completing(word: str, name: str | None = None) -> Callable[[], Any]:
+def _completing(name: str) -> Callable[[], Any]:
     """Return the function that imports an operation and makes its command."""
 
     def complete() -> Any:
-        from .reading import command_of
+        from .making import command_of
 
-        return command_of(word, name)
+        return command_of(name)
 
     return complete

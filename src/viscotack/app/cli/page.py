@@ -18,6 +18,8 @@ _LOCAL = ("127.0.0.1", "localhost", "::1")
 _NAMES = ("127.0.0.1", "localhost", "[::1]")
 # A token in an option would be visible in the list of processes; one in the environment is not.
 _TOKEN = "VISCOTACK_TOKEN"
+# Simultaneous connections and requests.
+_MOST_REQUESTS = 200
 
 
 @application.command("app")
@@ -49,8 +51,7 @@ def app_command(
     """
     with wrong_input():
         server = _uvicorn()
-        from viscotack.app.api import guarded
-        from viscotack.app.api.heads import MOST_CONNECTIONS, Prompt
+        from viscotack.app.api import application as served
         from viscotack.app.engine.jobs import Engine, Limits
         from viscotack.problem.nouns import own_nouns
 
@@ -58,7 +59,7 @@ def app_command(
         query = "" if case is None else _query(case, own_nouns(files))
         token, names = _token(host), _NAMES if host in _LOCAL else ()
         engine = Engine(Limits(workers=workers), own=files)
-        behind = guarded(engine, hosts=names, token=token)
+        behind = served(engine, hosts=names, token=token)
         listening = _listening(host, port)
     place = f"[{host}]" if ":" in host else host
     link = f"http://{place}:{listening.getsockname()[1]}/"
@@ -69,8 +70,7 @@ def app_command(
         webbrowser.open(link)
     config = server.Config(
         behind,
-        http=Prompt,
-        limit_concurrency=MOST_CONNECTIONS,
+        limit_concurrency=_MOST_REQUESTS,
         log_level="warning",
         timeout_graceful_shutdown=2,
     )
@@ -112,8 +112,8 @@ def _listening(host: str, port: int) -> socket.socket:
 
 def _query(case: Path, also: tuple[Any, ...]) -> str:
     """Return the query of a link to a case file, including a material in a separate file."""
+    from viscotack.app.engine.state import State
     from viscotack.files.toml import read_toml
-    from viscotack.operations.declare.state import State
     from viscotack.operations.parts.library import material_table
     from viscotack.problem.case_file import read_case
 

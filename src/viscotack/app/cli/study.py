@@ -5,10 +5,6 @@ from typing import Annotated
 
 from typer import Argument
 
-from viscotack.errors import InputError
-from viscotack.operations import operation
-from viscotack.operations.declare.options import respelled
-
 from .commands import AsJson, Force, With, application, wrong_input
 
 
@@ -35,17 +31,11 @@ def study_command(
     Example: viscotack study lens.toml
     """
     with wrong_input():
-        from viscotack.operations.declare.study import read_study
-        from viscotack.problem.nouns import own_nouns
+        from viscotack.operations.study import read_study
 
-        from .reading import carry_out, checked
+        from .running import carry_out, checked
 
-        also = own_nouns(own or ())
-        asked = read_study(file, known=operation, also=also)
-        kind = type(asked.operation)
-        files = {output: asked.write.get(output.name) for output in kind.outputs}
-        try:
-            files = checked(files, force=force, as_json=as_json)
-            carry_out(asked.operation, files, own or (), also, as_json)
-        except InputError as error:
-            raise respelled(error, kind) from None
+        study = read_study(file)
+        files = {output: study.write.get(output.name) for output in study.request.outputs}
+        files = checked(files, force=force, as_json=as_json)
+        carry_out(study.request, files, own or (), as_json=as_json, folder=file.parent)

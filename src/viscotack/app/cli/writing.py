@@ -18,7 +18,7 @@ from viscotack.files.whole import (
     is_standard_output,
     same_file,
 )
-from viscotack.operations.declare.answer import Output
+from viscotack.operations.request import Output
 from viscotack.pictures import plot
 
 if TYPE_CHECKING:

@@ -1,21 +1,24 @@
 """The engine of page and API: tasks, limits and running jobs.
 
-It belongs to one event loop. All computations run in the processes of :mod:`.crew`.
+It belongs to one event loop. All computations run in the processes of :mod:`.lane`.
 """
 
 import asyncio
 import json
-import re
 import secrets
 import zlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any
 
-from .crew import Crew, Defect, Refused
+from viscotack.errors import InputError
+from viscotack.operations.request import Request, harmless_name
+
+from . import operating, page_tasks
+from .lane import Defect, Lane
 
 # Largest number of finished jobs that are kept, and for how long [s].
 _KEPT, _KEPT_FOR = 64, 900.0
@@ -54,29 +57,20 @@ class Limits:
         return 20 * self.body
 
 
-class TooMany(Refused):
+class TooMany(InputError):
     """The queue of jobs is full."""
 
 
-class Unknown(Refused):
-    """No job has this id."""
+class Unknown(InputError):
+    """No job, or no files, have this id."""
 
 
-# Task -> its lane; each lane has processes of its own, so that no simulation holds up a slider.
-_LANES = {
-    "quick": ("quick", "state", "forms", "moduli"),
-    "ask": ("operation", "verdict", "theory"),
-    "work": ("job",),
-}
-_LANE_OF = {task: lane for lane, tasks in _LANES.items() for task in tasks}
-
-
-@dataclass(frozen=True)
+@dataclass
 class Upload:
-    """Files of a request, and the folder that they lie in."""
+    """Files that were sent, in a folder of their own."""
 
     folder: TemporaryDirectory[str]
-    paths: tuple[str, ...]
+    used: float = field(default_factory=monotonic)
 
 
 @dataclass(eq=False)
@@ -97,8 +91,6 @@ class Job:
         Of the curve that grows, and of the table.
     error : str
         Why it has no answer.
-    upload : Upload, optional
-        Files that were sent with it.
     """
 
     id: str
@@ -108,7 +100,6 @@ class Job:
     points: list[Any] = field(default_factory=list)
     rows: list[Any] = field(default_factory=list)
     error: str = ""
-    upload: Upload | None = None
     ended: float | None = None
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
@@ -137,9 +128,7 @@ class Job:
         news.set()
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
-        """Store the outcome, and delete the files sent with the request."""
-        if self.upload is not None:
-            self.upload.folder.cleanup()
+        """Store the outcome."""
         self.state, self.error, self.ended = state, error, monotonic()
         if answer is not None:
             self.share = 1.0
@@ -162,57 +151,62 @@ class Engine:
         self.limits = Limits() if limits is None else limits
         self._own = tuple(own)
         self._jobs: dict[str, Job] = {}
-        self._crews: dict[str, Crew] = {}
+        self._uploads: dict[str, Upload] = {}
+        self._lanes: dict[str, Lane] = {}
 
     async def begin(self) -> None:
-        """Start a process of each lane; Refused where the user's own files are wrong."""
-        self._crews = {
-            "quick": Crew(2, "quick", self._own),
-            "ask": Crew(2, "verdict", self._own, nice=4),
-            "work": Crew(self.limits.workers, "job", self._own, nice=2),
+        """Start a process of each lane, so that no simulation holds up a slider."""
+        self._lanes = {
+            "page": Lane(2, page_tasks.warm, self._own),
+            "ask": Lane(2, operating.warm, self._own, nice=4),
+            "work": Lane(self.limits.workers, operating.warm, self._own, nice=2),
         }
-        for crew in self._crews.values():
-            crew.begin()
-        # errors in user-defined files are reported by the first request
-        await self.ask("forms", {})
+        for lane in self._lanes.values():
+            lane.begin()
 
     async def end(self) -> None:
-        """End all jobs and all processes."""
+        """End all jobs and all processes, and delete the files that were sent."""
         await asyncio.gather(*(self._stop(job) for job in self._jobs.values()))
-        for crew in self._crews.values():
-            crew.end()
+        for lane in self._lanes.values():
+            lane.end()
+        for upload in self._uploads.values():
+            upload.folder.cleanup()
 
-    async def ask(self, task: str, asked: dict[str, Any], **more: Any) -> dict[str, Any]:
-        """Return the answer of a question that is no job; keywords as of :meth:`Crew.ask`."""
-        crew = self._crews[_LANE_OF[task]]
-        return await crew.ask(task, asked, seconds=self.limits.ask_time, **more)
+    async def page(self, task: Callable[..., Any], *given: Any) -> dict[str, Any]:
+        """Return the answer of a task of the page."""
+        return await self._lanes["page"].run(task, *given, seconds=self.limits.ask_time)
 
-    def held(self, files: Iterable[tuple[str, bytes]]) -> Upload:
-        """Return files that were sent, in a folder of their own; to be cleaned up."""
+    async def ask(self, asked: Request, outputs: Sequence[str], files: str) -> dict[str, Any]:
+        """Return the answer of a request."""
+        given = asked, tuple(outputs), self._folder(files)
+        lane = self._lanes["ask"]
+        return await lane.run(operating.run_request, *given, seconds=self.limits.ask_time)
+
+    def keep(self, files: Iterable[tuple[str, bytes]]) -> str:
+        """Keep files that were sent, and return the name by which requests refer to them."""
+        self._forget()
         folder = TemporaryDirectory(prefix="viscotack-")
-        paths: list[str] = []
-        try:
-            for name, content in files:
-                path = Path(folder.name, harmless_name(name))
-                if str(path) in paths:
-                    raise Refused(f"two files are called {path.name}; rename one")
-                path.write_bytes(content)
-                paths.append(str(path))
-        except BaseException:
-            folder.cleanup()
-            raise
-        return Upload(folder, tuple(paths))
+        for name, content in files:
+            path = Path(folder.name, harmless_name(name))
+            if path.exists():
+                folder.cleanup()
+                raise InputError(f"two files are called {path.name}; rename one")
+            path.write_bytes(content)
+        id = secrets.token_urlsafe(16)
+        self._uploads[id] = Upload(folder)
+        return id
 
-    def start(self, asked: dict[str, Any], upload: Upload | None = None) -> Job:
-        """Return a job that has been put in the queue; TooMany where it is full.
+    def _folder(self, files: str) -> str:
+        """Return the folder of files that were sent, "" without."""
+        if not files:
+            return ""
+        if files not in self._uploads:
+            raise Unknown("there are no such files; they have expired, send them again")
+        self._uploads[files].used = monotonic()
+        return self._uploads[files].folder.name
 
-        Parameters
-        ----------
-        asked : dict
-            Word of the ``operation``, its options as ``given``, and ``files`` that were sent.
-        upload : Upload, optional
-            Where the files lie; cleaned up when the job has ended.
-        """
+    def start(self, asked: Request, outputs: Sequence[str], files: str) -> Job:
+        """Return a job that has been put in the queue; TooMany where it is full."""
         self._forget()
         waiting = sum(not job.over for job in self._jobs.values())
         if waiting >= self.limits.jobs:
@@ -220,9 +214,10 @@ class Engine:
                 f"{waiting} jobs are waiting or running, the limit of this server; cancel one, or "
                 "try again later"
             )
-        job = Job(secrets.token_urlsafe(16), asked["operation"], upload=upload)
+        given = asked, tuple(outputs), self._folder(files)
+        job = Job(secrets.token_urlsafe(16), asked.word)
         self._jobs[job.id] = job
-        job.task = asyncio.get_running_loop().create_task(self._run(job, asked))
+        job.task = asyncio.get_running_loop().create_task(self._run(job, given))
         return job
 
     def job(self, id: str) -> Job:
@@ -244,19 +239,20 @@ class Engine:
 
     def processes(self) -> list[int]:
         """Return the identifiers of all living processes."""
-        return [pid for crew in self._crews.values() for pid in crew.processes()]
+        return [pid for lane in self._lanes.values() for pid in lane.processes()]
 
-    async def _run(self, job: Job, asked: dict[str, Any]) -> None:
+    async def _run(self, job: Job, given: tuple[Request, tuple[str, ...], str]) -> None:
         def begun() -> None:
             job.state = "running"
             job.changed()
 
-        crew = self._crews["work"]
-        options = {"told": job.tell, "begun": begun}
+        lane, how = self._lanes["work"], {"told": job.tell, "begun": begun}
         try:
-            answer = await crew.ask("job", asked, seconds=self.limits.job_time, **options)
+            answer = await lane.run(
+                operating.run_request, *given, seconds=self.limits.job_time, **how
+            )
             job.close("done", answer=answer)
-        except Refused as error:
+        except InputError as error:
             job.close("refused", error=str(error))
         except Defect as error:
             job.close("failed", error=f"this is a defect of viscotack: {error}")
@@ -270,16 +266,15 @@ class Engine:
             job.close("cancelled", error="it was cancelled")
 
     def _forget(self) -> None:
-        """Forget jobs that ended long ago, and the oldest of many."""
+        """Forget jobs and files of long ago, and the oldest of many."""
+        now = monotonic()
         over = sorted((j for j in self._jobs.values() if j.over), key=lambda j: j.ended or 0.0)
-        old = [job for job in over if monotonic() - (job.ended or 0.0) > _KEPT_FOR]
+        old = [job for job in over if now - (job.ended or 0.0) > _KEPT_FOR]
         for job in {*old, *over[: max(len(over) - _KEPT, 0)]}:
             del self._jobs[job.id]
-
-
-def harmless_name(name: str) -> str:
-    """Remove characters from a file name that have a meaning in paths or shells."""
-    bare = re.split(r"[/\\]", name)[-1]
-    name = re.sub(r"[^\w.+\- ()]", "_", bare).lstrip(".")[-100:]
-    # a file system counts bytes, up to 255
-    return name.encode()[-255:].decode(errors="ignore") or "file"
+        if any(not job.over for job in self._jobs.values()):
+            return  # it may still read its files
+        sent = sorted(self._uploads, key=lambda id: self._uploads[id].used)
+        for id in sent:
+            if now - self._uploads[id].used > _KEPT_FOR or len(self._uploads) > _KEPT:
+                self._uploads.pop(id).folder.cleanup()

@@ -3,53 +3,17 @@
 import base64
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.operations import operation
-from viscotack.operations.declare.answer import DRAWN, WORDS, Answer, Caller
-from viscotack.operations.declare.options import Operation, answered, respelled, take
 from viscotack.operations.parts.json_data import plain
+from viscotack.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 
-from .page_tasks import Asked, Tell
+from .page_tasks import Tell
 
 # The curve of a simulation as it grows.
 _POINTS = "points"
-
-
-@dataclass(frozen=True)
-class Sent:
-    """The files of a request; other files are not accessible.
-
-    Attributes
-    ----------
-    folder : Path
-        Where the files lie.
-    names : frozenset of str
-        Their names.
-    also : tuple of classes
-        User-defined classes of the operator of the server.
-    """
-
-    folder: Path
-    names: frozenset[str]
-    also: tuple[Any, ...] = ()
-
-    def file(self, name: str) -> Path:
-        """Return the path of a file that was sent."""
-        if name not in self.names:
-            there = ", ".join(sorted(self.names)) or "none"
-            raise InputError(
-                f"no file {name!r:.80} was sent with the request (sent: {there}); send it as a "
-                "part of a multipart/form-data request"
-            )
-        return self.folder / name
-
-    def within(self, path: Path) -> "Sent":
-        """Return the place of the names that stand in a file: they were sent with it as well."""
-        return self
 
 
 def warm() -> None:
@@ -63,29 +27,24 @@ def warm() -> None:
     solve(problem, accuracy=LOOSEST_ACCURACY, until="pull-off", estimate_error=False)
 
 
-def run_operation(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Run an operation; return the record of the answer, with other outputs in ``beside``.
+def run_request(
+    asked: Request, outputs: tuple[str, ...], folder: str, *, tell: Tell, also: tuple[Any, ...]
+) -> dict[str, Any]:
+    """Answer a request; return the record of the answer, with other outputs in ``beside``.
 
-    `asked` has the word of the ``operation``, its options as ``given``, ``files``: the paths that
-    were sent, and ``outputs``: names of files, "words" or "drawn".
+    `outputs` are names of files, "words" or "drawn"; `folder` has the files that were sent.
     """
-    kind = operation(asked["operation"])
-    paths = [Path(file) for file in asked.get("files", ())]
-    folder = paths[0].parent if paths else Path()
-    place = Sent(folder, frozenset(path.name for path in paths), also)
     # paths on the server are removed from messages
-    shown = f"{folder}/" if paths else ""
+    shown = f"{folder}/" if folder else ""
     try:
-        wanted = _wanted(kind, asked.get("outputs", ()))
-        question = take(kind, asked["given"], place)
-        caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, folder=folder)
-        answer = answered(question, caller)
+        wanted = _wanted(type(asked), outputs)
+        caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, (), Path(folder), True)
+        answer = answered(asked, caller)
         # files first: what an answer counts while it writes them is in its record
-        beside = _beside(kind, answer, wanted)
+        beside = _beside(type(asked), answer, wanted)
         return _without(shown, _record(answer) | beside)
     except InputError as error:
-        words = respelled(error, kind)
-        raise type(words)(_without(shown, str(words))) from None
+        raise type(error)(_without(shown, str(error))) from None
     except FileNotFoundError as error:
         raise InputError(f"there is no file {_without(shown, str(error.filename))}") from None
     except OSError as error:
@@ -108,7 +67,7 @@ def _record(answer: Answer) -> dict[str, Any]:
     return found if isinstance(found, dict) else {"answer": found}
 
 
-def _wanted(kind: type[Operation], outputs: Sequence[str]) -> frozenset[str]:
+def _wanted(kind: type[Request], outputs: Sequence[str]) -> frozenset[str]:
     known = {WORDS, DRAWN, *(output.name for output in kind.outputs)}
     unknown = [name for name in outputs if name not in known]
     if unknown:
@@ -119,7 +78,7 @@ def _wanted(kind: type[Operation], outputs: Sequence[str]) -> frozenset[str]:
     return frozenset(outputs) | needed | {_POINTS}
 
 
-def _beside(kind: type[Operation], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:
+def _beside(kind: type[Request], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:
     """Return the requested files, pictures as SVG and binary files in base 64."""
     files: dict[str, str] = {}
     for output in kind.outputs:

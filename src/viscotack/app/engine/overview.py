@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.app.engine.state import State
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast import predict
@@ -23,7 +24,6 @@ from viscotack.forecast.theories import forms_of
 from viscotack.forecast.tiers import AT_ONCE, TIERS
 from viscotack.geometry import Disc, FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
-from viscotack.operations.declare.state import State
 from viscotack.operations.parts.json_data import drawn, plain
 from viscotack.problem import Groups, Problem
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind

@@ -15,7 +15,6 @@ from viscotack.forecast.tiers import SOON, best
 from viscotack.geometry import FlatPunch
 from viscotack.methods import crack_contact
 from viscotack.methods.by_crack import METHOD
-from viscotack.operations.declare.state import State, state_of_query, state_of_toml
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.operations.parts.json_data import drawn, plain
 from viscotack.operations.parts.library import library
@@ -24,6 +23,7 @@ from viscotack.version import __version__
 
 from .forms import forms
 from .overview import numbers_of, pulled, quick
+from .state import State, state_of_query, state_of_toml
 
 Tell = Callable[[dict[str, Any]], None]
 Asked = Mapping[str, Any]
@@ -39,12 +39,12 @@ def warm() -> None:
     quick(State(FIRST))
 
 
-def ask_forms(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def ask_forms(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return the input forms, the published materials and example cases."""
     return forms(also) | {"materials": library(), "examples": EXAMPLES, "version": __version__}
 
 
-def ask_state(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def ask_state(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return a state in every form, from a file's text, a link's query or tables."""
     given = [name for name in ("toml", "query", "tables") if asked.get(name) is not None]
     if len(given) != 1:
@@ -59,7 +59,7 @@ def ask_state(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]
     return {"tables": plain(dict(state.tables)), "toml": state.toml, "query": state.query}
 
 
-def ask_quick(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def ask_quick(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return the fast overview of a state, and the state in every form."""
     state = State(asked["tables"], also)
     run = {"accuracy": asked["accuracy"], "until": asked["until"]}
@@ -71,7 +71,7 @@ def ask_quick(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]
     }
 
 
-def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def ask_moduli(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return storage and loss modulus of a state's material over the frequencies that matter."""
     material = State(asked["tables"], also).problem.material
     frequency = np.logspace(-_WIDE, _WIDE, _FREQUENCIES) / material.time_unit
@@ -83,7 +83,7 @@ def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
     }
 
 
-def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def ask_verdict(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return the prediction of :func:`viscotack.predict` for a state, and that of every tier.
 
     ``numbers`` are those of the prediction, or ``refused`` is the reason why there is none.
@@ -129,7 +129,7 @@ def _in_si(estimate: Estimate, problem: Problem) -> dict[str, Any]:
     )
 
 
-def ask_theory(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def ask_theory(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Evaluate the slow theories for a state."""
     problem = State(asked["tables"], also).problem
     return {

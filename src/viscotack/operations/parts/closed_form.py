@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from ..declare.answer import Answer
+from ..request import Answer
 from .record_words import record_words
 
 if TYPE_CHECKING:

@@ -1,11 +1,9 @@
 """Options for the files of a DMA, relaxation or creep test."""
 
-from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from ..declare.cards import Choice, Number, Switch, Text
-from ..declare.options import Part
+from ..request import Number, Option, Request
 
 if TYPE_CHECKING:
     from viscotack.lab import CreepTest, FrequencySweeps, RelaxationTest
@@ -20,7 +18,7 @@ if TYPE_CHECKING:
 
 Where = Annotated[
     str | None,
-    Text(
+    Option(
         "Rows to read, by heading and content of a column.",
         metavar="COLUMN=VALUE",
         example="Sample=A",
@@ -28,22 +26,19 @@ Where = Annotated[
 ]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Dma(Part):
+class Dma(Request):
     """Options that describe the files of a DMA or another test of a material."""
 
-    table: ClassVar = "read"
-
     test: Annotated[
-        str | None,
-        Choice("Kind of test; default: by the columns.", choices=("dma", "relaxation", "creep")),
+        Literal["dma", "relaxation", "creep"] | None,
+        Option("Kind of test; default: by the columns."),
     ] = None
     format: Annotated[
-        str | None, Text("Format of the file, if it is not detected.", metavar="NAME")
+        str | None, Option("Format of the file, if it is not detected.", metavar="NAME")
     ] = None
     kind: Annotated[
         str | None,
-        Text(
+        Option(
             "Tensile or shear modulus, if the file does not state it.", metavar="E|G", example="E"
         ),
     ] = None
@@ -57,27 +52,27 @@ class Dma(Part):
         ),
     ] = None
     frequency_unit: Annotated[
-        str | None, Text("Hz or rad/s, if the file does not state it.", example="Hz")
+        str | None, Option("Hz or rad/s, if the file does not state it.", example="Hz")
     ] = None
     modulus_unit: Annotated[
-        str | None, Text("Unit such as MPa, if the file does not state it.", example="MPa")
+        str | None, Option("Unit such as MPa, if the file does not state it.", example="MPa")
     ] = None
     time_unit: Annotated[
-        str | None, Text("Unit such as s, if the file does not state it.", example="s")
+        str | None, Option("Unit such as s, if the file does not state it.", example="s")
     ] = None
     temperature_unit: Annotated[
         str | None,
-        Text(
+        Option(
             "degC, K or degF, if columns or header lines do not state it.",
             example="degC",
         ),
     ] = None
     temperature_in_name: Annotated[
-        bool, Switch("Read the temperature from the name of each file, as in foam_-25C.csv.")
+        bool, Option("Read the temperature from the name of each file, as in foam_-25C.csv.")
     ] = False
-    decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
-        None
-    )
+    decimal: Annotated[
+        str | None, Option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
+    ] = None
     step_start: Annotated[
         float,
         Number(
@@ -89,7 +84,7 @@ class Dma(Part):
     ] = 0.0
     columns: Annotated[
         str | None,
-        Text(
+        Option(
             "Columns by heading or number, with units that the file does not state.",
             metavar="NAMES",
             example="frequency=1 [Hz]; storage=G' sample 2 [Pa]; loss=3 [Pa]",
@@ -98,14 +93,14 @@ class Dma(Part):
     where: Where = None
     table: Annotated[
         str | None,
-        Text("Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"),
+        Option("Number or sheet of one of several tables in a file.", metavar="TABLE", example="2"),
     ] = None
 
     def measured(self, files: tuple[Path, ...]) -> "Measured":
         """Read the files: sweeps of one material, or tests over time."""
         from viscotack.lab import read, read_creeps, read_dma, read_relaxations
 
-        said: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
+        said: dict[str, Any] = {name: getattr(self, name) for name in Dma.model_fields}
         test = said.pop("test")
         readers = {"dma": read_dma, "relaxation": read_relaxations, "creep": read_creeps}
         return readers.get(test, read)(files, **said)

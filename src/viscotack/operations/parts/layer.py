@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from viscotack.errors import InputError
 
-from ..declare.cards import Number
+from ..request import Number
 
 if TYPE_CHECKING:
     from viscotack.geometry import HalfSpace, Layer
@@ -30,6 +30,6 @@ def body_of(thickness: float | None, bonded: float | None) -> "HalfSpace | Layer
 
     if thickness is None:
         if bonded is not None:
-            raise InputError("--bonded needs a layer; give its --thickness as well")
+            raise InputError("bonded needs a layer; give its thickness as well")
         return HalfSpace()
     return Layer(thickness, Frictionless() if bonded is None else Bonded(poisson_ratio=bonded))

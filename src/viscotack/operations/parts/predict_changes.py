@@ -15,8 +15,8 @@ from viscotack.forecast.prediction import prediction_summary
 from viscotack.forecast.prediction_table import METHOD, WORK, with_interval
 from viscotack.units import readable
 
-from ..declare.answer import Answer, Told
-from ..declare.statement import Statement
+from ..request import Answer, Told
+from ..statement import Statement
 from .predict_table import in_sheet, refuse_answered, write_table
 from .workbook import write_workbook
 

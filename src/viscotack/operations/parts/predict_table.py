@@ -17,9 +17,9 @@ from viscotack.errors import InputError
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
 from viscotack.forecast.prediction_table import answers_of, kind_of, predict_table
+from viscotack.units import is_number
 
-from ..declare.answer import Answer, Told
-from ..declare.cards import is_number
+from ..request import Answer, Told
 from .tables import Writer
 from .workbook import write_workbook
 
@@ -81,7 +81,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
         columns: dict[str, list[Any]] = {}
         for table in blocks():
             if counts["rows"] > _SHEET:
-                raise InputError(f"{path} has more rows than a sheet can have; write --csv")
+                raise InputError(f"{path} has more rows than a sheet can have; write csv")
             for name, values in table.items():
                 columns.setdefault(name, []).extend(map(in_sheet, np.asarray(values).tolist()))
         write_workbook({"predictions": columns}, file)

@@ -1,13 +1,13 @@
 """Options for the files of a tack tester or microscope."""
 
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable
+from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any
 
 from viscotack.errors import InputError
 
-from ..declare.cards import Choice, File, Number, Place, Switch, Text
-from ..declare.options import Part
+from ..request import Caller, File, Number, Option, Request, Text
 from .dma import Where
 
 if TYPE_CHECKING:
@@ -26,71 +26,59 @@ Files = Annotated[
 _SIGNS = {"+": 1, "-": -1, "1": 1, "-1": -1}
 
 
-@dataclass(frozen=True)
-class Sign(Choice):
-    """Plus or minus; the value is 1 or -1."""
-
-    choices: tuple[str, ...] = ("+", "-")
-
-    def read(self, value: Any, place: Place) -> int:
-        """Return the sign as a number."""
-        sign = None if isinstance(value, bool) else _SIGNS.get(str(value))
-        if sign is None:
-            raise InputError(f"must be + or -, got {value!r:.60}")
-        return sign
-
-    def written(self, value: Any) -> str:
-        """Return the sign."""
-        return "+" if value > 0 else "-"
+def _sign(value: Any) -> int:
+    """Return the sign as a number."""
+    sign = None if isinstance(value, bool) else _SIGNS.get(str(value))
+    if sign is None:
+        raise InputError(f"must be + or -, got {value!r:.60}")
+    return sign
 
 
-@dataclass(frozen=True)
-class Unit(Text):
-    """The unit of a quantity of a tack test: "force", "travel" or "time"."""
+def _unit_of(quantity: str) -> Callable[[str], str]:
+    """Return a function that checks the unit of a quantity: "force", "travel" or "time"."""
 
-    of: str = field(default="", kw_only=True)
-
-    def read(self, value: Any, place: Place) -> str:
-        """Return the unit, which must be one of the quantity."""
+    def read(words: str) -> str:
         from viscotack.lab.formats.headings import UNITS, scale
 
-        words = super().read(value, place)
-        scale(words, UNITS[self.of])
+        scale(words, UNITS[quantity])
         return words
 
+    return read
 
-@dataclass(frozen=True, kw_only=True)
-class Rig(Part):
-    """Options that describe the files of a rig and the rig itself."""
 
-    table: ClassVar = "read"
+class Rig(Request):
+    """A request with files of a rig, and what describes them and the rig itself."""
 
-    format: Annotated[str | None, Text("Format of the files, if it is not detected.")] = None
-    force_unit: Annotated[str | None, Unit("Unit such as mN, if not in the file.", of="force")] = (
-        None
-    )
-    length_unit: Annotated[
-        str | None, Unit("Unit such as um, if not in the file.", of="travel")
+    files: Files
+
+    format: Annotated[str | None, Option("Format of the files, if it is not detected.")] = None
+    force_unit: Annotated[
+        str | None, Text("Unit such as mN, if not in the file.", to=_unit_of("force"))
     ] = None
-    time_unit: Annotated[str | None, Unit("Unit such as s, if not in the file.", of="time")] = None
+    length_unit: Annotated[
+        str | None, Text("Unit such as um, if not in the file.", to=_unit_of("travel"))
+    ] = None
+    time_unit: Annotated[
+        str | None, Text("Unit such as s, if not in the file.", to=_unit_of("time"))
+    ] = None
     force_column: Annotated[
         str | None,
-        Text("Heading or number of the force column, if not detected.", metavar="NAME"),
+        Option("Heading or number of the force column, if not detected.", metavar="NAME"),
     ] = None
     position_column: Annotated[
         str | None,
-        Text(
+        Option(
             "Heading or number of the gap, depth or travel column, if there are several.",
             metavar="NAME",
         ),
     ] = None
     time_column: Annotated[
         str | None,
-        Text("Heading or number of the time column, if not detected.", metavar="NAME"),
+        Option("Heading or number of the time column, if not detected.", metavar="NAME"),
     ] = None
-    decimal: Annotated[str | None, Text("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")] = (
-        None
-    )
+    decimal: Annotated[
+        str | None, Option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
+    ] = None
     where: Where = None
     nominal_speed: Annotated[
         float | None,
@@ -119,7 +107,7 @@ class Rig(Part):
     ] = None
     temperature_in_name: Annotated[
         bool,
-        Switch(
+        Option(
             "Read the temperature from the name of each file, as in probe_25C.csv; default: from "
             "a column or a line above the columns with a unit."
         ),
@@ -144,21 +132,23 @@ class Rig(Part):
     ] = 0.0
     into: Annotated[
         int,
-        Sign(
+        Text(
             "Whether larger positions are deeper, if heading and signal do not show it.",
             metavar="+|-",
+            to=_sign,
         ),
     ] = 0
     compression: Annotated[
         int,
-        Sign(
+        Text(
             "Sign of compression in the files; rejected if the signal contradicts it.",
             metavar="+|-",
+            to=_sign,
         ),
     ] = 0
     retraction_only: Annotated[
         bool,
-        Switch("Accept curves without approach; the force zero is then taken after pull-off."),
+        Option("Accept curves without approach; the force zero is then taken after pull-off."),
     ] = False
 
     @property
@@ -167,7 +157,7 @@ class Rig(Part):
         from viscotack.lab import TackOptions
 
         names = {each.name for each in fields(TackOptions)}
-        return {name: value for name, value in vars(self).items() if name in names}
+        return {name: value for name, value in self if name in names}
 
     @property
     def evaluation(self) -> dict[str, Any]:
@@ -175,10 +165,11 @@ class Rig(Part):
         names = ("compliance", "compliance_uncertainty", "into", "compression", "retraction_only")
         return {name: getattr(self, name) for name in names}
 
-    def survey(self, files: tuple[Path, ...]) -> "Survey":
+    def survey(self, caller: Caller) -> "Survey":
         """Read and evaluate the files; InputError if no cycle can be evaluated."""
         from viscotack.lab.tack import survey
 
+        files = tuple(caller.file(each) for each in self.files)
         found = survey(files, reading=self.reading, evaluation=self.evaluation)
         if not found.cycles:
             reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)

@@ -12,7 +12,7 @@ from viscotack.problem import Problem
 from viscotack.problem.outputs import Kind
 from viscotack.result import Outcome, Result, columns
 
-from ..declare.answer import Told
+from ..request import Told
 from .json_data import drawn
 
 Tell = Callable[[Told], None]

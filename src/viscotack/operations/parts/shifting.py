@@ -1,48 +1,40 @@
 """Options for the master curve: time-temperature superposition of tests."""
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-from ..declare.cards import Card, Choice, File, Number, Place, Two
-from ..declare.options import Part
-from ..declare.wording import flag
+from ..request import Caller, File, Number, Option, Request, Text, two_of
 
 _SEVERAL = 3.0  # K: a chamber holds its temperature better
 _MOVES = ("none", "auto", "free")
 
 
-@dataclass(frozen=True)
-class Moving(Card):
-    """Option for the vertical shift: a word, or a volume expansion coefficient [1/K]."""
-
-    def read(self, value: Any, place: Place) -> str | float:
-        """Return the word or the coefficient."""
-        if value in _MOVES:
-            return value
-        try:
-            return parse(value, "1/K")
-        except InputError:
-            raise InputError(
-                f"must be {', '.join(_MOVES)} or the coefficient of volume expansion, "
-                f'"6e-4 1/K", got {value!r:.60}'
-            ) from None
-
-    def written(self, value: Any) -> Any:
-        """Return the word, or the coefficient with its unit."""
-        return value if isinstance(value, str) else f"{value!r} 1/K"
+def _moving(value: Any) -> str | float:
+    """Return a word of the vertical shift, or a coefficient of volume expansion [1/K]."""
+    if value in _MOVES:
+        return value
+    try:
+        return parse(value, "1/K")
+    except InputError:
+        raise InputError(
+            f"must be {', '.join(_MOVES)} or the coefficient of volume expansion, "
+            f'"6e-4 1/K", got {value!r:.60}'
+        ) from None
 
 
-@dataclass(frozen=True, kw_only=True)
-class ShiftLaw(Part):
+def _constants(value: Any) -> tuple[float, float]:
+    """Return the constants of WLF."""
+    c1, c2 = two_of(value)
+    return parse(c1, "1"), parse(c2, "K")
+
+
+class ShiftLaw(Request):
     """Options for a known shift of tests at several temperatures; temperatures in K."""
-
-    table: ClassVar = "shift"
 
     reference_temperature: Annotated[
         float | None,
@@ -63,31 +55,31 @@ class ShiftLaw(Part):
     ] = None
     wlf: Annotated[
         tuple[float, float] | None,
-        Two(
+        Text(
             'Shift by WLF with these constants, "8.86,101.6 K", at the reference temperature.',
             metavar="C1,C2",
-            units=("1", "K"),
+            to=_constants,
         ),
     ] = None
     shift_file: Annotated[Path | None, File("Shift by this table of log_aT.", metavar="FILE")] = (
         None
     )
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
         """Check that at most one shift is given, with its reference temperature."""
         named = self.named
         if len(named) > 1:
             raise InputError(f"give one shift, got {' and '.join(named)}")
         if named and self.reference_temperature is None:
-            raise InputError(f"{named[0]} needs --reference-temperature")
+            raise InputError(f"{named[0]} needs reference_temperature")
 
     @property
     def named(self) -> list[str]:
-        """Flags of the given shifts."""
+        """Names of the given shifts."""
         laws = ("glass_transition", "wlf", "shift_file")
-        return [flag(name) for name in laws if getattr(self, name) is not None]
+        return [name for name in laws if getattr(self, name) is not None]
 
-    def law(self) -> Any:
+    def law(self, caller: Caller) -> Any:
         """Return the given shift law or table; None without one."""
         from viscotack.materials.shift import WLF
 
@@ -100,35 +92,34 @@ class ShiftLaw(Part):
         if self.shift_file is not None:
             from viscotack.lab import read_shifts
 
-            return read_shifts(self.shift_file)
+            return read_shifts(caller.file(self.shift_file))
         return None
 
-    def referred(self) -> Any:
+    def referred(self, caller: Caller) -> Any:
         """Return the given shift law with the reference temperature; None without one."""
-        law = self.law()
+        law = self.law(caller)
         return None if law is None else law.at_reference(self.reference_temperature)
 
 
-@dataclass(frozen=True, kw_only=True)
 class Shifting(ShiftLaw):
     """Options for the shift of a DMA, relaxation or creep tests; temperatures in K."""
 
     shift_by: Annotated[
-        str | None,
-        Choice(
+        Literal["both", "storage", "loss", "tan"] | None,
+        Option(
             "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
             "they are by default. Default without --vertical: both, or storage if it is clearly "
             "more causal.",
-            choices=("both", "storage", "loss", "tan"),
         ),
     ] = None
     vertical: Annotated[
         str | float | None,
-        Moving(
+        Text(
             "Vertical shift with temperature: none (the default), auto (as far as the data "
             "determine it), free, or by density and temperature with a volume expansion of "
             '"6e-4 1/K".',
             metavar="WORD|EXPANSION",
+            to=_moving,
         ),
     ] = None
     leave_out: Annotated[
@@ -140,21 +131,21 @@ class Shifting(ShiftLaw):
         ),
     ] = ()
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
         """Check that one shift is given with its parameters."""
-        super().__post_init__()
+        super().check()
         if self.named and (self.shift_by is not None or self.vertical is not None):
             raise InputError(
-                f"--shift-by and --vertical are for shifts found from overlap; with "
+                f"shift_by and vertical are for shifts found from overlap; with "
                 f"{self.named[0]} leave them out"
             )
 
-    def swept(self, sweeps: Any) -> tuple[Any, Any, tuple[str, ...]]:
+    def swept(self, sweeps: Any, caller: Caller) -> tuple[Any, Any, tuple[str, ...]]:
         """Return the master curve of a DMA, the shift of times, and doubts about it."""
         from viscotack.lab import contradiction, master_curve, superposition
         from viscotack.materials.shift import WLF
 
-        law, file = self.law(), _named(sweeps.source.path.split(", "))
+        law, file = self.law(caller), _named(sweeps.source.path.split(", "))
         for kelvin in self.leave_out:
             sweeps = sweeps.chosen(_others(sweeps.temperature, kelvin, file))
         known = sweeps.temperature[np.isfinite(sweeps.temperature)]
@@ -163,7 +154,7 @@ class Shifting(ShiftLaw):
         if law is None and np.ptp(sweeps.angular_frequency) == 0 and several:
             raise InputError(
                 f"{file} is a temperature ramp at one frequency, so nothing overlaps that could "
-                'tell the shift; give --glass-transition "-115 degC", --wlf or --shift-file'
+                'tell the shift; give glass_transition "-115 degC", wlf or shift_file'
             )
         curve = master_curve(
             sweeps,
@@ -181,12 +172,12 @@ class Shifting(ShiftLaw):
         shift = law if isinstance(law, WLF) else curve.shifts
         return curve, shift, tuple(words for words in cautions if words)
 
-    def stepped(self, measured: Any) -> tuple[Any, Any, tuple[str, ...]]:
+    def stepped(self, measured: Any, caller: Caller) -> tuple[Any, Any, tuple[str, ...]]:
         """Return relaxation or creep tests as one at one temperature, and how times shift."""
         from viscotack.lab import superposed
         from viscotack.materials.shift import WLF
 
-        law = self.law()
+        law = self.law(caller)
         tests = measured if isinstance(measured, tuple) else (measured,)
         file = _named(list(dict.fromkeys(test.source.path for test in tests)))
         known = np.array([np.nan if t.temperature is None else t.temperature for t in tests])
@@ -196,12 +187,12 @@ class Shifting(ShiftLaw):
         if len(tests) == 1 and self.reference_temperature is None:
             if self.vertical is not None:
                 raise InputError(
-                    f"{file}: one temperature, there is nothing to shift; leave --vertical out"
+                    f"{file}: one temperature, there is nothing to shift; leave vertical out"
                 )
             return tests[0], None, ()
         self._ask_reference(file, known[np.isfinite(known)])
         if self.reference_temperature is None:
-            raise InputError(f"{file}: say at which temperature, --reference-temperature")
+            raise InputError(f"{file}: say at which temperature, reference_temperature")
         same: Any = tests  # all of them relaxation, or all creep
         curve, table = superposed(
             same,
@@ -215,7 +206,7 @@ class Shifting(ShiftLaw):
         if self.reference_temperature is None and known.size and np.ptp(known) > _SEVERAL:
             raise InputError(
                 f"{file}: measured from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} "
-                "C; say at which temperature the material is wanted, --reference-temperature "
+                "C; say at which temperature the material is wanted, reference_temperature "
                 '"20 degC"'
             )
 

@@ -1,0 +1,183 @@
+"""Commands made from requests: the options of a command are the fields of its request."""
+
+import inspect
+from collections.abc import Iterator, Mapping
+from inspect import cleandoc
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+import typer
+from pydantic.fields import FieldInfo
+from typer.main import get_command
+
+from viscotack.errors import InputError
+from viscotack.operations import COMMANDS, operation
+from viscotack.operations.flags import OF_FILE, Flag, flags_of
+from viscotack.operations.request import (
+    Contact,
+    Number,
+    Option,
+    Request,
+    Rows,
+    choices_of,
+    flag_of,
+    is_many,
+    option_of,
+    options,
+    request_of,
+)
+
+from .commands import AsJson, Force, With, wrong_input
+from .running import carry_out, checked
+
+_SETTINGS = {"max_content_width": 100}
+_CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
+
+
+def command_of(name: str) -> Any:
+    """Make a command, as the library of the command line has it."""
+    listed = COMMANDS[name]
+    word, _, last = name.rpartition(" ")
+    kind = operation(name if listed.indenter is None else word)
+    words = kind.helps.get(last) if listed.indenter is not None else kind.__doc__
+    indenter = listed.indenter
+
+    def command(**said: Any) -> None:
+        _run(kind, indenter, said)
+
+    parameters = list(_parameters(kind, indenter))
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    alone.command(last, help=cleandoc(words or ""), context_settings=_SETTINGS)(command)
+    return get_command(alone)
+
+
+def _parameters(kind: type[Request], indenter: str | None) -> Iterator[inspect.Parameter]:
+    found = {name: (option_of(info), info) for name, info in options(kind).items()}
+    # arguments first
+    for name, (option, info) in sorted(found.items(), key=lambda each: not each[1][0].argument):
+        if isinstance(option, Contact):
+            yield from _of_problem(option, indenter)
+        elif not (isinstance(option, Rows) and option.elsewhere):
+            yield _of_option(name, option, info)
+    for output in kind.outputs:
+        flags = output.flags or (f"--{output.name}",)
+        words = typer.Option(*flags, metavar=output.metavar, help=output.words, show_default=False)
+        needed = output.needed
+        yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
+    if kind.takes_own:
+        yield _parameter("with_", *get_args(With))
+    if kind.outputs:
+        yield _parameter("force_", *get_args(Force), default=False)
+    yield _parameter("json_", *get_args(AsJson), default=False)
+
+
+def _parameter(
+    name: str, kind: Any, words: Any, *, default: Any = None, needed: bool = False
+) -> inspect.Parameter:
+    return inspect.Parameter(
+        name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=inspect.Parameter.empty if needed else default,
+        annotation=Annotated[kind, words],
+    )
+
+
+def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
+    # all values are text; the request converts them
+    kind: Any = list[str] if is_many(info) else str
+    told, needed, default = option.words, info.is_required(), info.default
+    if option.argument:
+        words = typer.Argument(
+            metavar=option.metavar or name.upper(), help=told, show_default=False
+        )
+        return _parameter(name, kind if needed else kind | None, words, needed=needed)
+    flags = option.flags or (flag_of(name, option),)
+    if info.annotation is bool:
+        flags = (f"{flags[0]}/--no-{flags[0].removeprefix('--')}",) if default is True else flags
+        words = typer.Option(*flags, help=told, show_default=bool(default))
+        return _parameter(name, bool | None, words)
+    if not needed and default not in (None, (), "", 0):
+        told += f" [default: {default}]"
+    usual = "NUMBER" if isinstance(option, Number) or info.annotation is int else "TEXT"
+    usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
+    words = typer.Option(*flags, metavar=option.metavar or usual, help=told, show_default=False)
+    return _parameter(name, kind if needed else kind | None, words, needed=needed)
+
+
+def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Parameter]:
+    """Yield the parameters of a problem: a file, or the flags of an indenter."""
+    if option.spelling == "word":
+        words = typer.Argument(metavar=option.metavar, help=option.words, show_default=False)
+        yield _parameter("what_", str, words, needed=True)
+    only = option.spelling == "case"
+    told = option.words if only else _CASE
+    told += " Or, after a problem, a table of cases that change it." if option.table else ""
+    metavar = "CASES.csv" if option.table else "CASE.toml"
+    words = typer.Argument(metavar=metavar, help=told, show_default=False)
+    yield _parameter("case_", Path if only else Path | None, words, needed=only)
+    for name, flag in _flags(option, indenter).items():
+        words = typer.Option(f"--{name}", metavar=flag.metavar, help=flag.words, show_default=False)
+        yield _parameter(
+            f"of_{name.replace('-', '_')}", list[str] | None if flag.many else str | None, words
+        )
+
+
+def _flags(option: Contact, indenter: str | None) -> Mapping[str, Flag]:
+    if indenter == "" or option.spelling == "case":
+        return OF_FILE
+    return flags_of(option.indenters if indenter is None else (indenter,))
+
+
+def _run(kind: type[Request], indenter: str | None, said: dict[str, Any]) -> None:
+    """Run an operation with its options; write its files and its answer."""
+    as_json, own = said.pop("json_"), said.pop("with_", None) or ()
+    force = said.pop("force_", False)
+    with wrong_input(kind):
+        given = {name: said.get(name) for name in kind.model_fields if name in said}
+        contacts = {n: option_of(x) for n, x in kind.model_fields.items()}
+        for option in contacts.values():
+            if isinstance(option, Contact):
+                given |= _problem(option, indenter, said)
+        asked = request_of(kind, given)
+        files = {output: said[output.name] for output in kind.outputs}
+        files = checked(files, force=force, as_json=as_json)
+        carry_out(asked, files, own, as_json=as_json)
+
+
+def _problem(option: Contact, indenter: str | None, said: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the input for a problem: an indenter with flags, or a file."""
+    flags = {n.removeprefix("of_"): x for n, x in said.items() if n.startswith("of_") and x}
+    named = [str(x) for x in (said.get("what_"), said.get("case_")) if x is not None]
+    found: dict[str, Any] = {}
+    tables = [name for name in named if option.table and Path(name).suffix in (".csv", ".xlsx")]
+    files = [name for name in named if name not in tables and name not in option.indenters]
+    words = [name for name in named if name in option.indenters]
+    if len(tables) > 1 or len(files) > 1:
+        raise InputError(f"give one file of each kind, got {' and '.join(tables[1:] or files)}")
+    if tables:
+        if named[0] == tables[0] and len(named) > 1:
+            raise InputError(f"give the problem {named[1]} before its table of cases {named[0]}")
+        found[option.table] = tables[0]
+        if not files and not words:
+            if flags:
+                raise InputError(f"{tables[0]} is a table of cases; leave out {', '.join(flags)}")
+            return found
+    if files and not Path(files[0]).suffix and option.expected:
+        raise InputError(f"{option.expected}, got {files[0]!r}")
+    word = (words or [indenter or ""])[0]
+    if files:
+        of_word = {"indenter": word} if word else {}
+        return found | {"problem": {"case": files[0], **of_word, **flags}}
+    if not word and option.spelling != "flags":
+        return found
+    return found | {"problem": {"indenter": word or _first_with(option, flags), **flags}}
+
+
+def _first_with(option: Contact, given: Mapping[str, Any]) -> str:
+    """Return the first indenter that has all flags that were given."""
+    names = {name.replace("_", "-") for name in given}
+    return next(
+        (word for word in option.indenters if names <= flags_of((word,)).keys()),
+        option.indenters[0],
+    )

@@ -1,0 +1,136 @@
+"""Run a request from the command line: its progress, its files, and its answer."""
+
+import json
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import typer
+
+from viscotack.errors import InputError
+from viscotack.files.text import harmless
+from viscotack.operations.request import Answer, Caller, Output, Request, answered
+
+from .writing import Writing, check_files
+
+# Seconds between two lines of progress.
+LINES = 10.0
+
+
+def carry_out(
+    asked: Request,
+    files: Mapping[Output, Path | None],
+    own: Iterable[str | Path],
+    *,
+    as_json: bool,
+    folder: Path = Path(),
+) -> None:
+    """Run a request, show its progress, write the wanted outputs, and exit with its status.
+
+    Parameters
+    ----------
+    asked : Request
+        The request.
+    files : mapping
+        Output -> file; None if not wanted.
+    own : iterable of path
+        Files with user-defined classes.
+    as_json : bool
+        Whether the answer is printed as one JSON object.
+    folder : Path
+        Of the file names in the request.
+    """
+    from viscotack.problem.nouns import own_nouns
+
+    wants = frozenset(output.name for output, file in files.items() if file is not None)
+    paths = tuple(str(Path(file).resolve()) for file in own)
+    with progress() as tell:
+        answer = answered(asked, Caller(tell, wants, own_nouns(own), paths, folder))
+    _finish(answer, files, as_json)
+
+
+def checked(
+    files: Mapping[Output, Path | None], *, force: bool, as_json: bool
+) -> dict[Output, Path | None]:
+    """Return the files to write, including default ones."""
+    found = {
+        output: Path(output.usual) if file is None and output.usual and not as_json else file
+        for output, file in files.items()
+    }
+    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
+        raise InputError(f"{missing[0]} is missing; give the output file")
+    check_files(found, force=force, as_json=as_json)
+    return found
+
+
+def _finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) -> None:
+    write = Writing()
+    for output, file in files.items():
+        if output.name in answer.pictures:
+            write.picture(file, answer.pictures[output.name])
+        elif output.name in answer.files:
+            write(output.done, file, answer.files[output.name])
+    for note in answer.notes:
+        typer.echo(harmless(note), err=True)
+    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else answer.words()
+    if text:
+        write.answer(text)
+    write.end()
+    if answer.status:
+        raise typer.Exit(answer.status)
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
+    """Show a progress bar on standard error if it is a terminal; yields its update function."""
+    if not sys.stderr.isatty():
+        yield _lines()
+        return
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    # the remaining time assumes that work is proportional to the completed share
+    times = (
+        TimeElapsedColumn(),
+        TextColumn("gone, about"),
+        TimeRemainingColumn(),
+        TextColumn("to go"),
+    )
+    words = (TextColumn("{task.fields[words]}", markup=False),)
+    first = (TextColumn("{task.description}"), BarColumn())
+    with Progress(*first, *times, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=1.0, visible=False, words="")
+
+        def tell(told: Mapping[str, Any]) -> None:
+            if "share" in told:
+                said = told.get("words", "")
+                bar.columns = (*first, *(words if said else times))
+                doing = told.get("doing", "")
+                bar.update(
+                    task, completed=told["share"], description=doing, words=said, visible=True
+                )
+
+        yield tell
+
+
+def _lines() -> Callable[[Mapping[str, Any]], None]:
+    """Return a function that prints progress lines, for output that is not a terminal."""
+    last = monotonic()
+
+    def tell(told: Mapping[str, Any]) -> None:
+        nonlocal last
+        is_due = told.get("urgent") or monotonic() - last > LINES
+        if "words" in told and is_due:
+            last = monotonic()
+            typer.echo(harmless(told["words"]), err=True)
+
+    return tell

@@ -1,1 +1,0 @@
-"""Declaration of operations: cards of options, answers, and conversion from and to text."""
