@@ -54,7 +54,8 @@ class Told:
 
 def refused(words):
     """Return the words of a refusal with options as Python spells them."""
-    return Told(refused=re.sub(r"--([a-z][a-z0-9-]*)", lambda x: x[1].replace("-", "_"), words))
+    words = re.sub(r"--([a-z][a-z0-9-]*)", lambda x: x[1].replace("-", "_"), words)
+    return Told(refused=words.replace("`", ""))
 
 
 def by_python(question):

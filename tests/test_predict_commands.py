@@ -211,12 +211,12 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
     out = ["--csv", tmp_path / "out.csv"]
     for words, arguments in (
         ("'tabor'", [lens, cases, *out]),
-        ("compare", [cases, *out, "--compare"]),
+        ("--compare", [cases, *out, "--compare"]),
         ("tabor, modulus_ratio, exponent, rate", [other, *out]),
         ("line 2: 4 values for 5 columns", [ragged, *out]),
         ("the columns why", [again, *out]),
-        ("leave out rate", [lens, *RATE]),
-        ("size", [*SPHERE, *RATE, "--size", "1"]),
+        ("leave out --rate", [lens, *RATE]),
+        ("--size", [*SPHERE, *RATE, "--size", "1"]),
         ("confidence", [*SPHERE, *RATE, "--confidence", "90"]),
     ):
         assert words in wrong(capsys, *arguments), words

@@ -126,7 +126,7 @@ def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, 
 def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
     assert "contains a punch" in wrong(["simulate", "sphere", case_file], capsys)
     assert "contains a punch" in wrong(["advise", case_file], capsys)
-    assert "leave out size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
+    assert "leave out --size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
 
 
 def test_theory_says_how_thick_a_pad_must_be(capsys):

@@ -25,7 +25,7 @@ def test_what_a_passport_states_is_not_stated_beside_it(name, passport):
     _, file = passport
     given = PAD | ASKED | {"material": str(file)}
     assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
-    with pytest.raises(InputError, match=f"defines the whole material; leave out {name}$"):
+    with pytest.raises(InputError, match=f"defines the whole material; leave out `{name}`$"):
         ask("theory punch", **given, **{name: STANDARD[name]})
 
 

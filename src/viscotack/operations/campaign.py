@@ -267,7 +267,7 @@ class Run(Settings):
     def _tls(self, caller: Caller) -> tuple[Path, Path, Path] | None:
         files = self.tls_ca, self.tls_cert, self.tls_key
         if any(files) and not all(files):
-            raise InputError("TLS needs three files: tls_ca, tls_cert and tls_key")
+            raise InputError("TLS needs three files: `tls_ca`, `tls_cert` and `tls_key`")
         ca, cert, key = (None if each is None else caller.file(each) for each in files)
         return (ca, cert, key) if ca and cert and key else None
 

@@ -8,7 +8,7 @@ from viscotack.errors import InputError
 
 from .parts.dma import Dma
 from .parts.shifting import Shifting
-from .request import Answer, Caller, File, Number, Option, Output, picture
+from .request import Answer, Caller, File, Number, Option, Output, picture, quoted
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport
@@ -160,7 +160,7 @@ class FitMaterial(Dma, Shifting):
     def _refuse_of_sweeps(self, why: str) -> None:
         given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
         if given:
-            raise InputError(f"{' and '.join(given)} cannot be used {why}; leave it out")
+            raise InputError(f"{quoted(given)} cannot be used {why}; leave it out")
 
 
 def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 
+from .request import Caller, quoted
+
 if TYPE_CHECKING:
-    from .request import Caller
     from .statement import Statement
 
 # Words of what can be stated by flags.
@@ -217,7 +218,7 @@ def flags_of(indenters: tuple[str, ...]) -> dict[str, Flag]:
     return {n: x for n, x in FLAGS.items() if set(x.indenters) & set(indenters)}
 
 
-def stated(word: str, given: Mapping[str, Any], caller: "Caller") -> "Statement":
+def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
     """Return the problem that flags state: dimensionless, or in SI.
 
     Parameters
@@ -243,15 +244,15 @@ def stated(word: str, given: Mapping[str, Any], caller: "Caller") -> "Statement"
     said = {name.replace("_", "-"): value for name, value in given.items()}
     known_flags = flags_of((word,))
     if unknown := [name for name in said if name not in known_flags]:
-        raise InputError(f"a {word} has no option {unknown[0]}; leave it out", field=unknown[0])
+        raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
     if "set" in said:
         raise InputError("set replaces a number of a file; give the option itself", field="set")
     only_si = [n for n in said if not known_flags[n].pure and n != "temperature"]
     in_si = bool(only_si)
     if in_si and (pure := [name for name in said if not known_flags[name].si]):
         raise InputError(
-            f"{pure[0]} is dimensionless and {only_si[0]} in SI; state the whole problem in one of "
-            "the two",
+            f"{quoted(pure[:1])} is dimensionless and {quoted(only_si[:1])} in SI; state the whole "
+            "problem in one of the two",
             field=pure[0],
         )
     nouns = known(caller.also)
@@ -319,7 +320,7 @@ def material_table(
     if words.endswith(".toml") or words in MATERIALS:
         if beside := [name for name in others if name in said]:
             raise InputError(
-                f"{words} defines the whole material; leave out {', '.join(beside)}",
+                f"{words} defines the whole material; leave out {quoted(beside)}",
                 field=beside[0],
             )
         return {"passport": words}
@@ -405,13 +406,12 @@ def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any)
         raise InputError("give either profile_exponent or points, not both", field="points")
     starts = [name for name in _STARTS if name in said]
     of = [name for name in _STARTS if word in FLAGS[name].indenters]
-    one_of = f"exactly one of {', '.join(f'--{name}' for name in of)}"
-    if missing := [f"--{name}" for name in needed if name not in said]:
+    one_of = f"exactly one of {quoted(of)}"
+    if missing := [name for name in needed if name not in said]:
         more = "" if starts else f"; also give {one_of}"
         why = "" if "material" in said or in_si else f" for the material {solid}, the usual one"
-        why = why if set(missing) & {f"--{name}" for name in of_solid} else ""
+        why = why if set(missing) & set(of_solid) else ""
         verb = "are" if missing[1:] else "is"
-        raise InputError(f"{', '.join(missing)} {verb} missing{why}{more}; see --help")
+        raise InputError(f"{quoted(missing)} {verb} missing{why}{more}")
     if len(starts) != 1:
-        got = " and ".join(f"--{name}" for name in starts) or "none"
-        raise InputError(f"give {one_of}, got {got}; see --help")
+        raise InputError(f"give {one_of}, got {quoted(starts) or 'none'}")

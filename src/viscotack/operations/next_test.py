@@ -124,14 +124,14 @@ class NextTest(Request):
             )
         ]
         if self.approach_speed is not None and not self.dwell:
-            raise InputError("approach_speed needs dwell")
+            raise InputError("`approach_speed` needs dwell")
         wanted = [
             Trial(v, self.forecast_preload, self.forecast_radius)
             for some in self.forecast_speed
             for v in some
         ]
         if not wanted and (self.forecast_preload or self.forecast_radius):
-            raise InputError("the wanted forecast needs its speed, forecast_speed")
+            raise InputError("the wanted forecast needs its speed, `forecast_speed`")
         with limited(self.time_limit):
             study = fitted(self.study, caller)
             found = next_tests(

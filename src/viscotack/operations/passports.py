@@ -9,7 +9,7 @@ from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
 from .parts.solid import APassport, passport_of
-from .request import Answer, Caller, Named, Number, Option, Output, Request, Text, two_of
+from .request import Answer, Caller, Named, Number, Option, Output, Request, Text, quoted, two_of
 
 if TYPE_CHECKING:
     from viscotack.materials.conversion import PronyForm
@@ -136,14 +136,14 @@ class ConvertMaterial(Request):
             given = [name for name in names if getattr(self, name) is not None]
             if given:
                 raise InputError(
-                    f"{' and '.join(given)} cannot be used without code, the other program"
+                    f"{quoted(given)} cannot be used without `code`, the other program"
                 )
         elif isinstance(self.source, Passport):
-            raise InputError(f"{self.source.name} is a passport; code takes a file")
+            raise InputError(f"{self.source.name} is a passport; `code` takes a file")
         elif self.source in MATERIALS:
-            raise InputError(f"{self.source} is a published material; code takes a file")
+            raise InputError(f"{self.source} is a published material; `code` takes a file")
         elif (self.pressure_unit is None) != (self.time_unit is None):
-            raise InputError("give both pressure_unit and time_unit")
+            raise InputError("give both `pressure_unit` and `time_unit`")
         elif constants and self.code in _STATING:
             raise InputError(
                 f"input of {self.code} holds modulus and Poisson ratio; leave them out"

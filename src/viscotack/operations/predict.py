@@ -21,6 +21,7 @@ from .request import (
     Rows,
     csv_file,
     picture,
+    quoted,
 )
 from .simulate import HowLong
 
@@ -195,7 +196,7 @@ class Predict(Request):
         }
         if given := [name for name, is_given in others.items() if is_given]:
             what = f"{self.cases} is a table of cases" if alone else "there is a table of cases"
-            raise InputError(f"{what}; leave out {', '.join(given)}")
+            raise InputError(f"{what}; leave out {quoted(given)}")
         if self.problem is None:
             from .parts.predict_table import predict_file
 

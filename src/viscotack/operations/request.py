@@ -7,7 +7,7 @@ through the caller.
 
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from inspect import cleandoc
@@ -547,6 +547,17 @@ def flag_of(name: str, option: Option) -> str:
     return next((f for f in option.flags if f.startswith("--")), f"--{name.replace('_', '-')}")
 
 
+def quoted(names: Iterable[str]) -> str:
+    """Return options as a message names them; the command line spells them ``--name``.
+
+    Examples
+    --------
+    >>> quoted(["modulus-ratio", "rate"])
+    '`modulus_ratio`, `rate`'
+    """
+    return ", ".join(f"`{name.replace('-', '_')}`" for name in names)
+
+
 def request_of(kind: type[R], given: Mapping[str, Any]) -> R:
     """Return a request from what a user gave.
 
@@ -564,9 +575,7 @@ def request_of(kind: type[R], given: Mapping[str, Any]) -> R:
 def refusal(kind: type[Request], errors: Any) -> InputError:
     """Return the error of a request from those that pydantic found."""
     if missing := [str(each["loc"][-1]) for each in errors if each["type"] == "missing"]:
-        listed = " and ".join([", ".join(missing[:-1]), missing[-1]] if missing[1:] else missing)
-        verb = "are" if missing[1:] else "is"
-        return InputError(f"{listed} {verb} missing", field=missing[0] if len(missing) == 1 else "")
+        return InputError(f"{quoted(missing)} {'are' if missing[1:] else 'is'} missing")
     first = errors[0]
     known = [name for name in map(str, first["loc"]) if name in kind.model_fields]
     own = first.get("ctx", {}).get("error")

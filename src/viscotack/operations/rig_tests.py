@@ -60,7 +60,8 @@ class ReadTests(Rig, ShiftLaw):
         super().check()
         if self.reference_temperature is not None and not self.named:
             raise InputError(
-                "needs a shift: wlf, glass_transition or shift_file", field="reference_temperature"
+                "needs a shift: wlf, `glass_transition` or `shift_file`",
+                field="reference_temperature",
             )
 
     def answer(self, caller: Caller) -> Answer:

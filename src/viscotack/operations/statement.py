@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError
 
 from .flags import INDENTERS, stated
-from .request import Caller, Contact
+from .request import Caller, Contact, quoted
 
 if TYPE_CHECKING:
     from viscotack.materials.passport import Passport
@@ -113,7 +113,7 @@ def _of_case(given: Mapping[str, Any], option: Contact, caller: Caller) -> State
     case = caller.file(given[_CASE])
     beside = [n for n in given if n not in (_CASE, _TEMPERATURE, _SET, _INDENTER)]
     if beside:
-        raise InputError(f"{case} defines the whole problem; leave out {', '.join(beside)}")
+        raise InputError(f"{case} defines the whole problem; leave out {quoted(beside)}")
     kelvin = None
     if _TEMPERATURE in given:
         try:

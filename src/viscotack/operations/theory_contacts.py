@@ -10,7 +10,7 @@ from .parts.closed_form import closed_form
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.record_words import record_words
 from .parts.tables import as_text
-from .request import Answer, Caller, Contact, Number, Request, csv_file, picture
+from .request import Answer, Caller, Contact, Number, Request, csv_file, picture, quoted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -198,10 +198,10 @@ class Maugis(Request):
         missing = [name for name, value in self._sphere.items() if value is None]
         if self.tabor is not None and given:
             raise InputError(
-                f"tabor states the whole problem; leave out {', '.join(given)}", field="tabor"
+                f"tabor states the whole problem; leave out {quoted(given)}", field="tabor"
             )
         if self.tabor is None and missing:
-            raise InputError(f"{' and '.join(missing)} missing; or give tabor alone")
+            raise InputError(f"{quoted(missing)} missing; or give tabor alone")
 
     @property
     def _sphere(self) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from viscotack.units import parse
 from .flags import LAW
 from .parts.closed_form import closed_form
 from .parts.solid import Reduced
-from .request import Answer, Caller, File, Number, Option, Text, picture
+from .request import Answer, Caller, File, Number, Option, Text, picture, quoted
 
 if TYPE_CHECKING:
     from viscotack.theory import SteadyCrack
@@ -102,9 +102,9 @@ class _OfTheory(Reduced):
         from viscotack.theory.crack.modulus_file import read_modulus
 
         if given := self.given:
-            raise InputError(f"modulus_table states the solid; leave out {', '.join(given)}")
+            raise InputError(f"`modulus_table` states the solid; leave out {quoted(given)}")
         if self.modulus_table is None or self.rubbery_modulus is None:
-            raise InputError("modulus_table and rubbery_modulus go together; give both")
+            raise InputError("`modulus_table` and `rubbery_modulus` go together; give both")
         amplification, speed_range = {
             "theory persson-brener": (
                 tabulated_modulus.amplification,
@@ -187,7 +187,7 @@ class Scales(Reduced):
         if len(missing) == len(_SCALES):
             return None
         if missing:
-            raise InputError(f"{', '.join(missing)} missing for an answer in SI")
+            raise InputError(f"{quoted(missing)} missing for an answer in SI")
         E, w, h0, tau = numbers
         length = E * h0**2 / w
         return length, length / tau

@@ -12,7 +12,7 @@ from viscotack.units import parse
 from .flags import FLAGS
 from .parts.record_words import record_words
 from .parts.solid import Reduced, passport_of
-from .request import Answer, Caller, File, Named, Number, Option, picture
+from .request import Answer, Caller, File, Named, Number, Option, picture, quoted
 
 if TYPE_CHECKING:
     from viscotack.materials import Material
@@ -187,10 +187,10 @@ class OfPad(Reduced):
         needed = ["half_width", "work_of_adhesion", "strength"]
         needed += [] if passport else ["contact_modulus"]
         if missing := [name for name in needed if name not in given]:
-            raise InputError(f"{', '.join(missing)} missing")
+            raise InputError(f"{quoted(missing)} missing")
         if passport:
             if beside := [name for name in _OF_SOLID if name in given]:
-                raise InputError(f"{words} defines the whole material; leave out {beside[0]}")
+                raise InputError(f"{words} defines the whole material; leave out `{beside[0]}`")
             solid = passport_of(words, caller).material
             modulus = solid.contact_modulus
         else:

@@ -183,7 +183,7 @@ class OfUncertainty(Request):
         times: dict[str, float] = {}
         given = [name for name in ("passport", "study") if getattr(self, name) is not None]
         if given and problem.scales() is None:
-            raise InputError(f"{given[0]} needs a problem with dimensions, in SI")
+            raise InputError(f"`{given[0]}` needs a problem with dimensions, in SI")
         if self.passport is not None:
             problem, sampled, times = self._of_passport(problem, caller)
         elif self.temperature is not None or self.temperature_uncertainty is not None:
@@ -217,7 +217,7 @@ class OfUncertainty(Request):
             if not times["temperature"]:
                 raise InputError(
                     f"{passport.name}: the temperature dependence of its times is unknown; omit "
-                    "temperature_uncertainty"
+                    "`temperature_uncertainty`"
                 )
         if not solids and not times:
             raise InputError(

@@ -163,6 +163,8 @@ def refusals(app: FastAPI) -> None:
         errors = error.errors()
         kind = request.scope["route"].endpoint.__annotations__.get("asked")
         inside = [each for each in errors if each["loc"][0] == "body"]
+        if any(each["type"] in ("json_invalid", "model_attributes_type") for each in inside):
+            return JSONResponse({"error": "the request must be a JSON object"}, 422)
         if inside and isinstance(kind, type) and issubclass(kind, Request):
             return JSONResponse({"error": str(refusal(kind, inside))}, 422)
         first = errors[0]

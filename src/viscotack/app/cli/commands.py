@@ -93,18 +93,21 @@ def wrong_input(kind: "type[Request] | None" = None) -> Iterator[None]:
 def _spelled(error: InputError, kind: "type[Request] | None") -> str:
     """Return the message of an error, with the field that it names as the flag."""
     words, name = str(error), error.field.replace("-", "_")
-    for option in () if kind is None else kind.model_fields:
-        if "_" in option and option != name:
-            words = re.sub(rf"\b{option}\b", f"--{option.replace('_', '-')}", words)
-    if not name or not words.startswith(name):
-        return words
-    flag = f"--{name.replace('_', '-')}"
-    if kind is not None and name in kind.model_fields:
-        from viscotack.operations.request import flag_of, option_of
+    if name and words.startswith(name):
+        words = f"`{name}`{words.removeprefix(name)}"
+    return re.sub(r"`(\w+)`", lambda x: _flag(x[1], kind), words)
 
+
+def _flag(name: str, kind: "type[Request] | None") -> str:
+    """Return a name as the command line spells it, if it is an option."""
+    from viscotack.operations.flags import FLAGS
+    from viscotack.operations.request import flag_of, option_of
+
+    if kind is not None and name in kind.model_fields:
         option = option_of(kind.model_fields[name])
-        flag = name if option.argument else flag_of(name, option)
-    return f"{flag}{words.removeprefix(name)}"
+        return name if option.argument else flag_of(name, option)
+    flag = name.replace("_", "-")
+    return f"--{flag}" if kind is not None and flag in FLAGS else name
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:

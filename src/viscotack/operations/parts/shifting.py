@@ -8,7 +8,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-from ..request import Caller, File, Number, Option, Request, Text, two_of
+from ..request import Caller, File, Number, Option, Request, Text, quoted, two_of
 
 _SEVERAL = 3.0  # K: a chamber holds its temperature better
 _MOVES = ("none", "auto", "free")
@@ -69,9 +69,9 @@ class ShiftLaw(Request):
         """Check that at most one shift is given, with its reference temperature."""
         named = self.named
         if len(named) > 1:
-            raise InputError(f"give one shift, got {' and '.join(named)}")
+            raise InputError(f"give one shift, got {quoted(named)}")
         if named and self.reference_temperature is None:
-            raise InputError(f"{named[0]} needs reference_temperature")
+            raise InputError(f"`{named[0]}` needs `reference_temperature`")
 
     @property
     def named(self) -> list[str]:
@@ -136,7 +136,7 @@ class Shifting(ShiftLaw):
         super().check()
         if self.named and (self.shift_by is not None or self.vertical is not None):
             raise InputError(
-                f"shift_by and vertical are for shifts found from overlap; with "
+                f"`shift_by` and vertical are for shifts found from overlap; with "
                 f"{self.named[0]} leave them out"
             )
 
@@ -154,7 +154,7 @@ class Shifting(ShiftLaw):
         if law is None and np.ptp(sweeps.angular_frequency) == 0 and several:
             raise InputError(
                 f"{file} is a temperature ramp at one frequency, so nothing overlaps that could "
-                'tell the shift; give glass_transition "-115 degC", wlf or shift_file'
+                'tell the shift; give `glass_transition` "-115 degC", wlf or `shift_file`'
             )
         curve = master_curve(
             sweeps,
@@ -192,7 +192,7 @@ class Shifting(ShiftLaw):
             return tests[0], None, ()
         self._ask_reference(file, known[np.isfinite(known)])
         if self.reference_temperature is None:
-            raise InputError(f"{file}: say at which temperature, reference_temperature")
+            raise InputError(f"{file}: say at which temperature, `reference_temperature`")
         same: Any = tests  # all of them relaxation, or all creep
         curve, table = superposed(
             same,
@@ -206,7 +206,7 @@ class Shifting(ShiftLaw):
         if self.reference_temperature is None and known.size and np.ptp(known) > _SEVERAL:
             raise InputError(
                 f"{file}: measured from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} "
-                "C; say at which temperature the material is wanted, reference_temperature "
+                "C; say at which temperature the material is wanted, `reference_temperature` "
                 '"20 degC"'
             )
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from viscotack.errors import InputError
 
 from ..flags import FLAGS, material_table, needs_of
-from ..request import Caller, Named, Number, Request
+from ..request import Caller, Named, Number, Request, quoted
 
 if TYPE_CHECKING:
     from viscotack.materials.material import Material
@@ -79,14 +79,16 @@ class Reduced(Request):
         nouns, words = known(caller.also), self.material or usual
         if isinstance(words, Passport):
             if beside := [name for name in self.given if name != "material"]:
-                raise InputError(f"{words.name} defines the whole material; leave out {beside[0]}")
+                raise InputError(
+                    f"{words.name} defines the whole material; leave out `{beside[0]}`"
+                )
             return words.material.reduced(), "1"
         said = {name.replace("_", "-"): value for name, value in self.given.items()}
         table = material_table(words, said, nouns=nouns)
         needed = [n for n in ("modulus_ratio", "exponent") if n in needs_of(words, nouns)]
         if missing := [name for name in needed if name not in self.given]:
             raise InputError(
-                f"{' and '.join(missing)} missing for the material {words}", field=missing[0]
+                f"{quoted(missing)} missing for the material {words}", field=missing[0]
             )
         unit = "1" if "file" not in table else read_prony(caller.file(table["file"]))[1]
         return material_of(table, Reading("the material", nouns, caller.file, pure=True)), unit
