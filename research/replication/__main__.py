@@ -10,13 +10,13 @@ from typer import Option
 from .archive import file_of
 from .bench import Hands, Numbers
 from .figures.catalogue import Figure, figures
-from .gallery import PICTURES
-from .gallery import write as write_gallery
 from .kept import difference, kept, path_of, without_errors
 from .ledger.claim import named
 from .ledger.page import PAGE, page
 from .ledger.page import ledger as whole_ledger
 from .making import Maker, picture
+from .pictures import PICTURES
+from .pictures import write as write_gallery
 from .table import read_detachments
 from .words import application, wrong_input
 
@@ -143,7 +143,7 @@ def _write_ledger(text: str, out: Path) -> None:
 
 @app.command()
 def gallery() -> None:
-    """Write the pictures of docs/gallery.md from the kept numbers."""
+    """Write the pictures of research/replication/gallery from the kept numbers."""
     with wrong_input():
         write_gallery()
     typer.echo(f"wrote {PICTURES}")

@@ -52,7 +52,8 @@ def _opening(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
     said = ", ".join(f"{counts[verdict]} {_PLURAL[verdict]}" for verdict in Verdict)
     counted = ", ".join(f"{standings[standing]} {standing}" for standing in Standing)
     text = (
-        f"{len(thesis)} claims of A. Maghami, PhD thesis (2025), were measured with this package: "
+        "Which claims of A. Maghami, PhD thesis (2025), hold? "
+        f"{len(thesis)} were measured with this package: "
         f"{said}. {len(own)} more were found here. How firmly they stand: {counted}. {_STANDINGS}"
     )
     return "\n\n".join(fill(x, 108) for x in (text, _REMADE))
@@ -82,12 +83,11 @@ _STANDINGS = (
 )
 _REMADE = (
     "`python -m research.replication ledger --write` measures all claims from the kept numbers of "
-    "the figures, and writes this page and the whole ledger, `out/replication/ledger.md`: every "
-    "claim with the number of the thesis, the one measured here, and the evidence. "
-    "`python -m research.replication claim NAME` measures one, with `--afresh` from nothing. A "
-    "verdict stands on a number: where that leaves its band, the command refuses to write. Most "
-    "corrections are of printed equations: factors, signs and units. Figures are in the "
-    "[gallery](gallery.md); the authors' rows are judged "
+    "the figures, and writes this page and the whole ledger, `out/replication/ledger.md`; "
+    "`claim NAME` in place of `ledger` measures one, with `--afresh` from nothing. A verdict "
+    "stands on a number: where that leaves its band, the command refuses to write. Most "
+    "corrections are of printed factors, signs and units. The figures are in a "
+    "[gallery](../research/replication/gallery/README.md); the authors' rows are judged "
     "[one by one](../research/replication/published/README.md)."
 )
 _READING = (
