@@ -166,9 +166,8 @@ def _linear_curve(of: Of) -> str:
     return (
         "The thesis gives its linear curve, 4.26 to 10.9 mN at 1 to 1000 µm/s, for h0 = 30.8 nm. "
         "The curve itself is not published: here it is the quotient of two printed fits, Eq. 4.28 "
-        "over 1 + (v/v1)^(1/2). Tried were simulations with three ranges, simulations at three "
-        "Tabor numbers in which the range is only the unit of the rate, and Eq. 4.21 with Eq. 4.24 "
-        "for four ratios of critical to peak stress. "
+        "over 1 + (v/v1)^(1/2). Tried were simulations with three ranges and at three Tabor "
+        "numbers, and Eq. 4.21 with Eq. 4.24. "
         f"Within {100 * _CONSISTENT:.0f} % at all nine speeds an explanation is consistent, within "
         f"{100 * _CONJECTURE:.0f} % a conjecture, otherwise refuted: {words}. Nearest is the "
         f"{n['explanation'][best]} ({100 * n['least'][best]:+.1f} to "
