@@ -77,9 +77,8 @@ _PLURAL = {
     Verdict.OPEN: "cannot be decided",
 }
 _STANDINGS = (
-    "Proven needs neither a simulation nor a trained model; consistent agrees with simulations, "
-    "models or times within the band of its verdict; a conjecture is not decided by the published "
-    "material."
+    "Proven needs neither a simulation nor a trained model; consistent agrees with them within the "
+    "band of its verdict."
 )
 _REMADE = (
     "`python -m research.replication ledger --write` measures all claims from the kept numbers of "
