@@ -11,7 +11,7 @@ reads each data file in them as it is, and prints how many
   not say what their columns are,
 - are misread, or refused for any other reason. These are listed, and the exit status is then 1.
 
-Then it prints the numbers by repository, rows of docs/public-files.md; ``--names FILE`` writes the
+Then it prints the numbers by repository; ``--names FILE`` writes the
 outcome of every file. A minute.
 """
 
@@ -540,7 +540,7 @@ def words_of(counts, total):
 
 
 def rows_of(results):
-    """Rows of docs/public-files.md: number of files by repository and outcome."""
+    """Rows of a table: number of files by repository and outcome."""
     groups = Counter(
         (name.partition("/")[0], kind if kind == "read" else f"{kind}: {why}")
         for name, (kind, why) in results.items()

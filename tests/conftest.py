@@ -14,5 +14,5 @@ def pytest_addoption(parser):
         "--tack",
         type=Path,
         default=Path("tack-files"),
-        help="folder with the raw data of public tack tests, docs/tack_tests.md says which",
+        help="folder with the raw data of public tack tests, docs/verification.md says which",
     )

@@ -157,7 +157,7 @@ def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
     files = save_files_of(OWN, tmp_path)
     checked = [line.split()[1] for line in commands(OWN) if line.startswith("python my_")]
     assert checked == [file for file in files if re.fullmatch(r"my_.*\.py", file)]
-    assert len(checked) == 4
+    assert checked
     for file in checked:
         done = subprocess.run([sys.executable, file], cwd=tmp_path, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr

@@ -10,12 +10,13 @@ from typer import Option
 from .archive import file_of
 from .bench import Hands, Numbers
 from .figures.catalogue import Figure, figures
-from .gallery import PICTURES
-from .gallery import write as write_gallery
 from .kept import difference, kept, path_of, without_errors
 from .ledger.claim import named
 from .ledger.page import PAGE, page
+from .ledger.page import ledger as whole_ledger
 from .making import Maker, picture
+from .pictures import PICTURES
+from .pictures import write as write_gallery
 from .table import read_detachments
 from .words import application, wrong_input
 
@@ -119,23 +120,30 @@ def claim(
 @app.command()
 def ledger(
     written: Annotated[
-        bool, Option("--write", help="Write docs/replication.md instead of printing it.")
+        bool, Option("--write", help="Write it and docs/replication.md instead of printing it.")
     ] = False,
+    out: _Folder = _OUT,
 ) -> None:
     """Measure all claims from theory and kept numbers, and say what became of them.
 
     Example: python -m research.replication ledger --write
     """
     with wrong_input():
-        text = page(kept)
+        text = whole_ledger(kept)
         if written:
-            PAGE.write_text(text, encoding="utf-8", newline="")
-    typer.echo(f"wrote {PAGE}" if written else text)
+            PAGE.write_text(page(kept), encoding="utf-8", newline="")
+            _write_ledger(text, out)
+    typer.echo(f"wrote {PAGE} and {out / 'ledger.md'}" if written else text)
+
+
+def _write_ledger(text: str, out: Path) -> None:
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "ledger.md").write_text(text, encoding="utf-8", newline="")
 
 
 @app.command()
 def gallery() -> None:
-    """Write the pictures of docs/gallery.md from the kept numbers."""
+    """Write the pictures of research/replication/gallery from the kept numbers."""
     with wrong_input():
         write_gallery()
     typer.echo(f"wrote {PICTURES}")
@@ -152,9 +160,8 @@ def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
             typer.echo(f"{path}{beside}")
         if afresh and archive is not None:
             _published(archive, out, workers)
-        text = page(maker.of)
-        (out / "replication.md").write_text(text, encoding="utf-8", newline="")
-        typer.echo(f"{out / 'replication.md'}: every verdict stands")
+        _write_ledger(whole_ledger(maker.of), out)
+        typer.echo(f"{out / 'ledger.md'}: every verdict stands")
         spent = sum(maker.seconds.values()) if afresh else hands.seconds
     typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
 

@@ -2,6 +2,10 @@
 
 Claims: adhesion makes the contact larger at the same depth and lets its edge pull.
 
+Seen: At a depth of 2 the adhesive contact is 1.4 times as wide as that of Hertz and carries 30 %
+less. Its surface leaves the sphere upright, and its pressure turns into a tension without bound at
+the edge: the crack that the rest of the thesis moves.
+
 Needs: nothing.
 
 Costs: milliseconds.

@@ -3,6 +3,10 @@
 Claims: under large loads Hertz is enough, towards small Tabor numbers Bradley and DMT, towards
 large ones JKR; between them a cohesive zone is needed.
 
+Seen: From loads of ten (rigid) to three hundred (JKR) Hertz is enough. Below them the Tabor number
+decides: rigid below 0.02, DMT up to 0.07, JKR from 1.6, a cohesive zone between. DMT reaches larger
+Tabor numbers under larger loads.
+
 Needs: nothing. The thesis adapts the map of Johnson and Greenwood (1997,
 doi:10.1006/jcis.1997.4984). Here a theory holds where its contact radius is within 5 % of that of
 Maugis and Dugdale; Bradley's spheres are rigid where the approach by DMT-M is below 5 % of h0.

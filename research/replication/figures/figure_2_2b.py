@@ -3,6 +3,9 @@
 Claims: the passage from DMT to JKR is continuous; a small Tabor number follows DMT-M, a large one
 JKR.
 
+Seen: At a Tabor number of 5 Maugis cannot be told from JKR, loop included; at 0.01 the force stays
+at that of rigid bodies outside the contact. Between them the loop opens, and the jump goes.
+
 Needs: nothing.
 
 Costs: milliseconds.

@@ -2,6 +2,9 @@
 
 Claims: little work at low and at high speed, a maximum between them.
 
+Seen: A bell for each layer, seven works of adhesion high for the thickest. Its left end is 1.2 and
+not 1: the crack runs away at the end of the slowest retraction.
+
 Needs: the simulations of Fig. 3.8. The work is Eq. 3.36 with its limits and scale corrected.
 
 Costs: nothing more.

@@ -2,6 +2,8 @@
 
 Claims: the curves differ at the start and reach the same pull-off stress.
 
+Seen: Six ways to press, six beginnings; counted from the depth without stress, one curve.
+
 Needs: the protocols of Table 3.1.
 
 Costs: six simulations, a second.

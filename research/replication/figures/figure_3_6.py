@@ -3,6 +3,10 @@
 Claims: strength below b0; b^-1/2 between b0 and b1; constant beyond b1; all between the slow and
 the fast elastic layer.
 
+Seen: Four rates between the two elastic layers (dotted, simulated): none leaves them. The slope
+-1/2 is seen at the lowest rate; at 100 the strength lasts to ten times the thickness. Elastic
+theory lies above the elastic simulations by the length that the crack has run.
+
 Needs: nothing. The thicknesses of the thesis are not printed; here 30 from 0.001 to 10 half widths.
 
 Costs: 180 simulations, a minute of processor time.

@@ -3,6 +3,9 @@
 Claims: a very thin layer comes off all at once, at the strength; thicker ones by a crack that has
 run before the pull-off, the farther the thicker the layer.
 
+Seen: A layer of 0.001 a comes off as a whole. At 0.25 a a crack has come in by a tenth of the half
+width before the largest stress, at 10 a by a fifth, with the tension piled up at its tip.
+
 Needs: nothing.
 
 Costs: three simulations, a second.

@@ -2,6 +2,9 @@
 
 Claims: thin layers and fast retraction make a high stress, until it is the strength.
 
+Seen: The stress rises over three decades of crack speed to a plateau, which for the thinnest layer
+is the strength.
+
 Needs: nothing. Its simulations serve Fig. 3.9, 3.10 and A.1 as well.
 
 Costs: 88 simulations to full separation, a minute of processor time.

@@ -3,6 +3,10 @@
 Claims: it rises to 1/k, or to (pi/4) b/a0 where that is less (Eq. 3.31); Greenwood's theory with
 that limit (Eq. 3.35) is in fairly good agreement.
 
+Seen: Energies follow Greenwood's curves up to where the size ends them; the layer of 13 a0, close
+to b0/k, stays a fifth below. On the right the bound is met if the whole contact is counted (dots),
+and passed with the ligament of Eq. 3.30.
+
 Needs: the simulations of Fig. 3.8.
 
 Costs: 48 simulations for the inset, half a minute of processor time.

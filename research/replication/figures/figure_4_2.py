@@ -2,6 +2,10 @@
 
 Claims: n = 1.6 is near to a standard linear solid, and small n is broad.
 
+Seen: Broad spectra creep over many decades; n = 1.6 is nearly the standard solid. The dotted
+relaxation is that of the solids on the right: with the same n and tau0 the thesis's R(t) is of
+another material.
+
 Needs: the thesis draws R(t) by Eq. 4.4, a relaxation spectrum, and C(t) by Eq. 4.9, a retardation
 spectrum: with the same n and tau0 these are two materials, and here both are drawn.
 

@@ -3,6 +3,9 @@
 Claims: the force grows with the start until a threshold, where its slope is below 0.1; all
 exponents collapse on P = 0.3 a^2.7 until 1.5/k.
 
+Seen: Left, forces that grow with the start, and level off. Right, the thresholds of all exponents
+on one line, which is not that of the thesis: 1.14 a^2.19 where it has 0.3 a^2.7.
+
 Needs: nothing. The radii and rates of the thesis are not printed; here 16 radii, 1.2 to 8, and 9
 rates. A threshold is where the slope of a monotone cubic through the forces has fallen to 0.1 for
 the last time.

@@ -2,6 +2,9 @@
 
 Claims: the curve is quasi-static; Carpick's fit of it gives dg0 = 0.152 J/m2 and mu = 2.05.
 
+Seen: With 1.55 um the curve is the elastic one, and Carpick's fit reads its Tabor number. With the
+ranges that the rate series asks for the curve at the same speed lies lower and is read as JKR.
+
 Needs: the measured curve is not published. Drawn are the printed values (Maugis-Dugdale at mu =
 2.05) and simulations of the rubber of Eq. 4.27 at that speed with h0 of 30.8 nm, 200 nm and
 1.55 um. A Carpick fit to each simulated curve says what Tabor number the thesis would have read.

@@ -6,6 +6,12 @@ the largest amplification falls with the depth; PA-ML follows the simulations.
 Claims: (5.7) PA-ML sees the passage to DMT, 4/(3k) instead of 1/k, which the analytic law cannot,
 and the depth in DMT; it is less good at low rates.
 
+Seen (5.6): From 60 h0 the law, the model and the simulations are one. From 7.5 h0 the law ends at
+10 and the truth at 6.5, and the model follows the truth.
+
+Seen (5.7): At mu = 0.16 from 75 h0 the force ends at 12.5, well above 1/k: the passage to DMT, of
+which the law knows nothing. From 7.5 h0 the same solid ends below 6.
+
 Needs: the shipped set. mu = 3.0 (no row has it) in 5.6, k = 0.1.
 
 Costs: 96 simulations and two models, half a minute each.

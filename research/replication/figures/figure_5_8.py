@@ -4,6 +4,9 @@ Claims: at high rates a larger Tabor number holds more from a shallow start and 
 one; (b) at 10^3 all reach one plateau, the analytic law; (c) at 10 depth and Tabor number hardly
 matter.
 
+Seen: (a) the order of the Tabor numbers turns round at 11.5 h0. (b) there is no plateau: forces
+pass a maximum near 50 h0 and fall, for the bulk creeps. (c) beyond 3 h0 nothing matters much.
+
 Needs: the shipped set. n = 0.6, k = 0.1; (a) at 10^8 as its caption has it (10^9 in the text).
 
 Costs: 156 simulations and a model, a minute.

@@ -3,6 +3,9 @@
 Claims: the work has a bell over the rate; a larger exponent raises it at low and lowers it at high
 rates; with the descriptor the forest is smoother.
 
+Seen: Bells over the rate; the lines of the exponents cross near their tops. The forest without the
+descriptor moves in steps.
+
 Needs: the shipped set. mu = 3.24, start at 73 h0, k = 0.1.
 
 Costs: 36 simulations and two forests, a quarter of a minute.

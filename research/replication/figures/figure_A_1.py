@@ -3,6 +3,8 @@
 Claims: Eq. 4 of appendix II, with beta = 64 Sigma0/(9 sqrt 3), agrees with the simulations as
 Greenwood's theory does.
 
+Seen: Persson-Brener with the same limit: the picture of Fig. 3.9 again.
+
 Needs: the simulations of Fig. 3.8.
 
 Costs: nothing more.

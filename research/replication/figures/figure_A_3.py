@@ -3,6 +3,10 @@
 Claims: q1 v at low speed, q1 = -0.0125 + 3.136 n; q2 v^m2 beyond, m2 = 1/2 for n = 1.6 and less for
 broad spectra.
 
+Seen: A straight start of slope 1 for every n. On the right its coefficient: the printed one is pi
+n, which at k = 0.1 is a tenth too high. Exponents of the second law, drawn tenfold, come down to
+the limit n/(1 + n) only for much longer ranges of speed.
+
 Needs: nothing. The values of the inset are not printed.
 
 Costs: milliseconds.

@@ -3,6 +3,10 @@
 Claims: linear regression is poor, XGBoost is good; forest and XGBoost are better with the
 descriptor than without.
 
+Seen (A.4): Linear regression sees the trend and misses the ends; XGBoost is on the line.
+
+Seen (A.5): With the descriptor the clouds are thinner.
+
 Needs: the shipped set; each row is predicted by a model that has not seen it.
 
 Costs: ten models, a quarter of a minute each.

@@ -2,6 +2,9 @@
 
 Claims: Eq. 43, (4/3) a_po^2 pi^(2/3) mu, is an upper bound of the glassy work.
 
+Seen: Squares are the estimate of Eq. 43 with the printed radii. It is close at mu = 0.8 and far
+above the simulations at small Tabor numbers.
+
 Needs: the shipped set; the printed radii at pull-off. Start at 73 h0, k = 0.1, n = 1.6, rate 10^5.
 
 Costs: eight simulations and a forest, ten seconds.

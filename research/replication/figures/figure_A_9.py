@@ -2,6 +2,8 @@
 
 Claims: the error falls to a plateau and does not rise again.
 
+Seen: After 20 trees nothing is gained, and nothing lost.
+
 Needs: the shipped set; 15 % held out.
 
 Costs: a forest of 200 trees, ten seconds.

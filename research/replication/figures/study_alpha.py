@@ -2,6 +2,9 @@
 
 Claims: alpha = pi/9 at every modulus ratio from 0.01 to 0.1.
 
+Seen: The ratio of stresses that makes Persson-Brener fit falls from 0.39 to 0.31 with the modulus
+ratio; pi/9 is a mean. The steady crack has its own, lower ones: part of pi/9 is the finite range.
+
 Needs: nothing. mu = 3.24, exponent 0.8, large starts. Fitted are forces as they are, and forces
 over f(mu), the elastic ones; and the energy of the steady crack, which is the limit of short range.
 

@@ -2,6 +2,9 @@
 
 Claims: with the exponent 0.41 of the law the force scales with the power 0.27 of the speed.
 
+Seen: The exponent of the force rises and, from a light preload, falls again; 0.27 is one point of
+it.
+
 Needs: Eq. 4.28 with the printed constants; the lens of section 4.6 from a preload of 1.5 mN and
 from 100 times as much.
 

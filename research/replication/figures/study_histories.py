@@ -2,6 +2,9 @@
 
 Claims: none of the thesis for the sphere; Fig. 3.5 says of the punch that history does not matter.
 
+Seen: A sphere pressed on fast and pulled at once holds up to 85 % less when pulled fast; pulled
+slowly it has forgotten. The punch of Fig. 3.5 stays in the grey band.
+
 Needs: nothing. mu = 3.24, k = 0.1, standard solid and power law n = 0.6, pressed from apart to 40
 h0 without dwell, pulled at 10 and at 1000.
 

@@ -3,6 +3,10 @@
 Claims: linear theory with h0 = 30.8 nm, the range of the thesis's rate series, gives its linear
 curve, 4.26 to 10.9 mN.
 
+Seen: The six explanations that are nearest to the linear curve of Fig. 4.10. A range of 200 nm,
+which the thesis does not have, is nearest; 30.8 nm as the unit of the rate alone, at the Tabor
+number of the quasi-static test, comes next.
+
 Needs: the curve is a quotient of two printed fits, Eq. 4.28 over 1 + (v/v1)^(1/2), at the crack
 speed of Eq. 4.24; its own error is not known.
 

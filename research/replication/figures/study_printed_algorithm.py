@@ -3,6 +3,10 @@
 Claims: 500 equally spaced nodes serve for every case, the lens of Fig. 4.10 at a Tabor number of
 103 among them.
 
+Seen: Up to a Tabor number of 3 equal nodes give the elastic force to 0.1 %. At 10 Newton's method
+gives up where the edge goes from node to node; from 30 on the edge stays at its node, and the
+tension grows for as long as the drive is moved.
+
 Needs: nothing. Appendix V as corrected, for a relaxed (elastic) half-space: overlapping triangles,
 dense Newton, retraction in 150 steps from a contact of 2.3 (R^2 dg0/E0*)^(1/3), that of the lens
 under 1.5 mN, to 1.6 times the depth at which JKR lets go. Elastic forces are known: f(mu) times

@@ -2,6 +2,9 @@
 
 Claims: Eq. 43 bounds the work from above, Eq. 46 from below.
 
+Seen: Each dot a simulated detachment. Where the range is short, on the right, none passes the
+bound; far left, where forces pull outside the contact, it does not apply.
+
 Needs: the shipped sets "thesis" and "broad". The bound is derived in docs/replication.md: the work
 of JKR with the energy Delta-gamma0/k up to where its depth is least, 1.1569 mu pi^(2/3) k^(-5/3).
 

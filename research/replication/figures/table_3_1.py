@@ -2,6 +2,9 @@
 
 Claims: these are the loading protocols of Fig. 3.4 and 3.5; the pull-off stress hardly knows them.
 
+Seen: The six protocols. At b = 0.005 a all reach the strength; at 0.15 a, where they differ most,
+the stresses lie 1.4 % apart.
+
 Needs: nothing; the stresses of two thicknesses are those of Fig. 3.5.
 
 Costs: nothing.

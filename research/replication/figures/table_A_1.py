@@ -2,6 +2,8 @@
 
 Claims: mean, median, standard deviation and range of the five inputs of 8,505 rows.
 
+Seen: The shipped set has the mean, the spread and the range of the thesis's.
+
 Needs: the shipped set, whose inputs were drawn to have these statistics.
 
 Costs: a second.

@@ -5,6 +5,17 @@ Claims: of the force, XGBoost is best without the descriptor, with R2 0.9988 and
 the work, the forest is best, with R2 0.9945 and, with the descriptor, which lowers every error,
 0.9956.
 
+Seen (table-5.1): On the shipped set, whose inputs are continuous, all models err 1.4 to 5 times as
+much as on the thesis's, which has clusters of equal inputs; the forest is ahead of XGBoost.
+
+Seen (table-5.2): With the descriptor the forest is best, and its error is 56 % lower than the best
+without.
+
+Seen (table-5.3): No work is a placeholder here, and errors are smaller than the thesis's, but for
+the tree. XGBoost is best, not the forest.
+
+Seen (table-5.4): The descriptor takes half off the errors of tree and forest; XGBoost stays best.
+
 Needs: the shipped set of 8,505 detachments in place of the thesis's own; scikit-learn, XGBoost.
 
 Costs: half a minute of processor time each.

@@ -2,5 +2,6 @@
 
 A claim is a row of claims.toml, and names the function that measures it, from theory or from the
 kept numbers of figures. ``python -m research.replication ledger --write`` writes
-docs/replication.md; ``claim NAME --afresh`` measures one again from nothing.
+out/replication/ledger.md and docs/replication.md, its summary; ``claim NAME --afresh`` measures one
+again from nothing.
 """

@@ -1,4 +1,4 @@
-"""The page of the ledger, docs/replication.md, written from what is measured."""
+"""The ledger of claims, and its summary, docs/replication.md, from what is measured."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from textwrap import fill
 
 import numpy as np
 
+from ..bench import Numbers
 from .claim import Claim, Measured, Of, Standing, Verdict, chapters
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "replication.md"
@@ -18,34 +19,54 @@ _HEAD = (
 
 
 def page(of: Of) -> str:
-    """Return the ledger, from numbers of figures that are kept or made afresh."""
-    judged = {c: c.judged(of) for claims in chapters().values() for c in claims}
-    *thesis, own = chapters().values()
-    opening = _opening([c for claims in thesis for c in claims], len(own), judged)
-    parts = [opening, _derived_twice(of), _linear_curve(of), _BOUND, _READING]
+    """Return the summary: counts, and the claims that do not hold or stay open."""
+    judged = _judged(of)
+    parts = [
+        f"# The thesis, claim by claim\n\n{_opening(judged)}",
+        _differences(judged),
+        f"## What the linear curve of Figure 4.10 is\n\n{fill(_linear_curve(of), 108)}",
+        _BOUND,
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def ledger(of: Of) -> str:
+    """Return every claim with its number, from numbers of figures that are kept or made afresh."""
+    judged = _judged(of)
+    parts = [f"# Ledger of claims\n\n{fill(_READING, 108)}", _derived_twice(of), _explanations(of)]
     for chapter, claims in chapters().items():
         rows = "\n".join(claim.row(*judged[claim]) for claim in claims)
         parts.append(f"## {chapter}\n\n{_HEAD}\n{rows}")
     return "\n\n".join(parts) + "\n"
 
 
-def _opening(thesis: list[Claim], own: int, judged: dict[Claim, tuple[Measured, Standing]]) -> str:
+def _judged(of: Of) -> dict[Claim, tuple[Measured, Standing]]:
+    return {claim: claim.judged(of) for claims in chapters().values() for claim in claims}
+
+
+def _opening(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
+    *chapters_of_thesis, own = chapters().values()
+    thesis = [claim for claims in chapters_of_thesis for claim in claims]
     counts = Counter(claim.verdict for claim in thesis)
     standings = Counter(judged[claim][1] for claim in thesis)
     said = ", ".join(f"{counts[verdict]} {_PLURAL[verdict]}" for verdict in Verdict)
-    text = (
-        f"{len(thesis)} claims of A. Maghami, PhD thesis (2025), each beside what is measured "
-        f"here: {said}; and {own} that were found here. `python -m research.replication "
-        "ledger --write` writes this page from the kept numbers of the figures and from theory; "
-        "`python -m research.replication claim NAME` measures one of them, with "
-        "`--afresh` from nothing. A verdict stands on a number: where that leaves "
-        "its band, the command refuses to write, and a test compares this page with what is "
-        "measured."
-    )
     counted = ", ".join(f"{standings[standing]} {standing}" for standing in Standing)
-    firm = f"How firmly they stand: {counted}. {_STANDINGS}"
-    paragraphs = "\n\n".join(fill(x, 108) for x in (text, firm, _ERRORS))
-    return f"# The thesis, claim by claim\n\n{paragraphs}"
+    text = (
+        "Which claims of A. Maghami, PhD thesis (2025), hold? "
+        f"{len(thesis)} were measured with this package: "
+        f"{said}. {len(own)} more were found here. How firmly they stand: {counted}. {_STANDINGS}"
+    )
+    return "\n\n".join(fill(x, 108) for x in (text, _REMADE))
+
+
+def _differences(judged: dict[Claim, tuple[Measured, Standing]]) -> str:
+    rows = [
+        f"| `{claim.name}` | {claim.says} ({claim.place}) | {found.said()} | {claim.evidence} |"
+        for claim, (found, _) in judged.items()
+        if claim.verdict in (Verdict.FAILS, Verdict.OPEN)
+    ]
+    head = "| claim | what the thesis says | here | why |\n|---|---|---|---|"
+    return "## What does not hold or cannot be decided\n\n" + "\n".join([head, *rows])
 
 
 _PLURAL = {
@@ -56,21 +77,21 @@ _PLURAL = {
     Verdict.OPEN: "cannot be decided",
 }
 _STANDINGS = (
-    "Proven is what follows from equations, from the printed text or from the authors' files, "
-    "without a simulation or a trained model, in its corrected form where it needs one; "
-    "consistent, what agrees with simulations, models or times within the band of its verdict; a "
-    "conjecture, what the published material does not decide; refuted, what does not hold."
+    "Proven needs neither a simulation nor a trained model; consistent agrees with them within the "
+    "band of its verdict."
 )
-_ERRORS = (
-    "Errors of simulations are the solver's own estimates, which cover the true error in nine of "
-    "ten cases and more ([performance](performance.md)). Figures are in the "
-    "[gallery](gallery.md); the authors' rows are judged [one by "
-    "one](../research/replication/published/README.md); `random-rows` and `new-materials` "
-    "below have what models learn from them."
+_REMADE = (
+    "`python -m research.replication ledger --write` measures all claims from the kept numbers of "
+    "the figures, and writes this page and the whole ledger, `out/replication/ledger.md`; "
+    "`claim NAME` in place of `ledger` measures one, with `--afresh` from nothing. A verdict "
+    "stands on a number: where that leaves its band, the command refuses to write. Most "
+    "corrections are of printed factors, signs and units. The figures are in a "
+    "[gallery](../research/replication/gallery/README.md); the authors' rows are judged "
+    "[one by one](../research/replication/published/README.md)."
 )
 _READING = (
     "Units: P̂ is P/(πRΔγ0) as in chapter 4; rates are rτ0/h0; k P/P_JKR is k times the force in "
-    "units of 1.5 πRΔγ0."
+    "units of 1.5 πRΔγ0. Errors of simulations are the solver's own estimates."
 )
 
 
@@ -116,60 +137,62 @@ def _derived_twice(of: Of) -> str:
 _CONSISTENT, _CONJECTURE = 0.05, 0.15
 
 
-def _linear_curve(of: Of) -> str:
+def _explanations(of: Of) -> str:
     """Return the table of what may have given the thesis's linear curve."""
     n = of("linear-curve")
-    rows, counts = [], Counter()
-    for i in np.argsort(n["rms"]):
-        most = max(abs(float(n["least"][i])), abs(float(n["most"][i])))
-        word = "refuted"
-        if most <= _CONJECTURE:
-            word = "consistent" if most <= _CONSISTENT else "conjecture"
-        counts[word] += 1
-        force = n["force"][i]
-        rows.append(
-            f"| {n['explanation'][i]} | {force[0]:.2f} to {force[-1]:.2f} | "
-            f"{100 * n['least'][i]:+.1f} to {100 * n['most'][i]:+.1f} % | {word} |"
-        )
+    rows = [
+        f"| {n['explanation'][i]} | {n['force'][i][0]:.2f} to {n['force'][i][-1]:.2f} | "
+        f"{100 * n['least'][i]:+.1f} to {100 * n['most'][i]:+.1f} % | {_word(n, i)} |"
+        for i in np.argsort(n["rms"])
+    ]
+    head = "| explanation | force, mN | off the curve | |\n|---|---|---|---|"
+    return "## The linear curve of Figure 4.10\n\n" + "\n".join([head, *rows])
+
+
+def _word(n: Numbers, i: int) -> str:
+    most = max(abs(float(n["least"][i])), abs(float(n["most"][i])))
+    if most <= _CONJECTURE:
+        return "consistent" if most <= _CONSISTENT else "conjecture"
+    return "refuted"
+
+
+def _linear_curve(of: Of) -> str:
+    """Return what was tried to explain the thesis's linear curve, and how much of it agrees."""
+    n = of("linear-curve")
+    counts = Counter(_word(n, i) for i in range(len(n["rms"])))
     words = ", ".join(f"{counts[word]} {word}" for word in ("consistent", "conjecture", "refuted"))
-    text = (
+    best = int(np.argmin(n["rms"]))
+    return (
         "The thesis gives its linear curve, 4.26 to 10.9 mN at 1 to 1000 µm/s, for h0 = 30.8 nm. "
         "The curve itself is not published: here it is the quotient of two printed fits, Eq. 4.28 "
-        "over 1 + (v/v1)^(1/2), so that its own error is not known. "
-        "`python -m research.replication figure linear-curve` tries what may have given "
-        "it: simulations of the lens with three ranges; "
-        "simulations at the Tabor number 2.05 of the quasi-static test, 3.24 or 15.8, in which the "
-        "range is only the unit of the rate; and Eq. 4.21 at the crack speed of Eq. 4.24 for four "
-        f"ratios of critical to peak stress. Within {100 * _CONSISTENT:.0f} % at all nine speeds "
-        f"an explanation is consistent, within {100 * _CONJECTURE:.0f} % a conjecture, otherwise "
-        f"refuted; none is proven: {words}."
-    )
-    head = "| explanation | force, mN | off the curve | |\n|---|---|---|---|"
-    return f"## What the linear curve of Figure 4.10 is\n\n{fill(text, 108)}\n\n{head}\n" + (
-        "\n".join(rows)
+        "over 1 + (v/v1)^(1/2). Tried were simulations with three ranges and at three Tabor "
+        "numbers, and Eq. 4.21 with Eq. 4.24. "
+        f"Within {100 * _CONSISTENT:.0f} % at all nine speeds an explanation is consistent, within "
+        f"{100 * _CONJECTURE:.0f} % a conjecture, otherwise refuted: {words}. Nearest is the "
+        f"{n['explanation'][best]} ({100 * n['least'][best]:+.1f} to "
+        f"{100 * n['most'][best]:+.1f} %), which the thesis does not have."
     )
 
 
 _BOUND = """\
 ## A bound on the work that holds at all rates
 
-Eq. 43 is an estimate of the fast end and is exceeded 2.4 times between (`upper-bound-between`). For
-forces of short range there is a bound at every rate and for every linear spectrum. In the units of
-Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
+Eq. 43 is an estimate of the fast end, and the work exceeds it 2.4 times between the ends. For
+forces of short range there is a bound at every rate and for every linear spectrum. In the units
+of Eq. 4.16, lengths (πR²Δγ0/E0*)^(1/3) and forces πRΔγ0:
 
-1. Inside a contact that only recedes from rest the opening has been zero at all times, so that its
-   pressure is that of the relaxed solid at a hereditary depth D = δ0 − r ∫ψ dt, ψ falling from 1/k
-   to 1 ([the steady crack](steady_crack.md)). As ψ ≥ 1, the drive moves no farther than D does.
-2. The edge takes G = (a² − D)²/2a = Γ(v) with 1 ≤ Γ ≤ 1/k. At a given D no radius above that of
-   Γ = 1/k is possible, and the force P = 2aD − (2/3)a³ falls with the radius, dP/da = 2(D − a²),
-   which is below 0: the tension is at most that of JKR with the energy Δγ0/k at the same D.
-3. That JKR curve is in tension from its zero of the force to its least depth, beyond which there is
-   no equilibrium. The work to pull-off, from zero force on, is at most that of this curve all the
-   way:
+1. Inside a contact that only recedes from rest the opening has always been zero. Its pressure is
+   that of the relaxed solid at a hereditary depth D = δ0 − r ∫ψ dt, where ψ falls from 1/k to 1
+   ([the steady crack](steady_crack.md)). As ψ ≥ 1, the drive moves no farther than D.
+2. The edge takes G = (a² − D)²/2a = Γ(v) with 1 ≤ Γ ≤ 1/k. At a given D no radius exceeds that of
+   Γ = 1/k, and the force P = 2aD − (2/3)a³ falls with the radius, dP/da = 2(D − a²) < 0: the
+   tension is at most that of JKR with the energy Δγ0/k at the same D.
+3. That JKR curve is in tension from its zero of the force to its least depth, beyond which there
+   is no equilibrium. The work to pull-off, from zero force on, is at most that of this whole
+   curve:
 
        W ≤ 1.156939 μ π^(2/3) k^(−5/3)    [1.5 πRΔγ0 h0]
 
-It is not sharp: a relaxed bulk and a fast crack do not go together. The largest share of it in the
-rows of the shipped sets that start in compression with μk^(1/3) > 1 falls with k, as
-`bound-at-all-rates` states. Forces of long range, which pull outside the contact, are not
-covered."""
+The bound is not sharp, because a relaxed bulk and a fast crack do not go together. Forces of long
+range, which pull outside the contact, are not covered.
+"""

@@ -1,4 +1,4 @@
-"""The pictures of docs/gallery.md, small, from the kept numbers."""
+"""The pictures of gallery/README.md, small, from the kept numbers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .figures.catalogue import figures
 from .kept import kept
 from .making import picture
 
-PICTURES = Path(__file__).resolve().parents[2] / "docs" / "gallery"
+PICTURES = Path(__file__).with_name("gallery")
 
 
 def write() -> None:
