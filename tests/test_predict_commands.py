@@ -109,9 +109,9 @@ def test_a_theory_predicts_outside_the_range_and_is_compared(capsys):
     )
     assert found["work_to_pull_off"] is None and found["difference"]["work_to_pull_off"] is None
     assert abs(found["difference"]["pull_off_force"]) < 0.3
-    assert call(*deep) == 0
+    assert call(*deep, "--why") == 0
     out = capsys.readouterr().out
-    assert out.startswith("outside of the surrogates: preload is 600 h0") and "work to" not in out
+    assert ", outside of the surrogates\npreload is 600 h0" in out and "work to" not in out
     assert f"by the theory {found['method']!r}" in out
 
 

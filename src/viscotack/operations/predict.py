@@ -132,6 +132,7 @@ class Predict(Request):
         Option("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
     ] = False
     compare: Annotated[bool, Option("Also simulate, and show the error of the prediction.")] = False
+    why: Annotated[bool, Option("Also print why this method answers.")] = False
     time_limit: HowLong = None
 
     def check(self) -> None:
@@ -176,7 +177,7 @@ class Predict(Request):
         return Answer(
             found,
             record=lambda: record,
-            words=lambda: _words(found, record),
+            words=lambda: _words(found, record, self.why),
             files={"curve": lambda target: _write_curve(found, target)},
             pictures={"plot": lambda: _draw(found, result)},
             notes=stated.improbable,
@@ -348,10 +349,10 @@ def _curve(found: "Prediction") -> dict[str, Any]:
     return table
 
 
-def _words(found: "Prediction", answer: dict[str, Any]) -> str:
+def _words(found: "Prediction", answer: dict[str, Any], why: bool) -> str:
     """Return a prediction as lines a person reads."""
-    where = f"by {found.method}" if found.inside else "outside of the surrogates"
-    lines = [f"{where}: {found.why}"]
+    lines = [f"by {found.method}{'' if found.inside else ', outside of the surrogates'}"]
+    lines += [found.why] if why else []
     held = (
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )
