@@ -102,41 +102,6 @@ def test_force_work_and_curve_agree_in_a_moved_surrogate(lab):
         predict(problem, model=lab, joint=True)
 
 
-def test_slopes_of_a_moved_surrogate_are_its_differences(lab):
-    rows = rows_of([30.0, 1.0])  # the second is a point
-    force, work = lab.slopes(rows)
-    step = 1e-5
-    for i in range(5):
-        up, down = (
-            lab.evaluate(rows * np.exp(sign * step * (np.arange(5) == i))) for sign in (1, -1)
-        )
-        for slope, name in ((force, "pull_off_force"), (work, "work_to_pull_off")):
-            rise = np.log(getattr(up, name) / getattr(down, name)) / (2 * step)
-            assert slope[:, i] == pytest.approx(rise, abs=1e-6)
-
-
-def test_the_exported_file_of_a_moved_surrogate_gives_its_numbers(lab, tmp_path):
-    pytest.importorskip("onnx", reason="comes with viscotack[onnx]")
-    runtime = pytest.importorskip("onnxruntime", reason="comes with viscotack[dev]")
-    from viscotack.surrogate.onnx import export
-
-    export(lab, tmp_path / "lab.onnx")
-    session = runtime.InferenceSession(tmp_path / "lab.onnx", providers=["CPUExecutionProvider"])
-    rows = np.concatenate([rows_of([3.0, 300.0]), [[0.02, 0.5, 1.9, 0.01, 0.02]]])
-    said = lab.evaluate(rows)
-    held, curves = lab.intervals(rows, said), lab.curves(rows, said)
-    wanted = {
-        "pull_off_force": said.pull_off_force,
-        "force_interval": held.pull_off_force,
-        "work_interval": held.work_to_pull_off,
-        "curve_force": curves.force,
-        "curve_band": held.curve,
-        "force_slopes": lab.slopes(rows)[0],
-    }
-    for name, value in zip(wanted, session.run(list(wanted), {"groups": rows}), strict=True):
-        assert value == pytest.approx(wanted[name], rel=1e-9, abs=1e-12)
-
-
 def test_a_point_twenty_times_off_is_warned_about():
     rows = rows_of(np.geomspace(1.0, 1e3, 6))
     force = 1.2 * learned(rows)

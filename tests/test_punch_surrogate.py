@@ -77,18 +77,6 @@ def test_the_curve_ends_at_the_stress_and_its_area_is_the_work():
     assert np.median(off) < 5e-4
 
 
-def test_derivatives_are_those_of_differences():
-    surrogate, rows, step = shipped(), random_rows(200, seed=9), 1e-5
-    force, work = surrogate.slopes(rows)
-    for i in range(5):
-        up, down = (
-            surrogate.evaluate(rows * np.exp(sign * step * (np.arange(5) == i))) for sign in (1, -1)
-        )
-        for slope, name in ((force, "pull_off_force"), (work, "work_to_pull_off")):
-            wanted = np.log(getattr(up, name) / getattr(down, name)) / (2 * step)
-            assert slope[:, i] == pytest.approx(wanted, abs=1e-7)
-
-
 def test_a_slower_solid_that_is_pulled_slower_has_the_same_answer():
     slower = replace(
         PAD,

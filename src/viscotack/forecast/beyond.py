@@ -213,7 +213,7 @@ def _parts(
     forces = [
         float(said.pull_off_force[0]) for said in (learned.evaluate(slower), ends[0][0], ends[1][0])
     ]
-    # a difference: the exact derivatives by all inputs take ten times as long
+    # one difference: the derivatives by all inputs take twenty evaluations
     steep = max(np.log(forces[1] / forces[0]) / np.log(_NEAR), 0.0) * np.log(ratio)
     way = np.log(forces[2] / forces[1])
     # hardly any way is left where the force is at its fast limit

@@ -131,8 +131,8 @@ class Contact:
     # force times depth in units of the work.
     give_knows_work: ClassVar[bool] = True
     work_unit: ClassVar[float] = 1.0
-    # Why its predictions have no derivatives by the inputs; empty if they have.
-    no_slopes: ClassVar[str] = ""
+    # Whether predictions are smooth functions of the rows.
+    smooth: ClassVar[bool] = True
 
     @classmethod
     def of(

@@ -83,7 +83,7 @@ class SolidContact(SphereContact):
     }
     sizes = {"floor": (), "usual": (SAMPLES,), "spread": (SAMPLES, SAMPLES), "farthest": (2,)}
     limiting = ()
-    no_slopes = "the inputs of its networks come from a least-squares fit to the creep of the solid"
+    smooth = False
 
     @classmethod
     def of(

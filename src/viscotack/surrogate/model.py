@@ -20,8 +20,10 @@ from .contact import LEAST_WAY, Contact, between, mean_limit
 from .line import Curves
 from .move import Move
 from .network import Networks
-from .slopes import Sloped, by_logarithms
 from .trust import Trust
+
+# Step of the logarithm of an input in differences, where rounding and curvature balance.
+_STEP = 3e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +183,10 @@ class Surrogate:
         return self.trust.doubtful(self.tests(given).told_of_errors(answers.learned))
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
-        """Return the exact derivatives of log force and log work by the logarithms of the inputs.
+        """Return the derivatives of log force and log work by the logarithms of the inputs.
+
+        They are central differences of fourth order; their error is below 1e-10, except within
+        6e-4 of a kink.
 
         Parameters
         ----------
@@ -206,19 +211,18 @@ class Surrogate:
         >>> bool(0 < force[0, 4] < 0.5)
         True
         """
-        if self.contact.no_slopes:
+        if not self.contact.smooth:
             raise InputError(
-                f"the surrogate {self.contact.name!r} has no exact derivatives, because "
-                f"{self.contact.no_slopes}; use differences of its predictions"
+                f"the surrogate {self.contact.name!r} has no derivatives: inputs of its networks "
+                "come from an iteration"
             )
-        said = self.evaluate(by_logarithms(self.tests(groups).rows))
-        numbers: tuple[Any, ...] = said.pull_off_force, said.work_to_pull_off
-        force, work = (
-            np.column_stack([s / x.value for s in x.slopes])
-            for x in numbers
-            if isinstance(x, Sloped)
-        )
-        return force, work
+        rows, force, work = self.tests(groups).rows, [], []
+        for column in np.eye(len(self.contact.inputs)):
+            near = [self.evaluate(rows * np.exp(_STEP * i * column)) for i in (-2, -1, 1, 2)]
+            for found, name in ((force, "pull_off_force"), (work, "work_to_pull_off")):
+                low, below, above, high = (np.log(getattr(each, name)) for each in near)
+                found.append((low - high + 8 * (above - below)) / (12 * _STEP))
+        return np.column_stack(force), np.column_stack(work)
 
     # Starts ---------------------------------------------------------------------------------
 

@@ -106,7 +106,7 @@ class ShortRangeContact(Contact):
         "line": (15, OUTPUTS),
     }
     sizes, start_inputs = {"error": (len(OF), 2)}, physics.START
-    no_slopes = "an input of its networks, the energy of a crack, is found by bisection"
+    smooth = False
 
     @staticmethod
     def unit(rows: Array) -> Array:

@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.errors import InputError, install_command
+from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.physics import SphereContact
+from viscotack.version import __version__
 
-from ...version import __version__
-from ..model import Surrogate
-from ..physics import SphereContact
 from .graph import IR_VERSION, OPSET, Graph
 
 CONFIDENCE = 0.9
@@ -152,6 +152,6 @@ def _onnx() -> Any:
         import onnx
     except ImportError:
         raise ModuleNotFoundError(
-            f"the export needs onnx; install it with: {install_command('onnx')}"
+            "the export needs onnx; install it with: python -m pip install onnx"
         ) from None
     return onnx

@@ -1,16 +1,17 @@
-"""Export the surrogate of the package as ONNX: ``python -m viscotack.surrogate.onnx FILE``."""
+"""Export the surrogate of the package as ONNX: ``python -m research.onnx_export FILE``."""
 
 import argparse
 from pathlib import Path
 
-from ..store import shipped
+from viscotack.surrogate.store import shipped
+
 from .file import export
 
 
 def main() -> None:
     """Write the file and print its path."""
     parser = argparse.ArgumentParser(
-        prog="python -m viscotack.surrogate.onnx",
+        prog="python -m research.onnx_export",
         description="Write the surrogate that comes with viscotack as one ONNX file.",
     )
     parser.add_argument(
