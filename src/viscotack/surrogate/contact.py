@@ -115,12 +115,7 @@ class Contact:
     low: ClassVar[Array]
     high: ClassVar[Array]
     ends: ClassVar[tuple[Array, Array]]
-    # Inputs and outputs of each network; shapes of the constants; networks of the limits, either
-    # one or as many as for the force; and networks shared with the sphere on power laws, which are
-    # not stored in the file.
-    shapes: ClassVar[Mapping[str, tuple[int, int]]]
-    sizes: ClassVar[Mapping[str, tuple[int, ...]]] = {}
-    limiting: ClassVar[tuple[str, ...]] = ()
+    # Networks shared with the sphere on power laws, which are not stored in the file.
     shared: ClassVar[tuple[str, ...]] = ()
     # Columns that define a relaxed start, its depth last; number of depths and of refinements of
     # the search for it; error message if there is none.

@@ -34,23 +34,10 @@ from .contact import Contact, Further, mean_limit, share
 from .model import Surrogate
 from .network import Networks
 from .physics import MODULUS_RATIO, PRELOAD, TABOR, SphereContact
-from .trust import INPUTS, OF
 
 SAMPLES = len(DECADES)
-# Inputs of the network for the start of the search and the weights, and its outputs: three
-# constants of a power law; the centre and the logarithms of the widths of the bell.
-BEGIN_INPUTS, BEGIN_OUTPUTS = SAMPLES + 3, 6
-# Inputs of the networks of the corrections: seven numbers of the case, and the
-# residuals.
-BEND_INPUTS = 7 + SAMPLES
-# Inputs of the network of the errors: those for power laws; dissimilarity of the solid, its
-# distance from the training data, size of the corrections of force and work, and their network
-# spread.
-TRUST_INPUTS = INPUTS + 6
-# Times over depth over speed at which the second networks know the creep [decades], and the number
-# of their inputs: Tabor number, depth, modulus ratio, both limits, and creep at all samples.
+# Times over depth over speed at which the second networks know the creep [decades].
 _AROUND_DEPTH = np.array([-1.5, -1.0, -0.5, -0.25, 0.0, 0.25, 0.5])
-SECOND_INPUTS = 5 + SAMPLES + len(_AROUND_DEPTH)
 # Values below which dissimilarity and corrections have no effect.
 _LEAST_UNLIKE, _LEAST_BEND = 1e-4, 1e-4
 # Allowed logarithms of the widths of the bell [decades].
@@ -74,15 +61,6 @@ class SolidContact(SphereContact):
 
     name = "solids"
     shared = ("start", "fast", "force", "work", "give", "line")
-    shapes = {
-        "begin": (BEGIN_INPUTS, BEGIN_OUTPUTS),
-        "bend_force": (BEND_INPUTS, SAMPLES),
-        "bend_work": (BEND_INPUTS, SAMPLES),
-        "trust": (TRUST_INPUTS, len(OF)),
-        "second": (SECOND_INPUTS, 2),
-    }
-    sizes = {"floor": (), "usual": (SAMPLES,), "spread": (SAMPLES, SAMPLES), "farthest": (2,)}
-    limiting = ()
     smooth = False
 
     @classmethod
@@ -124,7 +102,7 @@ class SolidContact(SphereContact):
 
     @cached_property
     def told_of_second(self) -> Array:
-        """Inputs of the second networks, without the equivalent power law; (n, SECOND_INPUTS)."""
+        """Inputs of the second networks, without the equivalent power law; (n, columns)."""
         depth = self.rows[:, PRELOAD]
         return np.column_stack(
             [
@@ -137,7 +115,7 @@ class SolidContact(SphereContact):
         )
 
     def told_of_errors(self, answers: Answers) -> Array:
-        """Return the inputs of the networks of the errors, shape (n, TRUST_INPUTS)."""
+        """Return the inputs of the networks of the errors, shape (n, columns)."""
         unlike = np.log10(self.like.unlike + _LEAST_UNLIKE) + 3
         far = np.log10(self.far + _LEAST_UNLIKE) + 1
         bends = np.log10(answers.more["bends"] + _LEAST_BEND) + 2
@@ -169,7 +147,7 @@ def far(like: Alike, spread: Array) -> Array:
 
 
 def begin_inputs(tests: tuple[Array, Array, Array], creep: Array) -> Array:
-    """Return the normalised inputs of the network for the start of a search, (n, BEGIN_INPUTS).
+    """Return the normalised inputs of the network for the start of a search, (n, 18).
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +18,11 @@ from viscotack.errors import InputError
 from .answers import Answers, Intervals
 from .contact import LEAST_WAY, Contact, between, mean_limit
 from .line import Curves
-from .move import Move
 from .network import Networks
 from .trust import Trust
+
+if TYPE_CHECKING:
+    from .moving import Move
 
 # Step of the logarithm of an input in differences, where rounding and curvature balance.
 _STEP = 3e-4

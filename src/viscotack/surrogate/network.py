@@ -106,16 +106,6 @@ class Networks:
         scale = {f"{before}centre": self.centre, f"{before}spread": self.spread}
         return found | {name: a for name, a in scale.items() if a is not None}
 
-    @property
-    def ends(self) -> tuple[int, int]:
-        """Number of inputs and of outputs."""
-        return self.weights[0].shape[1], self.weights[-1].shape[2]
-
-    @property
-    def parameters(self) -> int:
-        """Number of weights and biases of all networks."""
-        return sum(a.size for a in (*self.weights, *self.biases))
-
 
 def from_arrays(arrays: Mapping[str, Array], before: str = "") -> Networks:
     """Reconstruct networks from the output of :meth:`Networks.arrays`.
@@ -131,55 +121,3 @@ def from_arrays(arrays: Mapping[str, Array], before: str = "") -> Networks:
         tuple(arrays[f"{before}{name}.{i}"] for i in layers) for name in ("weight", "bias")
     )
     return Networks(weights, biases, *(arrays.get(f"{before}{x}") for x in ("centre", "spread")))
-
-
-def together(networks: list[Networks]) -> Networks:
-    """Stack networks of the same shape with normalised outputs into one object.
-
-    Examples
-    --------
-    >>> one = Networks((np.ones((1, 2, 1)),), (np.ones((1, 1, 1)),))
-    >>> together([one, one]).weights[0].shape
-    (2, 2, 1)
-    """
-    return Networks(
-        tuple(np.concatenate(layer) for layer in zip(*(n.weights for n in networks), strict=True)),
-        tuple(np.concatenate(layer) for layer in zip(*(n.biases for n in networks), strict=True)),
-    )
-
-
-def single(networks: Networks, number: int) -> Networks:
-    """Return one of several networks, with normalised output."""
-    some = slice(number, number + 1)
-    return Networks(
-        tuple(layer[some] for layer in networks.weights),
-        tuple(layer[some] for layer in networks.biases),
-    )
-
-
-def added(one: Networks, other: Networks) -> Networks:
-    """Return networks whose output is the sum of two networks' outputs.
-
-    Examples
-    --------
-    >>> one = Networks((np.ones((1, 1, 1)),) * 2, (np.zeros((1, 1, 1)),) * 2)
-    >>> x = np.array([[0.3]])
-    >>> float((added(one, one)(x) - 2 * one(x))[0, 0, 0])
-    0.0
-    """
-    weights: list[Array] = []
-    for i, (a, b) in enumerate(zip(one.weights, other.weights, strict=True)):
-        if i == 0:
-            weights.append(np.concatenate([a, b], axis=2))
-        elif i == len(one.weights) - 1:
-            weights.append(np.concatenate([a, b], axis=1))
-        else:
-            beside = np.zeros((len(a), a.shape[1] + b.shape[1], a.shape[2] + b.shape[2]))
-            beside[:, : a.shape[1], : a.shape[2]] = a
-            beside[:, a.shape[1] :, a.shape[2] :] = b
-            weights.append(beside)
-    biases = [
-        np.concatenate([a, b], axis=2)
-        for a, b in zip(one.biases[:-1], other.biases[:-1], strict=True)
-    ]
-    return Networks(tuple(weights), (*biases, one.biases[-1] + other.biases[-1]))

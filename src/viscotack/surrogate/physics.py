@@ -28,9 +28,6 @@ from viscotack.arrays import Array
 
 from ..theory import lennard_jones
 from .contact import Contact, between, scaled_logarithms
-from .line import OUTPUTS
-from .trust import INPUTS as ERROR_INPUTS
-from .trust import OF
 
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
 TABOR, MODULUS_RATIO, EXPONENT, PRELOAD, RATE = range(5)
@@ -103,17 +100,7 @@ class SphereContact(Contact):
     """A sphere on a power law by retardation."""
 
     name, inputs, low, high, ends = "sphere", INPUTS, LOW, HIGH, (_LOW, _HIGH)
-    shapes = {
-        "start": (len(START), 2),
-        "fast": (len(FAST), 1),
-        "force": (len(INPUTS), 1),
-        "work": (len(INPUTS) + 4, 1),
-        "give": (len(INPUTS) + 5, 1),
-        "line": (len(INPUTS) + 5, OUTPUTS),
-        "trust": (ERROR_INPUTS, len(OF)),
-        "second": (len(INPUTS) + 2, 2),
-    }
-    limiting, start_inputs, search = ("fast",), START, (64, 4)
+    start_inputs, search = START, (64, 4)
     no_start = (
         "no relaxed start between depths of {low:g} and {high:g} h0 has a {what} of {wanted:g}; at "
         "that Tabor number it is between {least:.4g} and {most:.4g}"

@@ -39,9 +39,7 @@ from viscotack.traction import LennardJones
 
 from .answers import Answers
 from .contact import Contact, between, scaled_logarithms
-from .line import OUTPUTS, Curves
-from .trust import INPUTS as ERROR_INPUTS
-from .trust import OF
+from .line import Curves
 
 INPUTS = ("size", "thickness", "modulus_ratio", "preload", "rate")
 SIZE, THICKNESS, MODULUS_RATIO, PRELOAD, RATE = range(5)
@@ -114,18 +112,7 @@ class PunchContact(Contact):
     """A flat punch on a sliding layer of a standard solid; forces are mean stresses [sigma0]."""
 
     name, inputs, low, high, ends = "punch", INPUTS, LOW, HIGH, _ENDS
-    shapes = {
-        "start": (len(START), 1),
-        "slow": (len(SLOW), 1),
-        "fast": (len(FAST), 1),
-        "force": (len(INPUTS), 1),
-        "work": (len(INPUTS) + 2, 1),
-        "give": (len(INPUTS) + 2, 1),
-        "line": (len(INPUTS) + 3, OUTPUTS),
-        "trust": (ERROR_INPUTS, len(OF)),
-        "second": (len(INPUTS) + 2, 2),
-    }
-    limiting, start_inputs, search = ("slow", "fast"), START, (24, 3)
+    start_inputs, search = START, (24, 3)
     no_start = (
         "preload_force is {wanted:.4g} sigma0, outside the training range of {least:.4g} to "
         "{most:.4g} sigma0 for this size and thickness"

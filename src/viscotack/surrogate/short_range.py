@@ -31,8 +31,6 @@ from ..theory import jkr, lennard_jones
 from . import physics
 from .answers import Answers
 from .contact import Contact, Further
-from .line import OUTPUTS
-from .trust import OF
 
 # Tabor number, modulus ratio and exponent; the start's depth over the Tabor number, in heights of a
 # contact beta^2/R; and the rate over it, in these heights per time of the material.
@@ -98,14 +96,7 @@ class ShortRangeContact(Contact):
     """
 
     name, inputs, low, high, ends = "short range", physics.INPUTS, LOW, HIGH, _ENDS
-    shapes = {
-        "force": (10, 1),
-        "state": (10, 2),
-        "work": (14, 1),
-        "give": (15, 1),
-        "line": (15, OUTPUTS),
-    }
-    sizes, start_inputs = {"error": (len(OF), 2)}, physics.START
+    start_inputs = physics.START
     smooth = False
 
     @staticmethod

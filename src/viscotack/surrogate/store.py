@@ -1,11 +1,15 @@
-"""Read and write surrogates: arrays in NPZ, metadata in JSON with a checksum, without pickle."""
+"""Read and write surrogates: arrays in NPZ, metadata in JSON with a checksum, without pickle.
+
+Networks are the arrays ``NAME.weight.I`` and ``NAME.bias.I``, scaled by ``NAME.centre`` and
+``NAME.spread``; arrays without a point in their name are constants of the contact.
+"""
 
 import hashlib
 import io
 import json
 import os
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,6 +18,7 @@ from zipfile import BadZipFile
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import open_regular
@@ -26,7 +31,7 @@ from .network import Networks, from_arrays
 from .physics import SphereContact
 from .punch_physics import PunchContact
 from .short_range import ShortRangeContact
-from .trust import CONFIDENCES, OF, Trust
+from .trust import Trust
 
 _FOLDER = Path(__file__).parent
 # Files of the package, by the names of their contacts.
@@ -44,7 +49,6 @@ _FORM, _WORDS = "viscotack surrogate 4", "words.json"
 # Largest accepted file [bytes unpacked]; the largest one of the package has less than one
 # megabyte.
 _MOST = 50e6
-Arrays = Mapping[str, npt.NDArray[Any]]
 
 
 def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str, Any]) -> None:
@@ -65,16 +69,14 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str,
     if surrogate.move is not None:
         raise InputError("a moved surrogate has no file; keep its points and move it again")
     contact, trust = surrogate.contact, surrogate.trust
-    arrays: dict[str, Any] = dict(surrogate.constants)
-    for name, networks in surrogate.networks.items():
-        if name not in contact.shared:
-            arrays |= networks.arrays(f"{name}.")
+    own = [name for name in surrogate.networks if name not in contact.shared]
+    arrays: dict[str, Any] = {**surrogate.constants, **_arrays(surrogate.networks, own)}
     if trust is not None:
         arrays |= trust.reach.arrays("trust.")
         arrays |= {"trust.levels": trust.levels, "trust.joint": trust.joint}
     words = {"form": _FORM, "sha256": checksum(arrays), "contact": contact.name, **facts}
     if contact.shared:
-        words["power law"] = _checksum_of(surrogate.networks, contact.shared)
+        words["power law"] = checksum(_arrays(surrogate.networks, contact.shared))
     arrays[_WORDS] = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **arrays)
@@ -136,85 +138,34 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
             raise InputError(f"its format is {words['form']!r}, but this version reads {_FORM!r}")
         if words["sha256"] != checksum(arrays):
             raise InputError("the checksum of its arrays differs from the stored one")
-        return _surrogate(arrays, words), words
+        contact = _CONTACTS[words["contact"]]
+        names = dict.fromkeys(key.partition(".")[0] for key in arrays if ".weight." in key)
+        networks = {name: from_arrays(arrays, f"{name}.") for name in names}
+        trust = None
+        if reach := networks.pop("trust", None):
+            trust = Trust(reach, arrays["trust.levels"], arrays["trust.joint"])
+        if contact.shared:
+            whole = shipped().networks
+            if words["power law"] != checksum(_arrays(whole, contact.shared)):
+                raise InputError("it corrects another surrogate of power laws; train it again")
+            networks |= {name: whole[name] for name in contact.shared}
+        constants = {name: array for name, array in arrays.items() if "." not in name}
+        return Surrogate(contact, networks, trust, constants), words
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
         raise InputError(f"{path} is not the file of a surrogate, or is damaged: {error}") from None
 
 
-def _surrogate(arrays: Arrays, words: Mapping[str, Any]) -> Surrogate:
-    contact = _CONTACTS[words["contact"]]
-    for name, array in arrays.items():
-        if array.dtype.kind != "f" or not np.all(np.isfinite(array)):
-            raise InputError(f"{name} must be finite numbers")
-    networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes if _stored(n, arrays)}
-    for name, each in networks.items():
-        _check_layers(name, each, *contact.shapes[name])
-    trust = None
-    if reach := networks.pop("trust", None):
-        trust = Trust(reach, arrays["trust.levels"], arrays["trust.joint"])
-        _check_shape("trust.levels", trust.levels, (len(OF), len(CONFIDENCES)))
-        _check_shape("trust.joint", trust.joint, (len(CONFIDENCES),))
-    constants = {name: arrays[name] for name in contact.sizes}
-    for name, shape in contact.sizes.items():
-        _check_shape(name, constants[name], shape)
-    for name in contact.limiting:
-        count, wanted = (len(networks[n].weights[0]) for n in (name, "force"))
-        if count not in (1, wanted):
-            raise InputError(
-                f"the number of networks of the {name} limit must be 1 or {wanted}, as for the "
-                f"force, got {count}"
-            )
-    if contact.shared:
-        whole = shipped().networks
-        if words["power law"] != _checksum_of(whole, contact.shared):
-            raise InputError("it corrects another surrogate of power laws; train it again")
-        networks |= {name: whole[name] for name in contact.shared}
-    return Surrogate(contact, networks, trust, constants)
+def _arrays(networks: Mapping[str, Networks], names: Iterable[str]) -> dict[str, Array]:
+    """Return the arrays of some networks by their names in a file."""
+    return {key: a for name in names for key, a in networks[name].arrays(f"{name}.").items()}
 
 
-def _stored(name: str, arrays: Arrays) -> bool:
-    """Return whether a file must have networks; those of intervals are trained last."""
-    return name not in ("second", "trust") or f"{name}.weight.0" in arrays
-
-
-def checksum(arrays: Arrays) -> str:
+def checksum(arrays: Mapping[str, npt.NDArray[Any]]) -> str:
     """Return the SHA-256 of arrays with their names."""
     found = hashlib.sha256()
     for name in sorted(arrays):
         found.update(name.encode())
         found.update(np.ascontiguousarray(arrays[name]).tobytes())
     return found.hexdigest()
-
-
-def _checksum_of(networks: Mapping[str, Networks], names: tuple[str, ...]) -> str:
-    """Return the checksum of some networks, without intervals."""
-    each = [networks[name].arrays(f"{name}.") for name in names]
-    return checksum({name: array for arrays in each for name, array in arrays.items()})
-
-
-def _check_layers(name: str, networks: Networks, inputs: int, outputs: int) -> None:
-    """Raise an error if layers do not connect the given numbers of inputs and outputs."""
-    if not networks.weights:
-        raise InputError(f"layers of {name} are missing")
-    width, count = inputs, len(networks.weights[0])
-    for i, (weight, bias) in enumerate(zip(networks.weights, networks.biases, strict=True)):
-        _check_shape(f"layer {i} of {name}", weight, (count, width, weight.shape[-1]))
-        _check_shape(f"biases of layer {i} of {name}", bias, (count, 1, weight.shape[-1]))
-        width = weight.shape[-1]
-    if width != outputs:
-        raise InputError(
-            f"layers of {name} have {width} outputs for {inputs} inputs, expected {outputs}"
-        )
-    scale = {"centre": networks.centre, "spread": networks.spread}
-    known = {part: each for part, each in scale.items() if each is not None}
-    if len(known) == 1:
-        raise InputError(f"{name} has only a {next(iter(known))}; give both centre and spread")
-    for part, each in known.items():
-        _check_shape(f"{name}.{part}", each, (outputs,))
-
-
-def _check_shape(name: str, array: npt.NDArray[Any], wanted: tuple[int, ...]) -> None:
-    if array.shape != wanted:
-        raise InputError(f"{name} must have the shape {wanted}, got {array.shape}")
