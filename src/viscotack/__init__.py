@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from .forecast import predict as predict
     from .forecast import predict_table as predict_table
     from .forecast import prediction_summary as prediction_summary
-    from .forecast import threshold_contact_radius as threshold_contact_radius
     from .forecast.uncertainty import Uncertainty as Uncertainty
     from .forecast.uncertainty import uncertainty as uncertainty
     from .geometry import Bonded as Bonded
@@ -216,7 +215,6 @@ _NAMES = {
         "advise",
         "Advice",
         "Estimate",
-        "threshold_contact_radius",
         "predict",
         "predict_table",
         "Prediction",

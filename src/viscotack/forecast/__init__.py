@@ -6,7 +6,6 @@ from .cautions import cautions_on
 from .closed_forms import Estimate
 from .prediction import Prediction, prediction_summary
 from .prediction_table import predict_table
-from .preload_threshold import threshold_contact_radius
 
 __all__ = [
     "Advice",
@@ -17,5 +16,4 @@ __all__ = [
     "predict",
     "predict_table",
     "prediction_summary",
-    "threshold_contact_radius",
 ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 from viscotack.errors import OutOfRange
 from viscotack.geometry import Sphere
@@ -11,25 +10,25 @@ from viscotack.materials import Elastic
 from viscotack.methods.crack_problem import ROOT
 from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
-from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
-from viscotack.units import readable
+from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 
-from .cautions import LINEAR_SPEED, beyond_linear
+from . import advice_words as words
+from .cautions import LINEAR_SPEED
 from .closed_forms import Estimate, check_test, is_classic
-from .other_contacts import SATURATED, TOLERANCES, OtherContact, check_contact, other_contact
+from .other_contacts import OtherContact, check_contact, other_contact
 from .prediction import Prediction
 from .question import Question
 from .simulation import SIMULATION
-from .theories import CLOSED_FORM, CRACK_CONTACT, closed_form_limits, estimate_of, forms_of
-from .tiers import SOON, THEORIES, TIERS, Tier, best
+from .steady_crack import VERIFIED, crack_limits
+from .theories import CLOSED_FORM, closed_form_limits, estimate_of, forms_of
+from .tier import Tier
+from .tiers import CLOSED_FORMS, CRACK, EXACT, LEARNED_PUNCH, SOON, TIERS, best
 
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
 _DMT, _JKR = 0.1, 3.0
 # Range-corrected Tabor number up to which a simulation takes about a second.
 _FAST_TABOR = 15.0
 _SMALL_STRAIN = 0.2
-# Strain of a film up to which linear elasticity is a good approximation.
-_SMALL_FILM_STRAIN = 0.1
 
 
 @dataclass(frozen=True)
@@ -110,17 +109,17 @@ class Advice:
     @property
     def statements(self) -> tuple[str, ...]:
         """The regime, the prediction and its limits in words, without the table of the tiers."""
-        return tuple(_statements(self))
+        return tuple(words.statements(self))
+
+    @property
+    def tiers(self) -> tuple[str, ...]:
+        """The estimate of each tier in words, and the tier to use."""
+        return (*words.of_tiers(self), f"Use: {self.use}.")
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """The advice in words."""
         return self.statements + self.tiers
-
-    @property
-    def tiers(self) -> tuple[str, ...]:
-        """The estimate of each tier in words, and the tier to use."""
-        return (*_of_tiers(self), f"Use: {self.use}.")
 
 
 def advise(problem: Problem | Groups) -> Advice:
@@ -157,13 +156,66 @@ def advise(problem: Problem | Groups) -> Advice:
 
 def advice_on(asked: Question) -> Advice:
     """Return :func:`advise` for a question with cached intermediate results."""
-    check_contact(asked.groups)
-    check_test(asked.groups)
-    if is_classic(asked.groups):
-        return _of_sphere(asked, _best(asked))
-    # the search for the relaxed start of a simulation takes a second on a film
-    known = not all(tier.refuses(asked) for tier in TIERS if tier.cost <= SOON)
-    return _of_other(asked, _best(asked) if known else None)
+    problem, groups = asked.problem, asked.groups
+    check_contact(groups)
+    check_test(groups)
+    elastic, mu = isinstance(groups.material, Elastic), groups.effective_tabor
+    scales = problem.scales()
+    contact = change = None
+    adhesion = "dmt" if mu < _DMT else "jkr" if mu > _JKR else "transition"
+    regime, preload = "elastic" if elastic else "unknown", "unknown"
+    if is_classic(groups):
+        found, forms = _best(asked), asked.once(forms_of)
+        slow, edge_speed, start = forms.slowest, forms.edge_speed, forms.start_radius
+        if not elastic and found is not None:
+            regime = forms.regime_of(found.pull_off_force)
+        if not (CLOSED_FORM.refuses(groups) or closed_form_limits(asked)):
+            change = forms.preload_change
+        if change is not None:
+            preload = forms.preload
+        estimates = tuple(estimate_by(x, asked) for x in TIERS if x.name != LEARNED_PUNCH)
+    else:
+        # the search for the relaxed start of a simulation takes a second on a film
+        known = not (VERIFIED.refuses(groups) or crack_limits(groups))
+        found, contact = _best(asked) if known else None, other_contact(groups)
+        slow, edge_speed = contact.slow_force, contact.edge_speed
+        start = None if contact.start_radius is None else contact.start_radius / ROOT
+        if not elastic:
+            regime = contact.regime_of(None if found is None else found.pull_off_force)
+        if contact.reaches_through and adhesion == "jkr":
+            adhesion = "transition"
+        if isinstance(problem, Problem) and (strain := contact.film_strain) is not None:
+            strain *= problem.scales().radius / ROOT / problem.radius
+            contact = replace(contact, film_strain=strain)
+        estimates = (*contact.estimates, estimate_by(CRACK, asked), estimate_by(EXACT, asked))
+    speed = strain = None
+    if scales is not None and edge_speed is not None:
+        speed = edge_speed * scales.edge_speed
+    if scales is not None and start is not None and isinstance(problem.geometry, Sphere):
+        strain = start * scales.radius / problem.geometry.radius
+    return Advice(
+        tabor=groups.tabor,
+        effective_tabor=mu,
+        glassy_tabor=mu * groups.modulus_ratio ** (1 / 3),
+        adhesion=adhesion,
+        pull_off_force=None if found is None else found.pull_off_force,
+        interval=None if found is None else found.interval,
+        rate_regime=regime,
+        amplification=None if found is None else found.pull_off_force / slow,
+        start_radius=start,
+        preload="any" if regime in ("elastic", "quasi-static") else preload,
+        preload_change=change,
+        crack_speed_at_pull_off_m_per_s=speed,
+        beyond_linear=None if speed is None else speed > LINEAR_SPEED,
+        strain=strain,
+        small_strain=None if strain is None else strain < _SMALL_STRAIN,
+        use=SIMULATION if found is None else found.method,
+        estimates=estimates,
+        force_scale=None if scales is None else scales.force,
+        length_scale=None if scales is None else scales.radius / ROOT,
+        speed_scale=None if scales is None else scales.length / scales.time,
+        contact=contact,
+    )
 
 
 def _best(asked: Question) -> Prediction | None:
@@ -174,111 +226,20 @@ def _best(asked: Question) -> Prediction | None:
         return None
 
 
-def _of_sphere(asked: Question, found: Prediction | None) -> Advice:
-    """Return the advice on a sphere on a half-space."""
-    groups = asked.groups
-    forms = asked.once(forms_of)
-    verified = not (CLOSED_FORM.refuses(groups) or closed_form_limits(asked))
-    regime, change = _regime(asked, found), forms.preload_change if verified else None
-    return Advice(
-        **_shared(asked, found, forms.edge_speed, forms.start_radius),
-        rate_regime=regime,
-        amplification=None if found is None else found.pull_off_force / forms.slowest,
-        preload="any" if regime in _SLOW else forms.preload if change else "unknown",
-        preload_change=change,
-        estimates=tuple(estimate_by(tier, asked) for tier in TIERS if tier.name not in _OTHER),
-    )
-
-
-def _of_other(asked: Question, found: Prediction | None) -> Advice:
-    """Return the advice on another contact of revolution."""
-    contact = other_contact(asked.groups)
-    radius = contact.start_radius
-    shared: Any = _shared(
-        asked, found, contact.edge_speed, None if radius is None else radius / ROOT
-    )
-    if isinstance(asked.problem, Problem) and (strain := contact.film_strain) is not None:
-        strain *= shared["length_scale"] / asked.problem.radius
-        contact = replace(contact, film_strain=strain)
-    if contact.reaches_through and shared["adhesion"] == "jkr":
-        shared["adhesion"] = "transition"
-    regime = _ELASTIC
-    if not isinstance(asked.groups.material, Elastic):
-        regime = contact.regime_of(None if found is None else found.pull_off_force)
-    return Advice(
-        **shared,
-        rate_regime=regime,
-        amplification=None if found is None else found.pull_off_force / contact.slow_force,
-        preload="any" if regime in _SLOW else "unknown",
-        preload_change=None,
-        estimates=(*contact.estimates, *(estimate_by(tier, asked) for tier in _FOR_OTHERS)),
-        contact=contact,
-    )
-
-
-def _shared(
-    asked: Question, found: Prediction | None, edge_speed: float | None, start: float | None
-) -> dict[str, Any]:
-    """Return the part of an advice that does not depend on the kind of contact."""
-    problem, groups = asked.problem, asked.groups
-    scales: Any = problem.scales() if isinstance(problem, Problem) else None
-    speed = strain = None
-    if scales is not None and edge_speed is not None:
-        speed = edge_speed * scales.edge_speed
-    if scales is not None and start is not None and isinstance(problem.geometry, Sphere):
-        strain = start * scales.radius / problem.geometry.radius
-    mu = groups.effective_tabor
-    return {
-        "tabor": groups.tabor,
-        "effective_tabor": mu,
-        "glassy_tabor": mu * groups.modulus_ratio ** (1 / 3),
-        "adhesion": "dmt" if mu < _DMT else "jkr" if mu > _JKR else "transition",
-        "pull_off_force": None if found is None else found.pull_off_force,
-        "interval": None if found is None else found.interval,
-        "start_radius": start,
-        "crack_speed_at_pull_off_m_per_s": speed,
-        "beyond_linear": None if speed is None else speed > LINEAR_SPEED,
-        "strain": strain,
-        "small_strain": None if strain is None else strain < _SMALL_STRAIN,
-        "use": SIMULATION if found is None else found.method,
-        "force_scale": None if scales is None else scales.force,
-        "length_scale": None if scales is None else scales.radius / ROOT,
-        "speed_scale": None if scales is None else scales.length / scales.time,
-    }
-
-
-_ELASTIC = "elastic"
-# Regimes in which the start has no effect on the force.
-_SLOW = (_ELASTIC, "quasi-static")
-# Tiers that never apply to a sphere.
-_OTHER = ("surrogate of punches",)
-_CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != CRACK_CONTACT)
-# Tiers that may apply to other contacts.
-_FOR_OTHERS = tuple(tier for tier in TIERS if tier.name in (CRACK_CONTACT, SIMULATION))
-
-
-def _regime(asked: Question, found: Prediction | None) -> str:
-    """Return the regime by theory; unknown if no tier predicts a force."""
-    if isinstance(asked.groups.material, Elastic):
-        return _ELASTIC
-    return "unknown" if found is None else asked.once(forms_of).regime_of(found.pull_off_force)
-
-
 def estimates_without_advice(asked: Question) -> tuple[Estimate, ...]:
     """Return the estimates of all tiers but the simulation, for contacts without an advice."""
-    return tuple(estimate_by(tier, asked, limits=()) for tier in TIERS if tier.name != SIMULATION)
+    return tuple(estimate_by(tier, asked, limits=False) for tier in TIERS if tier is not EXACT)
 
 
-def estimate_by(
-    tier: Tier, asked: Question, *, limits: tuple[str, ...] = _CLOSED_FORMS
-) -> Estimate:
-    """Return the estimate of a tier; those in `limits` have a value where they do not apply."""
-    if tier.name == SIMULATION:
+def estimate_by(tier: Tier, asked: Question, *, limits: bool = True) -> Estimate:
+    """Return the estimate of a tier; `limits` is for closed forms that do not apply."""
+    if tier is EXACT:
         return _simulated(asked.groups)
     try:
         found = tier.ask(asked)
     except OutOfRange as reason:
-        limit = estimate_of(asked, tier.name).pull_off_force if tier.name in limits else None
+        limited = limits and tier.name in CLOSED_FORMS
+        limit = estimate_of(asked, tier.name).pull_off_force if limited else None
         return Estimate(tier.name, limit, None, False, str(reason))
     low, high = found.interval
     error = (high - low) / (2 * found.pull_off_force)
@@ -297,129 +258,3 @@ def _simulated(groups: Groups) -> Estimate:
     return Estimate(
         SIMULATION, None, 2e-3, True, f"the simulation accepts this problem and takes {time}"
     )
-
-
-def _pressing(preload: str, low: float, high: float) -> str:
-    """Describe the effect of a larger preload, with its interval."""
-    words = {
-        "raises": "would raise the force: the start is small for this rate",
-        "lowers": "would lower the force: a larger contact takes longer to detach, so the bulk "
-        "relaxes more",
-        "same": "would change the force by little or nothing",
-    }
-    return (
-        f"Pressing to twice the contact radius first {words[preload]} ({100 * low:+.0f} to "
-        f"{100 * high:+.0f} %)."
-    )
-
-
-def _headline(advice: Advice) -> str:
-    """Return the best prediction as a sentence."""
-    if advice.pull_off_force is None or advice.interval is None:
-        return ""
-    scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
-    force, low, high = (scale * x for x in (advice.pull_off_force, *advice.interval))
-    beside = f": {advice.amplification:.3g} times the slow force"
-    return (
-        f" Pull-off force {readable(force, unit)} ({readable(low, unit, to=high)}, 90 % interval, "
-        f"by the tier {advice.use!r}){'' if advice.rate_regime == _ELASTIC else beside}."
-    )
-
-
-def _of_contact(advice: Advice, contact: OtherContact) -> list[str]:
-    """Describe the limits of a contact, and the effect of the thickness of a film."""
-
-    def force(value: float) -> str:
-        scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
-        return readable(scale * value, unit)
-
-    def length(value: float) -> str:
-        return readable(
-            value * (advice.length_scale or 1.0), "m" if advice.length_scale else "beta"
-        )
-
-    def speed(value: float) -> str:
-        unit = "m/s" if advice.speed_scale else "h0/tau0"
-        return readable(value * (advice.speed_scale or 1.0), unit, digits=2)
-
-    slow, fast = contact.slow_force, contact.fast_force
-    limits = f"lies between {force(slow)} (relaxed) and {force(fast)} (fastest retraction from "
-    words = f"{limits}this start)" if fast > slow else f"is {force(slow)}"
-    found = [f"For forces of short range the pull-off force {words}."]
-    if contact.strength_force is not None:
-        found.append(
-            f"Uniform detachment at the strength of the interface takes "
-            f"{force(contact.strength_force)}."
-        )
-    if (ratio := contact.over_half_space) is not None:
-        found.append(
-            f"This film holds {ratio:.3g} times the slow force of a half-space; the radius of the "
-            f"contact at pull-off is {contact.radius_over_thickness:.2g} thicknesses."
-        )
-    if contact.half_space_thickness is not None:
-        each = zip(TOLERANCES, contact.half_space_thickness, strict=True)
-        words = ", ".join(f"{length(value)} (to {part:.0%})" for part, value in each)
-        found.append(f"In slow retraction the film is a half-space from a thickness of {words} on.")
-    here, half_space = contact.saturation_rate, contact.half_space_saturation_rate
-    if here is not None:
-        on_film = "" if half_space is None else f", on a half-space at {speed(half_space)}"
-        found.append(
-            f"The force reaches {SATURATED:.0%} of the fast limit at a retraction speed of about "
-            f"{speed(here)}{on_film}, by the theory of a receding crack."
-        )
-    elif advice.glassy_tabor < advice.effective_tabor:
-        found.append("The speed at which the gain saturates is not known here: simulate.")
-    if advice.length_scale is not None and (strain := contact.film_strain) is not None:
-        small = strain < _SMALL_FILM_STRAIN
-        verdict = "small" if small else "not small; use the numbers as estimates"
-        found.append(f"The largest strain of the film at the start is {strain:.2g}: {verdict}.")
-    return found
-
-
-def _statements(advice: Advice) -> list[str]:
-    words = {
-        "jkr": "The forces have a short range: the contact peels like a crack (JKR).",
-        "transition": "The range of the forces matters: neither JKR nor DMT alone holds.",
-        "dmt": "The forces have a long range: the whole contact opens simultaneously (DMT).",
-        "elastic": "The solid is elastic: the computed force does not depend on speed.",
-        "quasi-static": "The retraction is slow: the solid stays relaxed (rubbery).",
-        "rate-dependent": "The retraction is fast enough for dissipation: the force depends on "
-        "speed.",
-        "glassy": "The retraction is so fast that the edge is glassy: more speed adds little "
-        "force.",
-        "unknown": "The regime is unknown.",
-    }
-    simulate = "" if advice.pull_off_force else " No fast tier was verified here: simulate."
-    effective = ""
-    if abs(advice.effective_tabor / advice.tabor - 1) > 1e-9:
-        effective = f", {advice.effective_tabor:.3g} (range-corrected) for the range of this law"
-    found = [
-        f"{words[advice.adhesion]} Tabor number {advice.tabor:.3g}{effective}.",
-        f"{words[advice.rate_regime]}{_headline(advice)}{simulate}",
-    ]
-    if advice.contact is not None:
-        found += _of_contact(advice, advice.contact)
-    if advice.preload_change is not None:
-        found.append(_pressing(advice.preload, *advice.preload_change))
-    if advice.beyond_linear and (speed := advice.crack_speed_at_pull_off_m_per_s) is not None:
-        found.append(beyond_linear(speed))
-    if advice.small_strain is False:
-        found.append(
-            f"The contact radius is {advice.strain:.2g} sphere radii: strains are not small "
-            f"(linear elasticity holds up to about {LARGEST_CONTACT}); use the numbers as "
-            "estimates."
-        )
-    return found
-
-
-def _of_tiers(advice: Advice) -> list[str]:
-    """Describe the estimate of each tier."""
-    found = []
-    for e in advice.estimates:
-        value = "" if e.pull_off_force is None else f" {e.pull_off_force:.4g} x 1.5 pi R dg0"
-        if advice.force_scale is not None and e.pull_off_force is not None:
-            value += f" = {readable(e.pull_off_force * advice.force_scale, 'N')}"
-        error = "" if e.error is None else f" (to {100 * e.error:.2g} %)"
-        verb = "applies" if e.applies else "does not apply"
-        found.append(f"{e.tier} {verb}:{value}{error}; {e.why}.".replace(":;", ":"))
-    return found

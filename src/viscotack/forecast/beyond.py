@@ -36,18 +36,15 @@ because it depends on the instantaneous compliance.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
+from viscotack.surrogate import physics
+from viscotack.surrogate.answers import Answers, Intervals
+from viscotack.surrogate.model import Surrogate
 from viscotack.theory import lennard_jones
-
-if TYPE_CHECKING:
-    from viscotack.surrogate.answers import Answers, Intervals
-    from viscotack.surrogate.model import Surrogate
-
 
 # Range of the extrapolation that was compared with simulations.
 LEAST_TABOR, MOST_RATE, LEAST_RATIO = 1e-3, 1e16, 1e-6
@@ -72,8 +69,6 @@ class Beyond:
 
     Attributes
     ----------
-    groups : ndarray, shape (n, 5)
-        Inputs, moved to the limit of the training range.
     answers : Answers
     intervals : Intervals
     with_work : bool
@@ -84,7 +79,6 @@ class Beyond:
         Whether the surrogate is certain at the limit; false only below its rates.
     """
 
-    groups: Array
     answers: Answers
     intervals: Intervals
     with_work: bool
@@ -92,7 +86,7 @@ class Beyond:
     certain: bool = True
 
 
-_Said = tuple["Answers", "Intervals"]
+_Said = tuple[Answers, Intervals]
 
 
 def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | None:
@@ -104,8 +98,6 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         None if the row exceeds another limit, exceeds these too far, or if the surrogate is not
         certain at the limit.
     """
-    from viscotack.surrogate import physics
-
     mu, rate = groups[0, physics.TABOR], groups[0, physics.RATE]
     low, high = learned.limits["tabor"][0], learned.limits["rate"][1]
     k, least = groups[0, physics.MODULUS_RATIO], learned.limits["modulus_ratio"][0]
@@ -146,7 +138,7 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
             f"below a modulus ratio of {least:g} the force is extrapolated by its slope there"
         )
     with_work, certain = mu >= low and not work_doubtful, not force_doubtful
-    return Beyond(at_end, said, held, with_work, "; ".join(why), certain)
+    return Beyond(said, held, with_work, "; ".join(why), certain)
 
 
 def _evaluated(
@@ -171,7 +163,7 @@ def slower(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
     said, held, force_doubtful, work_doubtful = _evaluated(learned, at_end, confidence)
     said, held = _slowed(learned, at_end, (said, held), float(rate / slowest))
     why = SLOWER.format(slowest)
-    return Beyond(at_end, said, held, not work_doubtful, why, not force_doubtful)
+    return Beyond(said, held, not work_doubtful, why, not force_doubtful)
 
 
 def _slowed(learned: Surrogate, at_end: Array, ends: _Said, ratio: float) -> _Said:
@@ -194,9 +186,7 @@ def _slowed(learned: Surrogate, at_end: Array, ends: _Said, ratio: float) -> _Sa
 
 def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:
     """Return ln of the change of force and work for a modulus ratio smaller by a factor."""
-    from viscotack.surrogate.physics import MODULUS_RATIO
-
-    force, work = (-float(of[0, MODULUS_RATIO]) for of in learned.slopes(at_end))
+    force, work = (-float(of[0, physics.MODULUS_RATIO]) for of in learned.slopes(at_end))
     steep = float(np.clip(force, 1e-9, _STEEPEST))
     way = -np.log1p(-steep * (1 - ratio))
     return np.array([way, way * min(work / steep, 1.0) if work > 0 else work * (1 - ratio)])
@@ -206,8 +196,6 @@ def _parts(
     learned: Surrogate, at_end: Array, ends: tuple[_Said, _Said], ratio: float
 ) -> tuple[float, float]:
     """Return the part of the way to the fast limit for a rate larger by a factor, and its most."""
-    from viscotack.surrogate import physics
-
     slower = at_end.copy()
     slower[0, physics.RATE] /= _NEAR
     forces = [

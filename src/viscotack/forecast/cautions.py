@@ -24,7 +24,8 @@ from viscotack.units import readable
 from .closed_forms import is_classic, is_plain
 from .other_contacts import REST_ZONE
 from .question import Question
-from .theories import crack_of, forms_of
+from .steady_crack import crack_of
+from .theories import forms_of
 
 if TYPE_CHECKING:
     from viscotack.materials.passport import Passport

@@ -82,16 +82,16 @@ class Prediction:
 
     pull_off_force: float
     interval: tuple[float, float]
-    work_to_pull_off: float | None
-    work_interval: tuple[float, float] | None
-    confidence: float | None
-    band: str
     method: str
     inside: bool
     why: str
-    curve: Curves | None
-    curve_band: float | None
     problem: Case
+    confidence: float | None
+    band: str
+    work_to_pull_off: float | None = None
+    work_interval: tuple[float, float] | None = None
+    curve: Curves | None = None
+    curve_band: float | None = None
     zero_force_depth: float | None = None
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
@@ -182,14 +182,11 @@ def of_theory(
         pull_off_force=force,
         interval=(force * (1 - band), force * (1 + band)),
         work_to_pull_off=work,
-        work_interval=None,
         confidence=THEORY_CONFIDENCE,
         band=MEASURED,
         method=method,
         inside=inside,
         why=why,
-        curve=None,
-        curve_band=None,
         problem=asked.problem,
     )
 

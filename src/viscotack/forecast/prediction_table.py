@@ -13,7 +13,8 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
-from .learned import SURROGATE, not_certain
+from .learned import not_certain
+from .power_laws import SURROGATE
 from .prediction import MEASURED, NOT_MEASURED
 from .punches import LEARNED_PUNCH
 

@@ -48,7 +48,6 @@ def by_simulation(asked: Question) -> Prediction:
         inside=not handed_over,
         why=result.status,
         curve=_curve(result, found),
-        curve_band=None,
         problem=asked.problem,
         depth_interval=None if depth is None else (found.depth - depth, found.depth + depth),
     )

@@ -8,43 +8,24 @@ the interval, and the name of the tier.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Elastic, RetardationPowerLaw
-from viscotack.problem import Case
 
-from .allow_list import Verified
-from .learned import (
-    LEARNED_CRACK,
-    OTHER_SOLIDS,
-    POWER_LAWS,
-    SOLIDS,
-    SURROGATE,
-    by_learned_crack,
-    by_power_laws,
-    by_solids,
-    learned_crack_limits,
-    power_law_limits,
-    solid_limits,
-)
+from . import learned_crack, power_laws, punches, solids, steady_crack
+from .learned_crack import LEARNED_CRACK, by_learned_crack
+from .power_laws import SURROGATE, by_power_laws
 from .prediction import NOT_MEASURED, Prediction
-from .punches import LEARNED_PUNCH, PUNCHES, by_punches, punch_limits
+from .punches import LEARNED_PUNCH, by_punches
 from .question import Question
 from .simulation import SIMULATION, by_simulation
-from .theories import (
-    CLOSED_FORM,
-    CRACK,
-    CRACK_CONTACT,
-    ELASTIC,
-    by_closed_form,
-    by_crack_contact,
-    closed_form_limits,
-    crack_limits,
-    elastic_limits,
-)
+from .solids import SOLIDS, by_solids
+from .steady_crack import CRACK_CONTACT, by_crack_contact
+from .theories import CLOSED_FORM, ELASTIC, by_closed_form
+from .tier import Tier, Uncertain
 
 # Time budgets [s]: surrogates alone; surrogates and theories, the default.
 AT_ONCE, SOON = 0.01, 1.0
@@ -53,110 +34,24 @@ _SIMULATE = (
     "above a Tabor number of 30 in up to a minute"
 )
 
-
-@dataclass(frozen=True, eq=False)
-class Tier:
-    """One way to predict: a surrogate, a theory or the simulation.
-
-    Attributes
-    ----------
-    name : str
-        Name, as in the `method` of its predictions.
-    cost : float
-        Approximate time of a prediction [s].
-    verified : tuple of Verified
-        Its allow-lists, one of which must contain the problem; empty if it accepts all classes.
-    limits : callable
-        Names the number of a listed problem that is out of range, or returns an empty string.
-    reply : callable
-        Computes the prediction.
-    """
-
-    name: str
-    cost: float
-    verified: tuple[Verified, ...]
-    limits: Callable[[Question], str]
-    reply: Callable[[Question], Prediction]
-
-    def covers(self, problem: Case) -> str:
-        """Return the reason why the tier does not accept a problem, or an empty string.
-
-        A theory that accepts a problem may still find during evaluation that its conditions on
-        speed and start are not met; :meth:`answer` then raises an error.
-        """
-        return self.refuses(Question(problem))
-
-    def answer(self, problem: Case, *, confidence: float = 0.9) -> Prediction:
-        """Predict by this tier.
-
-        Raises
-        ------
-        OutOfRange
-            If the tier does not accept the problem, with the reason.
-        """
-        return self.ask(Question(problem, confidence))
-
-    def refuses(self, asked: Question) -> str:
-        """Return :meth:`covers` for a question with cached results."""
-        reasons = [each.refuses(asked.groups) for each in self.verified]
-        if reasons and all(reasons):
-            return reasons[0]
-        try:
-            return self.limits(asked)
-        except ValueError as error:
-            return str(error)
-
-    def ask(self, asked: Question) -> Prediction:
-        """Return :meth:`answer` for a question with cached results."""
-        if reason := self.refuses(asked):
-            raise OutOfRange(reason)
-        try:
-            return self.reply(asked)
-        except ValueError as error:
-            if not self.verified:
-                raise  # a rejection by the simulation is bad input
-            raise OutOfRange(str(error)) from error
-
-
-def _no_limits(asked: Question) -> str:
-    return ""
-
-
 LEARNED = (
-    Tier(SURROGATE, 1e-3, (POWER_LAWS,), power_law_limits, by_power_laws),
-    Tier(SOLIDS, 4e-3, (OTHER_SOLIDS,), solid_limits, by_solids),
-    Tier(LEARNED_PUNCH, 2e-3, (PUNCHES,), punch_limits, by_punches),
-    Tier(LEARNED_CRACK, 1e-3, (POWER_LAWS,), learned_crack_limits, by_learned_crack),
+    Tier(SURROGATE, 1e-3, (power_laws.VERIFIED,), by_power_laws),
+    Tier(SOLIDS, 4e-3, (solids.VERIFIED,), by_solids),
+    Tier(LEARNED_PUNCH, 2e-3, (punches.VERIFIED,), by_punches),
+    Tier(LEARNED_CRACK, 1e-3, (learned_crack.VERIFIED,), by_learned_crack),
 )
 _OF_MODEL = {"sphere": LEARNED[0], "punch": LEARNED[2]}
-THEORIES = (
-    Tier(CRACK_CONTACT, 0.5, (CRACK,), crack_limits, by_crack_contact),
-    Tier(
-        "elastic",
-        0.02,
-        (CLOSED_FORM, ELASTIC),
-        elastic_limits,
-        partial(by_closed_form, name="elastic"),
-    ),
-    *(
-        Tier(name, 0.02, (CLOSED_FORM,), closed_form_limits, partial(by_closed_form, name=name))
-        for name in ("unloading", "detachment", "rate-fit", "glassy")
-    ),
-)
-EXACT = Tier(SIMULATION, 3.0, (), _no_limits, by_simulation)
+CLOSED_FORMS = {
+    name: Tier(name, 0.02, verified, partial(by_closed_form, name=name))
+    for name, verified in (
+        ("elastic", (CLOSED_FORM, ELASTIC)),
+        *((x, (CLOSED_FORM,)) for x in ("unloading", "detachment", "rate-fit", "glassy")),
+    )
+}
+CRACK = Tier(CRACK_CONTACT, 0.5, (steady_crack.VERIFIED,), by_crack_contact)
+THEORIES = (CRACK, *CLOSED_FORMS.values())
+EXACT = Tier(SIMULATION, 3.0, (), by_simulation)
 TIERS = (*LEARNED, *THEORIES, EXACT)
-
-
-def _abstention_limits(asked: Question) -> str:
-    """Return a reason unless a surrogate covers the problem, so that the time is known."""
-    covered = any(not tier.refuses(asked) for tier in LEARNED)
-    return "" if covered else "outside the ranges of the surrogates a simulation may take longer"
-
-
-# The simulation in the ranges of the surrogates, for cases in which these are not certain.
-_ABSTAINED = Tier(
-    SIMULATION, SOON, (POWER_LAWS, OTHER_SOLIDS, PUNCHES), _abstention_limits, by_simulation
-)
 
 
 def by_model(asked: Question) -> Prediction:
@@ -205,8 +100,8 @@ def best(asked: Question, budget: float) -> Prediction:
     ValueError
         If there is no relaxed contact to pull off.
     """
-    refused: dict[str, str] = {}
-    for found in _answers(LEARNED, asked, budget, refused):
+    refused: dict[str, OutOfRange] = {}
+    for found in _answers(LEARNED, asked, refused):
         return found
     # not above: it loads the simulation, which most answers do without
     from viscotack.campaign.columns import has_relaxed_contact
@@ -216,41 +111,42 @@ def best(asked: Question, budget: float) -> Prediction:
         raise InputError(
             f"there is no contact to pull off: no relaxed one exists at {asked.groups.start}"
         )
-    for found in _answers((_ABSTAINED, EXACT), asked, budget, refused):
-        return found.because(out)
-    theories = list(_answers(THEORIES, asked, budget, refused))
+    # the time of a simulation is known in the ranges of the surrogates
+    abstained = any(isinstance(reason, Uncertain) for reason in refused.values())
+    if budget >= (SOON if abstained else EXACT.cost):
+        try:
+            return EXACT.ask(asked).because(out)
+        except OutOfRange:
+            pass  # a theory may do
+        except ValueError:
+            if budget >= EXACT.cost:
+                raise
+    affordable = [tier for tier in THEORIES if tier.cost <= budget]
+    theories = list(_answers(affordable, asked, refused))
     if theories:
         return min(theories, key=lambda x: x.interval[1] - x.interval[0]).because(out)
-    raise OutOfRange(_no_tier(out, asked, refused, budget))
+    if budget <= AT_ONCE:
+        raise OutOfRange(out)
+    # the reasons of the other closed forms are similar
+    form = "elastic" if isinstance(asked.groups.material, Elastic) else "detachment"
+    words = [out, *(str(refused[name]) for name in (form, CRACK_CONTACT) if name in refused)]
+    raise OutOfRange(f"{'; '.join(dict.fromkeys(words))}; no theory applies either; {_SIMULATE}")
 
 
 def _answers(
-    tiers: tuple[Tier, ...], asked: Question, budget: float, refused: dict[str, str]
+    tiers: Iterable[Tier], asked: Question, refused: dict[str, OutOfRange]
 ) -> Iterator[Prediction]:
     """Iterate over the predictions of the tiers that accept a problem; collect other reasons."""
     for tier in tiers:
-        if tier.cost > budget:
-            continue
         try:
             yield tier.ask(asked)
         except OutOfRange as reason:
-            refused[tier.name] = str(reason)
+            refused[tier.name] = reason
 
 
-def _reason_of_surrogates(asked: Question, refused: dict[str, str]) -> str:
+def _reason_of_surrogates(asked: Question, refused: dict[str, OutOfRange]) -> str:
     """Return why the surrogate closest to a problem does not accept it."""
     if asked.groups.in_plane_strain:
-        return refused[LEARNED_PUNCH]
+        return str(refused[LEARNED_PUNCH])
     power_law = isinstance(asked.groups.material, RetardationPowerLaw)
-    return refused[SURROGATE if power_law else SOLIDS]
-
-
-def _no_tier(out: str, asked: Question, refused: dict[str, str], budget: float) -> str:
-    """Describe why no tier within a budget applies."""
-    if budget <= AT_ONCE:
-        return out
-    # the reasons of the other closed forms are similar
-    form = "elastic" if isinstance(asked.groups.material, Elastic) else "detachment"
-    theories = (refused.get(form, ""), refused.get(CRACK_CONTACT, ""))
-    words = dict.fromkeys(each for each in (out, *theories) if each)
-    return f"{'; '.join(words)}; no theory applies either; {_SIMULATE}"
+    return str(refused[SURROGATE if power_law else SOLIDS])

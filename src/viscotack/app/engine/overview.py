@@ -14,7 +14,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import estimate_by
-from viscotack.forecast.learned import SURROGATE
+from viscotack.forecast.power_laws import SURROGATE
 from viscotack.forecast.prediction import Prediction
 from viscotack.forecast.prediction_table import predict_table
 from viscotack.forecast.punches import inputs_of
