@@ -12,6 +12,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.materials.conversion import slowed
 from viscotack.problem import Case
+from viscotack.surrogate.trust import check_confidence
 
 from .cautions import cautions_on
 from .prediction import Prediction, depth_between
@@ -127,17 +128,6 @@ def predict(
         for factor in (10.0**-decades, 10.0**decades)
     ]
     return _widened_by(found, others, shift_deviation)
-
-
-def check_confidence(confidence: float) -> None:
-    """Raise an InputError for a confidence without measured intervals."""
-    from viscotack.surrogate.trust import CONFIDENCES
-
-    if confidence not in CONFIDENCES:
-        raise InputError(
-            f"confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which intervals "
-            f"were measured; got {confidence!r}"
-        )
 
 
 def _slower(problem: Case, factor: float) -> Case:

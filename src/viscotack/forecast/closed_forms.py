@@ -133,13 +133,13 @@ class ClosedForms:
     slowest: float
     fastest: float
     start_radius: float | None
-    regime: str
-    preload: str
-    preload_change: tuple[float, float] | None
-    edge_speed: float | None
-    edge_energy: float
     estimates: tuple[Estimate, ...]
-    curve: unloading.Unloading | None
+    regime: str = "unknown"
+    preload: str = "unknown"
+    preload_change: tuple[float, float] | None = None
+    edge_speed: float | None = None
+    edge_energy: float = 1.0
+    curve: unloading.Unloading | None = None
 
     def regime_of(self, force: float) -> str:
         """Return the regime of a retraction with a known pull-off force [1.5 pi R dg0]."""
@@ -162,38 +162,26 @@ def closed_forms(asked: Groups) -> ClosedForms:
     ValueError
         If it is another test or another indenter.
     """
-    check_retraction(asked)
+    if not is_classic(asked):
+        shape, body = asked.geometry.word, asked.body.word
+        where = "" if isinstance(asked.body, HalfSpace) else f" on a {body}"
+        raise InputError(
+            f"the closed forms cover spheres on a half-space, got a {shape}{where}; simulate it"
+        )
+    check_test(asked)
     groups = lennard_jones_alike(asked)
     mu, k = groups.tabor, groups.modulus_ratio
-    slowest = float(np.asarray(lennard_jones.pull_off_ratio(mu)))
-    fastest = float(np.asarray(lennard_jones.pull_off_ratio(mu * k ** (1 / 3)))) / k
+    slowest = float(lennard_jones.pull_off_ratio(mu))
+    fastest = float(lennard_jones.pull_off_ratio(mu * k ** (1 / 3))) / k
     contact = contact_in_groups(groups.start, tabor=mu)
     start = None if contact is None else float(np.asarray(contact.contact_radius)) / _TIP
     depth = None if contact is None else float(np.asarray(contact.depth))
     try:
         return _by_theory(asked, groups, slowest, fastest, depth, start)
     except ValueError as error:  # the material has no modes as fine as the theory needs
-        return _without_theory(str(error), slowest, fastest, start)
-
-
-_NAMES = ("elastic", "unloading", "detachment", "rate-fit", "glassy")
-
-
-def _without_theory(why: str, slowest: float, fastest: float, start: float | None) -> ClosedForms:
-    """Return the limits alone, for a material to which the theories do not apply."""
-    limits = {"elastic": slowest, "glassy": fastest}
-    return ClosedForms(
-        slowest=slowest,
-        fastest=fastest,
-        start_radius=start,
-        regime="unknown",
-        preload="unknown",
-        preload_change=None,
-        edge_speed=None,
-        edge_energy=1.0,
-        estimates=tuple(Estimate(name, limits.get(name), None, False, why) for name in _NAMES),
-        curve=None,
-    )
+        limits = {"elastic": slowest, "glassy": fastest}
+        estimates = tuple(_limit(name, limits.get(name), str(error)) for name in _OTHER_LAW)
+        return ClosedForms(slowest, fastest, start, estimates)
 
 
 def _by_theory(
@@ -205,9 +193,12 @@ def _by_theory(
     start: float | None,
 ) -> ClosedForms:
     """Evaluate the theories of a moving edge."""
-    # without such a JKR start, use the regime of a retraction from zero load
-    free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
-    curve = _unloading(groups, free if depth is None else depth)
+    curve = None
+    if groups.modulus_ratio < 1:
+        # without such a JKR start, use the regime of a retraction from zero load
+        free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
+        begin = free if depth is None else depth
+        curve = unloading.retraction(begin, _crack(groups), speed=_speed(groups), **_UNIT)
     here, pressed = _with_and_without_pressing(groups, depth, start)
     state = here if here is not None and here.margin >= 1 else None
     amplification, gamma, edge = 1.0, 1.0, None
@@ -217,46 +208,46 @@ def _by_theory(
         place = int(np.argmin(curve.force))
         amplification = curve.pull_off_force / _JKR_FORCE
         gamma, edge = float(curve.amplification[place]), float(curve.edge_speed[place])
-    regime = _rate_regime(groups, amplification, gamma)
-    change = None
-    if regime != "quasi-static" and not _steep(asked):
+    regime = "rate-dependent"
+    if amplification - 1 < _SLOW:
+        regime = "quasi-static"
+    elif gamma * groups.modulus_ratio > _FAST:
+        regime = "glassy"
+    # a larger start has no effect in quasi-static retraction, and an unknown one for steep laws
+    change, preload = None, "any" if regime == "quasi-static" else "unknown"
+    if preload != "any" and not _steep(asked):
         change = _change(groups, here, pressed)
-    preload = "any" if regime == "quasi-static" else _preload(change)
+    if change is not None:
+        preload = "raises" if change[0] > 0 else "lowers" if change[1] < 0 else "same"
+    if depth is None:
+        curve = None
     estimates = (
         _elastic(asked, regime, slowest),
-        _unloaded(groups, slowest, None if depth is None else curve),
+        _unloaded(groups, slowest, curve),
         _detached(groups, slowest, state),
         _fitted(groups, preload),
         _glassy(groups, regime, fastest, start, slowest, gamma),
     )
+    if not isinstance(asked.traction, LennardJones):
+        steep = _steep(asked)
+        estimates = tuple(
+            e if e.error is None else replace(e, error=e.error + _OTHER_LAW[e.tier][steep])
+            for e in estimates
+        )
+    if curve is not None:
+        curve = curve._replace(
+            depth=curve.depth * asked.tabor,
+            contact_radius=curve.contact_radius / _TIP,
+            force=curve.force / _JKR_FORCE,
+        )
     return ClosedForms(
-        slowest=slowest,
-        fastest=fastest,
-        start_radius=start,
-        regime=regime,
-        preload=preload,
-        preload_change=change,
-        edge_speed=edge,
-        edge_energy=gamma,
-        estimates=tuple(_of_law(e, asked) for e in estimates),
-        curve=None if depth is None or curve is None else _in_groups(curve, asked),
+        slowest, fastest, start, estimates, regime, preload, change, edge, gamma, curve
     )
 
 
 # R = E0* = dg0 = 1, so that h0 = 1/mu
 _UNIT: dict[str, Any] = dict(radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0)
 _JKR_FORCE = 1.5 * np.pi
-
-
-def check_retraction(groups: Groups) -> None:
-    """Raise an InputError for tests that the closed forms do not cover."""
-    if not is_classic(groups):
-        shape, body = groups.geometry.word, groups.body.word
-        where = "" if isinstance(groups.body, HalfSpace) else f" on a {body}"
-        raise InputError(
-            f"the closed forms cover spheres on a half-space, got a {shape}{where}; simulate it"
-        )
-    check_test(groups)
 
 
 def is_classic(groups: Groups) -> bool:
@@ -321,32 +312,6 @@ def _speed(groups: Groups) -> float:
     return _rate(groups) / groups.tabor
 
 
-def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
-    if groups.modulus_ratio >= 1:
-        return None
-    return unloading.retraction(depth, _crack(groups), speed=_speed(groups), **_UNIT)
-
-
-def _in_groups(curve: unloading.Unloading, asked: Groups) -> unloading.Unloading:
-    """Return a curve in the units of dimensionless groups."""
-    return curve._replace(
-        depth=curve.depth * asked.tabor,
-        contact_radius=curve.contact_radius / _TIP,
-        force=curve.force / _JKR_FORCE,
-    )
-
-
-def _error(estimate: Estimate) -> float:
-    return np.inf if estimate.error is None else estimate.error
-
-
-def _of_law(estimate: Estimate, groups: Groups) -> Estimate:
-    """Add the error due to a law other than Lennard-Jones to an estimate."""
-    if isinstance(groups.traction, LennardJones) or estimate.error is None:
-        return estimate
-    return replace(estimate, error=estimate.error + _OTHER_LAW[estimate.tier][_steep(groups)])
-
-
 def _steep(groups: Groups) -> bool:
     """Return whether the tension falls abruptly, without a tail, like Dugdale's."""
     return softening(groups.traction) > _STEEP
@@ -399,103 +364,82 @@ def _change(
     return factor * (1 - band) - 1, factor * (1 + band) - 1
 
 
-def _preload(change: tuple[float, float] | None) -> str:
-    """Classify the effect of pressing."""
-    if change is None:
-        return "unknown"
-    low, high = change
-    return "raises" if low > 0 else "lowers" if high < 0 else "same"
-
-
-def _mean_time(groups: Groups) -> float:
-    """Return the compliance-weighted mean retardation time, in the unit of time."""
+def _haste(groups: Groups) -> float:
+    """Return the contact heights retracted during the mean retardation time."""
     unit = groups.material.time_unit
     modes = groups.material.retardation_modes(
         shortest=1e-9 * unit, longest=1e3 * unit, tolerance=1e-6
     )
     weights = np.array(modes.weights)
-    return float(weights @ np.array(modes.times) / np.sum(weights)) if weights.size else 0.0
+    mean = float(weights @ np.array(modes.times) / np.sum(weights)) if weights.size else 0.0
+    return _rate(groups) * mean / (np.pi ** (2 / 3) * groups.tabor)
 
 
-def _haste(groups: Groups) -> float:
-    """Return the contact heights retracted during the mean retardation time."""
-    return _rate(groups) * _mean_time(groups) / (np.pi ** (2 / 3) * groups.tabor)
+def _limit(name: str, force: float | None, why: str) -> Estimate:
+    """Return the estimate of a theory that does not apply, with its force as a limit if any."""
+    return Estimate(name, force, None, False, why)
 
 
-def _rate_regime(groups: Groups, amplification: float, gamma: float) -> str:
-    """Return the regime from the force over the slow one and the energy of the edge."""
-    if amplification - 1 < _SLOW:
-        return "quasi-static"
-    return "glassy" if gamma * groups.modulus_ratio > _FAST else "rate-dependent"
+_NO_RATE = "an elastic solid has no rate"
+_TOO_LONG = "the range of the forces is too long for a crack: Tabor number {:.3g}, valid from 1"
 
 
 def _elastic(asked: Groups, regime: str, slowest: float) -> Estimate:
-    if regime == "quasi-static":
-        why = "the retraction is slow enough for the solid to stay relaxed"
-        if isinstance(asked.material, Elastic):
-            why = "the solid is elastic, and its force does not depend on speed"
-        return Estimate("elastic", slowest, _SLOW, True, why)
-    why = "the solid is not relaxed while the edge moves; the force is a lower limit"
-    return Estimate("elastic", slowest, None, False, why)
+    if regime != "quasi-static":
+        why = "the solid is not relaxed while the edge moves; the force is a lower limit"
+        return _limit("elastic", slowest, why)
+    why = "the retraction is slow enough for the solid to stay relaxed"
+    if isinstance(asked.material, Elastic):
+        why = "the solid is elastic, and its force does not depend on speed"
+    return Estimate("elastic", slowest, _SLOW, True, why)
 
 
 def _unloaded(groups: Groups, slowest: float, curve: unloading.Unloading | None) -> Estimate:
-    name, haste, mu = "unloading", _haste(groups), groups.tabor
+    name, mu = "unloading", groups.tabor
     if curve is None:
-        why = (
-            "an elastic solid has no rate"
-            if groups.modulus_ratio >= 1
-            else "JKR has no contact at the start"
-        )
-        return Estimate(name, None, None, False, why)
-    force = slowest * curve.pull_off_force / _JKR_FORCE
+        no_start = "JKR has no contact at the start"
+        return _limit(name, None, _NO_RATE if groups.modulus_ratio >= 1 else no_start)
+    force, haste = slowest * curve.pull_off_force / _JKR_FORCE, _haste(groups)
     if not at_least(mu, 1):
-        why = (
-            f"the range of the forces is too long for a crack: Tabor number {mu:.3g}, valid from 1"
-        )
-        return Estimate(name, force, None, False, why)
+        return _limit(name, force, _TOO_LONG.format(mu))
     if not at_most(haste, _NEARLY):
         why = (
             f"the bulk has no time to relax: {haste:.3g} contact heights are retracted in the "
             f"mean retardation time; valid up to about {_RELAXED:g}"
         )
-        return Estimate(name, force, None, False, why)
-    relaxed = at_most(haste, _RELAXED)
-    error = 0.2 if not relaxed else 0.05 if at_least(mu, _JKR) else 0.12
-    why = "the bulk relaxes while the edge moves as a crack"
-    if not relaxed:
+        return _limit(name, force, why)
+    if not at_most(haste, _RELAXED):
         why = "the bulk hardly relaxes while the edge moves; the force is up to 20 % low"
-    return Estimate(name, force, error, True, why)
+        return Estimate(name, force, 0.2, True, why)
+    why = "the bulk relaxes while the edge moves as a crack"
+    return Estimate(name, force, 0.05 if at_least(mu, _JKR) else 0.12, True, why)
 
 
 def _detached(groups: Groups, slowest: float, state: _State | None) -> Estimate:
     name, mu = "detachment", groups.tabor
     if groups.modulus_ratio >= 1:
-        return Estimate(name, None, None, False, "an elastic solid has no rate")
+        return _limit(name, None, _NO_RATE)
     if state is None:
         why = "the preload is too light for this rate, so the force depends on the start"
-        return Estimate(name, None, None, False, why)
+        return _limit(name, None, why)
     force = slowest * state.amplification
     for least, needed, error in _DETACHMENT:
         if at_least(mu, least) and at_least(state.margin, needed):
             why = "the edge moves as a crack, and the bulk responds with its creep up to pull-off"
             return Estimate(name, force, error, True, why)
     if not at_least(mu, 1):
-        why = (
-            f"the range of the forces is too long for a crack: Tabor number {mu:.3g}, valid from 1"
-        )
-    else:
-        why = (
-            f"the contact radius at the start is {state.margin:.3g} times that at pull-off; valid "
-            f"from {1.2 if at_least(mu, 2) else 2:g} times"
-        )
-    return Estimate(name, force, None, False, why)
+        return _limit(name, force, _TOO_LONG.format(mu))
+    why = (
+        f"the contact radius at the start is {state.margin:.3g} times that at pull-off; valid "
+        f"from {1.2 if at_least(mu, 2) else 2:g} times"
+    )
+    return _limit(name, force, why)
 
 
 def _fitted(groups: Groups, preload: str) -> Estimate:
     name, mu, k = "rate-fit", groups.tabor, groups.modulus_ratio
     if k >= 1:
-        return Estimate(name, None, None, False, "an elastic solid has no rate")
+        return _limit(name, None, _NO_RATE)
     r = float(np.asarray(rate.rate_as_published(_rate(groups) * groups.material.time_unit)))
     speed = rate.COEFFICIENT * r**rate.EXPONENT
     force = float(np.asarray(persson_brener.amplification(speed, material=groups.material)))
@@ -508,7 +452,7 @@ def _fitted(groups: Groups, preload: str) -> Estimate:
     else:
         why = "crack speed from the rate by the fit of Eq. 4.24, force by Persson-Brener"
         return Estimate(name, force, _FIT_ERROR, True, why)
-    return Estimate(name, force, None, False, why)
+    return _limit(name, force, why)
 
 
 def _glassy(
@@ -521,17 +465,16 @@ def _glassy(
 ) -> Estimate:
     name, k = "glassy", groups.modulus_ratio
     if k >= 1:
-        return Estimate(name, slowest, None, False, "an elastic solid has no glassy limit")
+        return _limit(name, slowest, "an elastic solid has no glassy limit")
     least = (9 / (8 * k)) ** (1 / 3)
     if start is None or start < 1.5 * least:
         why = (
             "the start is too small a contact for the full glassy force, which needs a radius of "
             f"{1.5 * least:.3g} or more; this force is an upper limit"
         )
-        return Estimate(name, fastest, None, False, why)
+        return _limit(name, fastest, why)
     if regime != "glassy":
-        why = "the retraction is slower; this force is an upper limit"
-        return Estimate(name, fastest, None, False, why)
+        return _limit(name, fastest, "the retraction is slower; this force is an upper limit")
     c, p, q = _GLASSY_ERROR
     # reduction by a light preload, and by an edge below the glassy energy
     light = c * (groups.tabor * k ** (1 / 3)) ** p * (start / least) ** q
@@ -541,5 +484,5 @@ def _glassy(
             "the range of the forces is so long that the full glassy force needs a larger contact "
             "at the start; this force is an upper limit"
         )
-        return Estimate(name, fastest, None, False, why)
+        return _limit(name, fastest, why)
     return Estimate(name, fastest, error, True, "the energy of the edge is nearly the glassy one")

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from statistics import NormalDist
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
-from viscotack.protocol import AtDepth, AtForce
+from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.surrogate.answers import Answers, Intervals
 from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
@@ -85,10 +84,8 @@ def within(
         second = 10 ** tests.second[0][0]
         raise Uncertain(not_certain(method, answers.pull_off_force[0], end, second))
     held = learned.intervals(tests, answers, confidence=asked.confidence, joint=asked.joint)
-    if not isinstance(start, AtDepth):
-        by = "force" if isinstance(start, AtForce) else "contact_radius"
-        half = NormalDist().inv_cdf((1 + asked.confidence) / 2)
-        held = learned.with_start_doubt(tests, answers, held, by=by, quantile=half)
+    by = {AtDepth: "depth", AtForce: "force", AtRadius: "contact_radius"}[type(start)]
+    held = learned.with_start_doubt(tests, answers, held, by=by, confidence=asked.confidence)
     found = replace(_prediction(asked, answers, held, method, why), joint=asked.joint)
     if work_doubtful:
         why += (

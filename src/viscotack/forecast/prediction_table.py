@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,8 +10,11 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.surrogate import store
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.trust import check_confidence
 
-from .answer import check_confidence, predict
+from .answer import predict
 from .learned import not_certain
 from .power_laws import SURROGATE
 from .prediction import MEASURED, NOT_MEASURED
@@ -20,8 +22,6 @@ from .punches import LEARNED_PUNCH
 
 if TYPE_CHECKING:
     from viscotack.campaign.columns import Kind
-    from viscotack.surrogate.answers import Answers, Intervals
-    from viscotack.surrogate.model import Surrogate
 
 
 def with_interval(name: str) -> tuple[str, str, str]:
@@ -118,33 +118,40 @@ def predict_table(
     check_confidence(confidence)
     kind, given = kind_of(columns), _arrays(columns)
     kind.check(set(given))
-    count, force = len(next(iter(given.values()))), FORCE[kind.name]
+    if model is not None and model.contact.name != kind.name:
+        raise InputError(f"model is of {model.contact.name!r}, the columns are of {kind.name!r}")
+    learned, force = model or store.shipped(kind.name), FORCE[kind.name]
+    moved = learned.move is not None
+    method, count = METHOD[kind.name] + ", moved" * moved, len(next(iter(given.values())))
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
-    if model is not None and model.contact.name != kind.name:
-        raise InputError(f"model is of {model.contact.name!r}, the columns are of {kind.name!r}")
-    moved = model is not None and model.move is not None
-    method, band = METHOD[kind.name], NOT_MEASURED if moved else MEASURED
-    method += ", moved" * moved
-    at, answers, held, certain, second = _learned(kind, given, confidence, model)
-    abstained = at[~certain[:, 0]]
+
+    rows, by = _rows(learned, given)
+    # the cohesion of a punch affects crack speeds only, but a case needs one
+    possible = given.get("cohesion", np.ones(count)) > 0
+    at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible)
     if at.size:
-        forces = answers.pull_off_force, held.pull_off_force
-        works = answers.work_to_pull_off, held.work_to_pull_off
-        for names, (values, pairs), some in zip(
-            (force, WORK), (forces, works), certain.T, strict=True
+        tests = learned.tests(rows[at])
+        said = learned.evaluate(tests)
+        held = learned.intervals(tests, said, confidence=confidence)
+        held = learned.with_start_doubt(tests, said, held, by=by, confidence=confidence)
+        certain = ~learned.doubtful(tests, said)
+        for names, name, some in zip(
+            (force, WORK), ("pull_off_force", "work_to_pull_off"), certain.T, strict=True
         ):
-            _put(table, names, at[some], values[some], pairs[some].T)
-        parts = answers.pull_off_force, held.pull_off_force[:, 1], second
-        doubtful = (x[~certain[:, 0]].tolist() for x in parts)
-        for i, *numbers in zip(abstained.tolist(), *doubtful, strict=True):
-            table["why"][i] = not_certain(method, *numbers)
-        at = at[certain[:, 0]]
-        table["method"][at], table["band"][at] = method, band
-        table["inside"][at] = True
-    done = int(table["inside"].sum()) + len(abstained)
-    others = np.setdiff1d(np.flatnonzero(~table["inside"]), abstained)
+            values, pairs = getattr(said, name)[some], getattr(held, name)[some]
+            _put(table, names, at[some], values, pairs.T)
+        out, second = ~certain[:, 0], 10 ** tests.second[0]
+        numbers = said.pull_off_force[out], held.pull_off_force[out, 1], second[out]
+        table["why"][at[out]] = [
+            not_certain(method, *each) for each in np.column_stack(numbers).tolist()
+        ]
+        sure = at[certain[:, 0]]
+        table["method"][sure], table["inside"][sure] = method, True
+        table["band"][sure] = NOT_MEASURED if moved else MEASURED
+
+    done, others = len(at), np.setdiff1d(np.arange(count), at)
     for case, at in _equal_rows(given, others).items():
         try:
             problem = kind.problem(dict(zip(given, case, strict=True)))
@@ -185,34 +192,17 @@ def _equal_rows(
     return places
 
 
-def _learned(
-    kind: Kind, given: dict[str, Array], confidence: float, model: Surrogate | None
-) -> tuple[npt.NDArray[np.intp], Answers, Intervals, npt.NDArray[np.bool_], Array]:
-    """Return the indices of rows in the range of a surrogate, its predictions and intervals.
-
-    Then which forces and works are certain, shape (rows, 2), and the forces of the second
-    networks.
-    """
-    from viscotack.surrogate import store
-
-    learned = model or store.shipped(kind.name)
+def _rows(learned: Surrogate, given: dict[str, Array]) -> tuple[Array, str]:
+    """Return the inputs of the surrogate for each row, and what defined the starts."""
     unknown = np.full(len(given["rate"]), np.nan)
     rows = np.stack([given.get(name, unknown) for name in learned.contact.inputs], axis=1)
     start = next((name for name in _BY if name in given), None)
+    if start is None:
+        return rows, "depth"
     *others, preload = learned.contact.start_inputs
-    if start is not None:
-        known = learned.inside(rows)[:, others].all(axis=1)
-        rows[known, preload] = _depths(learned, rows[known][:, others], given[start][known], start)
-    # the cohesion of a punch affects crack speeds only, but a case needs one
-    possible = given.get("cohesion", np.ones(len(rows))) > 0
-    at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible)
-    inside = learned.tests(rows[at])
-    answers = learned.evaluate(inside)
-    held = learned.intervals(inside, answers, confidence=confidence)
-    if start is not None and at.size:
-        half = NormalDist().inv_cdf((1 + confidence) / 2)
-        held = learned.with_start_doubt(inside, answers, held, by=_BY[start], quantile=half)
-    return at, answers, held, ~learned.doubtful(inside, answers), 10 ** inside.second[0]
+    known = learned.inside(rows)[:, others].all(axis=1)
+    rows[known, preload] = _depths(learned, rows[known][:, others], given[start][known], start)
+    return rows, _BY[start]
 
 
 def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -278,7 +279,7 @@ class Surrogate:
         return float(low + min(max(part, 0.0), 1.0) * (high - low))
 
     def with_start_doubt(
-        self, given: Any, answers: Answers, held: Intervals, *, by: str, quantile: float
+        self, given: Any, answers: Answers, held: Intervals, *, by: str, confidence: float
     ) -> Intervals:
         """Widen intervals by the uncertainty of the depths of the starts.
 
@@ -286,15 +287,16 @@ class Surrogate:
         ----------
         given, answers, held : ndarray, Answers, Intervals
             Tests, their predictions, and the intervals without this uncertainty.
-        by : {"force", "contact_radius"}
+        by : {"depth", "force", "contact_radius"}
             Quantity that defined the start; its spread between the networks is the uncertainty. A
-            single network gives none.
-        quantile : float
-            Half-width of the intervals in standard deviations.
+            depth and a single network give none.
+        confidence : float
+            Of the intervals.
         """
-        if len(self.networks["start"].weights[0]) == 1:
+        if by == "depth" or len(self.networks["start"].weights[0]) == 1:
             return held
         tests = self.tests(given)
+        quantile = NormalDist().inv_cdf((1 + confidence) / 2)
         doubt = 10 ** (quantile * _start_doubt(tests, by=by))
         others = self.evaluate(tests.deeper(np.stack([np.ones_like(doubt), doubt, 1 / doubt])))
 

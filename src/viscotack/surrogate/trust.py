@@ -70,6 +70,15 @@ def error_inputs(scaled: Array, answers: Answers, second: tuple[Array, Array]) -
     return np.column_stack([scaled, faces - 1, *apart, climb, place, *differ])
 
 
+def check_confidence(confidence: float) -> None:
+    """Raise an InputError for a confidence without measured intervals."""
+    if confidence not in CONFIDENCES:
+        raise InputError(
+            f"confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which intervals "
+            f"were measured; got {confidence!r}"
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class Trust:
     """Half-widths of intervals.
@@ -114,11 +123,7 @@ class Trust:
         joint : bool
             Whether force, work and curve together are to be inside with this confidence.
         """
-        if confidence not in CONFIDENCES:
-            raise InputError(
-                f"confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which "
-                f"intervals were measured; got {confidence!r}"
-            )
+        check_confidence(confidence)
         usual = 10.0 ** self.reach(inputs).mean(axis=0)
         level = self.levels[:, CONFIDENCES.index(confidence)]
         if joint:
