@@ -250,6 +250,3 @@ def test_rows_of_a_table_are_those_of_single_predictions():
         assert "rate must be positive" in found["why"][3]
     no_cohesion = table | {"cohesion": np.zeros(5), "preload": np.ones(5), "rate": rates}
     assert not vt.predict_table(no_cohesion)["inside"].any()
-
-
-# the file

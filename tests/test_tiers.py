@@ -147,7 +147,7 @@ def test_a_larger_budget_uses_the_simulation_where_no_surrogate_applies():
         vt.predict(case, budget=AT_ONCE)
     theory, simulated = vt.predict(case), vt.predict(case, budget=10.0)
     assert theory.method in {tier.name for tier in THEORIES}
-    assert simulated.method == "simulation" and "law is Exponential" in simulated.why
+    assert simulated.method == "simulation"
     low, high = theory.interval
     assert low < simulated.pull_off_force < high
     exact = vt.predict(case, exact=True)
@@ -162,9 +162,9 @@ def test_a_larger_budget_uses_the_simulation_where_no_surrogate_applies():
     assert vt.predict(groups(), budget=10.0).method == "surrogate"
 
 
-def test_other_machines_are_simulated_on_request_and_else_refused_in_words():
+def test_other_machines_are_simulated_on_request_and_else_refused():
     spring = groups(stiffness=2.0)
-    with pytest.raises(vt.OutOfRange, match="predict` with --exact, can compute it"):
+    with pytest.raises(vt.OutOfRange, match="stiffness"):
         vt.predict(spring)
     exact = vt.predict(spring, exact=True)
     assert exact.pull_off_force == vt.pull_off_force(vt.solve(spring, until="pull-off"))
@@ -182,29 +182,22 @@ TWO_MAXIMA = [
 
 @pytest.mark.parametrize("case", [case for case, _ in TWO_MAXIMA])
 def test_a_surrogate_abstains_where_its_second_networks_contradict_it(case):
-    with pytest.raises(vt.OutOfRange, match="are not certain here: they predict a pull-off force"):
+    with pytest.raises(vt.OutOfRange, match="not certain"):
         vt.predict(case, budget=AT_ONCE)
 
 
 def test_where_a_surrogate_abstains_the_problem_is_simulated_within_a_second():
     case, force = TWO_MAXIMA[-1]
     found = vt.predict(case)
-    assert found.method == "simulation" and "are not certain here" in found.why
+    assert found.method == "simulation"
     assert found.pull_off_force == pytest.approx(force, rel=1e-3)
     assert vt.advise(case).pull_off_force == found.pull_off_force
-
-
-def test_outside_the_ranges_of_the_surrogates_the_default_budget_does_not_simulate():
-    law = vt.Exponential(1.0, 1.0, 1.0)
-    case = groups(tabor=6.0, rate=1.0, start=vt.AtDepth(60.0), traction=law)
-    assert vt.predict(case).method != "simulation"
 
 
 def test_where_only_the_work_is_contradicted_the_force_is_predicted_without_work_and_curve():
     case = groups(9.27527, solid(0.534562, 1.85868), vt.AtDepth(8.66557e-3), 4.7991)
     found = vt.predict(case, budget=AT_ONCE)
     assert found.work_to_pull_off is None and found.work_interval is None and found.curve is None
-    assert "no work and no curve: the networks predict a work of" in found.why
     assert found.interval[0] < found.pull_off_force < found.interval[1]
 
 
@@ -294,7 +287,6 @@ def test_advice_has_the_force_of_predict_as_its_headline():
     advice = vt.advise(case)
     assert advice.pull_off_force == vt.predict(case).pull_off_force
     assert advice.amplification == pytest.approx(18.0, rel=5e-3)
-    assert f"{advice.amplification:.3g} times the slow force" in advice.sentences[1]
 
 
 @pytest.mark.parametrize("kind", ["unloading", "detachment"])

@@ -11,7 +11,7 @@ frequency that it excites is the cut-off of Persson and Brener,
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -32,13 +32,6 @@ if TYPE_CHECKING:
 
 # Crack speed above which silicone experiments exceed linear theory [m/s].
 LINEAR_SPEED = 100e-6
-
-
-class _Edge(NamedTuple):
-    """Edge of a contact at pull-off: speed [beta/time unit] and energy [work of adhesion]."""
-
-    speed: float
-    energy: float
 
 
 def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str, ...]:
@@ -74,22 +67,34 @@ def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str
     elastic = isinstance(groups.material, Elastic)
     found = []
     if passport is not None and elastic:
-        found.append(_one_rate(passport))
+        found.append(
+            f"{passport.name!r} was tested at one rate: its dependence on speed is unknown. The "
+            "force is that of this modulus at every speed; a fast pull of a real rubber holds more."
+        )
     if passport is not None and allowed(passport):
-        found.append(_left_out(passport.name))
-    if elastic:
-        return tuple(found)
+        found.append(
+            "The interval leaves out the uncertainty of the measured constants of "
+            f"{passport.name!r}; for a problem in SI, `viscotack uncertainty` with --passport "
+            "includes it."
+        )
     in_si = isinstance(problem, Problem)
     measured = None if passport is None else passport.frequencies
-    if not (in_si or measured) or (edge := _edge_of(Question(problem))) is None:
+    if elastic or not (in_si or measured) or (edge := _edge_of(Question(problem))) is None:
         return tuple(found)
+    speed, energy = edge
     if passport is not None and measured is not None:
-        zone = REST_ZONE / groups.effective_tabor**2 * max(edge.energy, 1.0)
-        frequency = 2 * np.pi * edge.speed / zone / passport.material.time_unit
-        found.append(_outside(passport.name, frequency, measured))
-    if in_si:
-        found.append(beyond_linear(edge.speed * problem.scales().edge_speed))
-    return tuple(words for words in found if words)
+        zone = REST_ZONE / groups.effective_tabor**2 * max(energy, 1.0)
+        frequency = 2 * np.pi * speed / zone / passport.material.time_unit
+        low, high, here = (x / (2 * np.pi) for x in (*measured, frequency))
+        if not low <= here <= high:
+            found.append(
+                f"The edge excites the material at about {readable(here, 'Hz', digits=2)}; "
+                f"{passport.name!r} was measured from {readable(low, 'Hz', digits=3, to=high)}, so "
+                "the force rests on an extrapolation of its model."
+            )
+    if in_si and (words := beyond_linear(speed * problem.scales().edge_speed)):
+        found.append(words)
+    return tuple(found)
 
 
 def beyond_linear(speed: float) -> str:
@@ -103,44 +108,18 @@ def beyond_linear(speed: float) -> str:
     )
 
 
-def _edge_of(asked: Question) -> _Edge | None:
-    """Return the edge at pull-off by theory, None for contacts without any."""
+def _edge_of(asked: Question) -> tuple[float, float] | None:
+    """Return speed [beta/time unit] and energy [work of adhesion] of the edge at pull-off.
+
+    None for contacts of which no theory knows it.
+    """
     try:
         if is_classic(asked.groups) and is_plain(asked.groups):
             forms = asked.once(forms_of)
-            return None if forms.edge_speed is None else _Edge(forms.edge_speed, forms.edge_energy)
+            return None if forms.edge_speed is None else (forms.edge_speed, forms.edge_energy)
         found = crack_of(asked)
     except (InputError, OverflowError):
         return None
     if isinstance(found, InputError) or found.crack_speed_at_pull_off is None:
         return None
-    return _Edge(found.crack_speed_at_pull_off, found.amplification_at_pull_off or 1.0)
-
-
-def _one_rate(passport: Passport) -> str:
-    """Return the caution for an elastic material."""
-    return (
-        f"{passport.name!r} was tested at one rate: its dependence on speed is unknown. The force "
-        "is that of this modulus at every speed; a fast pull of a real rubber holds more."
-    )
-
-
-def _left_out(name: str) -> str:
-    """Return the caution for a material with a known uncertainty."""
-    return (
-        f"The interval leaves out the uncertainty of the measured constants of {name!r}; for a "
-        "problem in SI, `viscotack uncertainty` with --passport includes it."
-    )
-
-
-def _outside(name: str, frequency: float, measured: tuple[float, float]) -> str:
-    """Return the caution for an angular frequency [rad/s] outside of the measured ones."""
-    low, high = measured
-    if low <= frequency <= high:
-        return ""
-    low, high, here = (x / (2 * np.pi) for x in (low, high, frequency))
-    return (
-        f"The edge excites the material at about {readable(here, 'Hz', digits=2)}; {name!r} was "
-        f"measured from {readable(low, 'Hz', digits=3, to=high)}, so the force rests on an "
-        "extrapolation of its model."
-    )
+    return found.crack_speed_at_pull_off, found.amplification_at_pull_off or 1.0

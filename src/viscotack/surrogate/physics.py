@@ -25,8 +25,8 @@ from functools import cached_property
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.theory import lennard_jones
 
-from ..theory import lennard_jones
 from .contact import Contact, between, scaled_logarithms
 
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")

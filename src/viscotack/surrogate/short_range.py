@@ -26,8 +26,8 @@ import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
+from viscotack.theory import jkr, lennard_jones
 
-from ..theory import jkr, lennard_jones
 from . import physics
 from .answers import Answers
 from .contact import Contact, Further
