@@ -35,42 +35,42 @@ because it depends on the instantaneous compliance.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.surrogate import physics
-from viscotack.surrogate.answers import Answers, Intervals
 from viscotack.surrogate.model import Surrogate
 from viscotack.theory import lennard_jones
 
 # Range of the extrapolation that was compared with simulations.
 LEAST_TABOR, MOST_RATE, LEAST_RATIO = 1e-3, 1e16, 1e-6
-SLOWER = "below a rate of {:g} the force tends to its slow limit in proportion to the rate"
-# Increase of half an interval of log10 per decade of smaller Tabor number.
-_WIDER = 2.5e-2
-# The same for a modulus ratio below the range: for the slopes of force and work at the limit of
+_SLOWER = "below a rate of {:g} the force tends to its slow limit in proportion to the rate"
+# Increase of half an interval of ln(force) per decade of smaller Tabor number.
+_WIDER = 2.5e-2 * np.log(10)
+# The same of force and work for a modulus ratio below the range: for their slopes at the limit of
 # the networks, and as a fraction of the extrapolation.
-_SLOPE, _PART = np.array([1.5e-3, 4e-3]), 0.25
+_SLOPE, _PART = np.array([1.5e-3, 4e-3]) * np.log(10), 0.25
 # The same for the work below the rates of the range.
-_LAGS = 2e-3
+_LAGS = 2e-3 * np.log(10)
 # Ratio of two rates of which the forces give the slope; the same below the range, where the
 # forces differ little from each other, and the largest ratio of logarithms of work and force.
 _NEAR, _FASTER, _MOST_WORK = 1.001, 5.0, 10.0
 # Largest slope with the modulus ratio: force in proportion to 1/k.
 _STEEPEST = 1 - 1e-6
+_SIDES = np.array([[-1.0], [0.0], [1.0]])
 
 
 @dataclass(frozen=True, eq=False)
 class Beyond:
-    """Predictions beyond the training range, in the form of those inside.
+    """A prediction beyond the training range.
 
     Attributes
     ----------
-    answers : Answers
-    intervals : Intervals
+    numbers : ndarray, shape (3, 2)
+        Force and work: lower end of the interval, value, and upper end.
     with_work : bool
         Whether the work is predicted.
     why : str
@@ -79,18 +79,14 @@ class Beyond:
         Whether the surrogate is certain at the limit; false only below its rates.
     """
 
-    answers: Answers
-    intervals: Intervals
+    numbers: Array
     with_work: bool
     why: str
     certain: bool = True
 
 
-_Said = tuple[Answers, Intervals]
-
-
 def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | None:
-    """Predict one row of groups that exceeds only these three limits.
+    """Predict one row of groups that exceeds only these limits of the sphere on power laws.
 
     Returns
     -------
@@ -98,90 +94,89 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         None if the row exceeds another limit, exceeds these too far, or if the surrogate is not
         certain at the limit.
     """
-    mu, rate = groups[0, physics.TABOR], groups[0, physics.RATE]
-    low, high = learned.limits["tabor"][0], learned.limits["rate"][1]
-    k, least = groups[0, physics.MODULUS_RATIO], learned.limits["modulus_ratio"][0]
+    mu, k, rate = groups[0, [physics.TABOR, physics.MODULUS_RATIO, physics.RATE]].tolist()
+    (low, _), (least, _) = learned.limits["tabor"], learned.limits["modulus_ratio"]
+    slowest, high = learned.limits["rate"]
     at_end = groups.copy()
-    slowest = learned.limits["rate"][0]
     at_end[0, physics.TABOR] = max(mu, low)
     at_end[0, physics.RATE] = min(max(rate, slowest), high)
     at_end[0, physics.MODULUS_RATIO] = max(k, least)
     near = LEAST_TABOR <= mu and rate <= MOST_RATE and k >= LEAST_RATIO
     if not (near and learned.inside(at_end).all()) or (k < least and (mu < low or rate > high)):
         return None
-    said, held, force_doubtful, work_doubtful = _evaluated(learned, at_end, confidence)
+    numbers, (force_doubtful, work_doubtful) = _evaluated(learned, at_end, confidence)
     if force_doubtful and rate >= slowest:
         return None
-    why = []
+    why, logs = [], np.log(numbers)
     if rate < slowest:
-        said, held = _slowed(learned, at_end, (said, held), float(rate / slowest))
-        why.append(SLOWER.format(slowest))
+        logs = _slowed(learned, at_end, logs, rate / slowest)
+        why.append(_SLOWER.format(slowest))
     if rate > high:
         rows = at_end.copy()
         rows[0, physics.EXPONENT] = learned.limits["exponent"][1]
-        glassy = learned.tests(rows)
-        most = learned.evaluate(glassy)
-        ends = (said, held), (most, learned.intervals(glassy, most, confidence=confidence))
-        said, held = _between(*ends, _parts(learned, at_end, ends, float(rate / high)))
+        glassy, _ = _evaluated(learned, rows, confidence)
+        part = _part(learned, at_end, numbers[1, 0], glassy[1, 0], rate / high)
+        way = np.log(glassy) - logs
+        # the interval reaches from that at the limit to that for twice the slope
+        far = logs + min(2 * part, 1.0) * way
+        value = logs[1] + -np.expm1(-part) * way[1]
+        logs = np.stack([np.minimum(logs, far)[0], value, np.maximum(logs, far)[2]])
         why.append(
             f"above a rate of {high:g} the force lies between its value there and the fast limit"
         )
     if mu < low:
-        factor = float(lennard_jones.pull_off_ratio(mu) / lennard_jones.pull_off_ratio(low))
-        wider = _WIDER * float(np.log10(low / mu))
-        said, held = _times(said, held, (factor, 1.0), (wider, 0.0))
+        ratio = lennard_jones.pull_off_ratio(mu) / lennard_jones.pull_off_ratio(low)
+        logs[:, 0] += np.log(ratio) + _SIDES[:, 0] * _WIDER * np.log10(low / mu)
         why.append(f"below a Tabor number of {low:g} adhesion hardly changes the surface")
     if k < least:
-        ways = _with_ratio(learned, at_end, float(k / least))
-        said, held = _times(said, held, np.exp(ways), _SLOPE + _PART * np.abs(ways) / np.log(10))
+        ways = _with_ratio(learned, at_end, k / least)
+        logs = logs + ways + _SIDES * (_SLOPE + _PART * np.abs(ways))
         why.append(
             f"below a modulus ratio of {least:g} the force is extrapolated by its slope there"
         )
-    with_work, certain = mu >= low and not work_doubtful, not force_doubtful
-    return Beyond(said, held, with_work, "; ".join(why), certain)
-
-
-def _evaluated(
-    learned: Surrogate, at_end: Array, confidence: float
-) -> tuple[Answers, Intervals, bool, bool]:
-    """Return a prediction at the limit, its intervals, and whether force and work are doubtful."""
-    tests = learned.tests(at_end)
-    said = learned.evaluate(tests)
-    force_doubtful, work_doubtful = learned.doubtful(tests, said)[0].tolist()
-    held = learned.intervals(tests, said, confidence=confidence)
-    return said, held, force_doubtful, work_doubtful
+    with_work = mu >= low and not work_doubtful
+    return Beyond(np.exp(logs), with_work, "; ".join(why), not force_doubtful)
 
 
 def slower(learned: Surrogate, groups: Array, confidence: float) -> Beyond | None:
     """Predict one row of groups that exceeds only the smallest rate; None if it does not."""
     column = learned.contact.inputs.index("rate")
-    rate, slowest = groups[0, column], learned.limits["rate"][0]
+    rate, slowest = float(groups[0, column]), learned.limits["rate"][0]
     at_end = groups.copy()
     at_end[0, column] = slowest
     if not (0 < rate < slowest and learned.inside(at_end).all()):
         return None
-    said, held, force_doubtful, work_doubtful = _evaluated(learned, at_end, confidence)
-    said, held = _slowed(learned, at_end, (said, held), float(rate / slowest))
-    why = SLOWER.format(slowest)
-    return Beyond(said, held, not work_doubtful, why, not force_doubtful)
+    numbers, (force_doubtful, work_doubtful) = _evaluated(learned, at_end, confidence)
+    logs = _slowed(learned, at_end, np.log(numbers), rate / slowest)
+    return Beyond(np.exp(logs), not work_doubtful, _SLOWER.format(slowest), not force_doubtful)
 
 
-def _slowed(learned: Surrogate, at_end: Array, ends: _Said, ratio: float) -> _Said:
+def _evaluated(
+    learned: Surrogate, rows: Array, confidence: float
+) -> tuple[Array, npt.NDArray[np.bool_]]:
+    """Return the numbers of :class:`Beyond`, and whether force and work are doubtful."""
+    tests = learned.tests(rows)
+    said = learned.evaluate(tests)
+    held = learned.intervals(tests, said, confidence=confidence)
+    values = [said.pull_off_force[0], said.work_to_pull_off[0]]
+    low, high = np.transpose([held.pull_off_force[0], held.work_to_pull_off[0]])
+    return np.array([low, values, high]), learned.doubtful(tests, said)[0]
+
+
+def _slowed(learned: Surrogate, at_end: Array, logs: Array, ratio: float) -> Array:
     """Extrapolate a prediction at the smallest rate to one smaller by a factor."""
-    (said, held), tests, faster = ends, learned.tests(at_end), at_end.copy()
+    tests, faster = learned.tests(at_end), at_end.copy()
     faster[0, learned.contact.inputs.index("rate")] *= _FASTER
     more = learned.evaluate(faster)
-    excess = 1 - 10 ** float(np.mean(tests.slow)) / float(said.pull_off_force[0])
+    excess = 1 - np.exp(np.log(10) * np.mean(tests.slow) - logs[1, 0])
     force = np.log1p(-excess * (1 - ratio))
-    rise = np.log(more.pull_off_force[0] / said.pull_off_force[0])
-    of_work = np.log(more.work_to_pull_off[0] / said.work_to_pull_off[0])
+    rise, of_work = np.log([more.pull_off_force[0], more.work_to_pull_off[0]]) - logs[1]
     work = force * np.clip(of_work / max(rise, 1e-9), 0.0, _MOST_WORK)
-    wider = (0.0, _LAGS + _PART * abs(work) / np.log(10))
-    said, held = _times(said, held, np.exp([force, work]), wider)
+    logs = logs + [force, work] + _SIDES * [0.0, _LAGS + _PART * abs(work)]
     if tests.least is not None:
-        least = 10 ** tests.least[:, None]
-        held = replace(held, pull_off_force=np.maximum(held.pull_off_force, least))
-    return said, held
+        ends = np.maximum(logs[[0, 2], 0], np.log(10) * tests.least)
+        logs[[0, 2], 0] = ends
+    return logs
 
 
 def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:
@@ -192,66 +187,11 @@ def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:
     return np.array([way, way * min(work / steep, 1.0) if work > 0 else work * (1 - ratio)])
 
 
-def _parts(
-    learned: Surrogate, at_end: Array, ends: tuple[_Said, _Said], ratio: float
-) -> tuple[float, float]:
-    """Return the part of the way to the fast limit for a rate larger by a factor, and its most."""
-    slower = at_end.copy()
-    slower[0, physics.RATE] /= _NEAR
-    forces = [
-        float(said.pull_off_force[0]) for said in (learned.evaluate(slower), ends[0][0], ends[1][0])
-    ]
+def _part(learned: Surrogate, at_end: Array, force: float, fast: float, ratio: float) -> float:
+    """Return what the slope of ln(force) adds up to beyond the largest rate, over the way to go."""
+    before = at_end.copy()
+    before[0, physics.RATE] /= _NEAR
     # one difference: the derivatives by all inputs take twenty evaluations
-    steep = max(np.log(forces[1] / forces[0]) / np.log(_NEAR), 0.0) * np.log(ratio)
-    way = np.log(forces[2] / forces[1])
+    rise = float(np.log(force / learned.evaluate(before).pull_off_force[0]))
     # hardly any way is left where the force is at its fast limit
-    passed = float(steep / max(way, 1e-9))
-    return -float(np.expm1(-passed)), min(2 * passed, 1.0)
-
-
-def _between(one: _Said, other: _Said, parts: tuple[float, float]) -> _Said:
-    """Return a prediction at a part of the logarithmic way from one to another.
-
-    Its interval contains those of the first and at the larger part.
-    """
-    (a, held_a), (b, held_b), (part, most) = one, other, parts
-
-    def along(x: Array, y: Array, share: float) -> Array:
-        return x ** (1 - share) * y**share
-
-    def hull(x: Array, y: Array) -> Array:
-        far = along(x, y, most)
-        return np.column_stack([np.minimum(x, far)[:, 0], np.maximum(x, far)[:, 1]])
-
-    return (
-        replace(
-            a,
-            pull_off_force=along(a.pull_off_force, b.pull_off_force, part),
-            work_to_pull_off=along(a.work_to_pull_off, b.work_to_pull_off, part),
-        ),
-        replace(
-            held_a,
-            pull_off_force=hull(held_a.pull_off_force, held_b.pull_off_force),
-            work_to_pull_off=hull(held_a.work_to_pull_off, held_b.work_to_pull_off),
-        ),
-    )
-
-
-def _times(
-    said: Answers, held: Intervals, factors: npt.ArrayLike, wider: npt.ArrayLike
-) -> tuple[Answers, Intervals]:
-    """Scale force and work, and widen their intervals by amounts in log10."""
-    (force, work), (of_force, of_work) = np.asarray(factors), np.asarray(wider)
-    side = np.array([-1.0, 1.0])
-    return (
-        replace(
-            said,
-            pull_off_force=said.pull_off_force * force,
-            work_to_pull_off=said.work_to_pull_off * work,
-        ),
-        replace(
-            held,
-            pull_off_force=held.pull_off_force * force * 10 ** (of_force * side),
-            work_to_pull_off=held.work_to_pull_off * work * 10 ** (of_work * side),
-        ),
-    )
+    return max(rise / np.log(_NEAR), 0.0) * np.log(ratio) / max(np.log(fast / force), 1e-9)

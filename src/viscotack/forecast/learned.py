@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,6 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.protocol import AtDepth, AtForce, AtRadius
-from viscotack.surrogate.answers import Answers, Intervals
 from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
 
@@ -86,7 +85,9 @@ def within(
     held = learned.intervals(tests, answers, confidence=asked.confidence, joint=asked.joint)
     by = {AtDepth: "depth", AtForce: "force", AtRadius: "contact_radius"}[type(start)]
     held = learned.with_start_doubt(tests, answers, held, by=by, confidence=asked.confidence)
-    found = replace(_prediction(asked, answers, held, method, why), joint=asked.joint)
+    (low, high), (least, most) = held.pull_off_force[0], held.work_to_pull_off[0]
+    force, work = (low, answers.pull_off_force[0], high), (least, answers.work_to_pull_off[0], most)
+    found = replace(_prediction(asked, force, work, method, why), joint=asked.joint)
     if work_doubtful:
         why += (
             f"; no work and no curve: the networks predict a work of "
@@ -113,20 +114,23 @@ def further_prediction(
     if not further.certain:
         raise Uncertain(f"{out}; the networks of the {method} are not certain at that limit")
     why = f"{out}; {further.why}"
-    found = _prediction(asked, further.answers, further.intervals, method, why)
+    force, work = further.numbers.T.tolist()
+    found = _prediction(asked, force, work, method, why)
     work = {} if further.with_work else {"work_to_pull_off": None, "work_interval": None}
     return replace(found, inside=False, **work)
 
 
 def _prediction(
-    asked: Question, answers: Answers, held: Intervals, method: str, why: str
+    asked: Question, force: Sequence[float], work: Sequence[float], method: str, why: str
 ) -> Prediction:
-    (force,), (work,) = held.pull_off_force.tolist(), held.work_to_pull_off.tolist()
+    """Return a prediction from force and work, each with the ends of its interval around it."""
+    low, value, high = map(float, force)
+    least, middle, most = map(float, work)
     return Prediction(
-        pull_off_force=float(answers.pull_off_force[0]),
-        interval=tuple(force),
-        work_to_pull_off=float(answers.work_to_pull_off[0]),
-        work_interval=tuple(work),
+        pull_off_force=value,
+        interval=(low, high),
+        work_to_pull_off=middle,
+        work_interval=(least, most),
         confidence=asked.confidence,
         band=MEASURED,
         method=method,
