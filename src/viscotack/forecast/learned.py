@@ -96,7 +96,7 @@ def within(
             "height"
         )
         return replace(found, work_to_pull_off=None, work_interval=None, joint=False, why=why)
-    return with_curve(found, learned.curves(tests, answers), held)
+    return with_curve(found, learned.curves(tests, answers), held.curve[0], held.travel[0])
 
 
 def further_prediction(

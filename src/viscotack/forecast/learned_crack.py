@@ -10,7 +10,6 @@ from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.methods.crack_band import curve_bands, not_measured
 from viscotack.surrogate import physics, short_range, store
-from viscotack.surrogate.answers import Intervals
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.theory.elastic.relaxed import contact_in_groups
 
@@ -51,9 +50,9 @@ def by_learned_crack(asked: Question) -> Prediction:
     factors = _at_seam(groups.tabor, given)
     force, work = said.pull_off_force * factors[0], said.work_to_pull_off * factors[1]
     said = replace(said, pull_off_force=force, work_to_pull_off=work)
-    ends = np.outer([force[0], work[0], 1.0], [1.0, 1.0])
-    ends *= 1 + bands[[0, 1, 3], None] * [-1, 1]
-    ends[0, 0] = max(ends[0, 0], min(force[0], float(pull_off_ratio(groups.tabor))))
+    # factors of the ends of the intervals of force, work, curve and travel
+    low, high = 1 - bands, 1 + bands
+    least = max(force[0] * low[0], min(force[0], float(pull_off_ratio(groups.tabor))))
 
     why = (
         f"surrogate of the theory 'crack contact', within {error[0]:.2%} of it: effective Tabor "
@@ -65,13 +64,12 @@ def by_learned_crack(asked: Question) -> Prediction:
             f"; times {factors[0]:.4g}, with which it meets the simulations at a Tabor number of 10"
         )
     found = of_theory(asked, float(force[0]), float(bands[0]), LEARNED_CRACK, why, inside=True)
-    found = replace(found, interval=(float(ends[0, 0]), float(ends[0, 1])))
+    found = replace(found, interval=(float(least), found.interval[1]))
     if np.isnan(work[0]) or not tests.agree(said)[0]:
         return replace(found, why=f"{why}; no work and no curve: its networks are not certain")
-    between = float(ends[1, 0]), float(ends[1, 1])
+    between = float(work[0] * low[1]), float(work[0] * high[1])
     found = replace(found, work_to_pull_off=float(work[0]), work_interval=between)
-    held = Intervals(ends[:1], ends[1:2], bands[2:3], ends[2:])
-    return with_curve(found, tests.curves(said), held)
+    return with_curve(found, tests.curves(said), bands[2], np.array([low[3], high[3]]))
 
 
 def _at_seam(tabor: float, rows: Array) -> Array:

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscotack.arrays import Array
 from viscotack.problem import Case
 from viscotack.problem.record import run_id, to_dict
 from viscotack.result.trajectory import PRESSED
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.answers import Intervals
     from viscotack.surrogate.line import Curves
 
     from .question import Question
@@ -122,16 +122,26 @@ class Prediction:
         return replace(self, why=f"{why}; {self.why}")
 
 
-def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction:
-    """Add the first of several curves to a prediction, with its intervals."""
+def with_curve(found: Prediction, curves: Curves, band: float, travel: Array) -> Prediction:
+    """Add the first of several curves to a prediction, with its intervals.
+
+    Parameters
+    ----------
+    found : Prediction
+    curves : Curves
+    band : float
+        Largest error of tensile forces over the pull-off force.
+    travel : ndarray, shape (2,)
+        Interval of the travel from a compressed start to zero force, relative to that of the curve.
+    """
     depth = curves.depth[0]
     found = replace(
         found,
         curve=type(curves)(depth, curves.force[0], curves.contact_radius[0]),
-        curve_band=float(held.curve[0] * found.pull_off_force),
+        curve_band=float(band * found.pull_off_force),
     )
     if curves.force[0, 0] > 0:
-        least, most = depth[0] - held.travel[0, ::-1] * (depth[0] - depth[PRESSED])
+        least, most = depth[0] - travel[::-1] * (depth[0] - depth[PRESSED])
         found = replace(
             found,
             zero_force_depth=float(depth[PRESSED]),

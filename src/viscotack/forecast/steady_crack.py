@@ -13,7 +13,6 @@ from viscotack.methods.crack_band import FURTHER, not_measured
 from viscotack.problem import Groups
 from viscotack.problem.ranges import at_least
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
-from viscotack.surrogate.answers import Intervals
 from viscotack.surrogate.line import Curves
 from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated
 
@@ -81,7 +80,6 @@ def by_crack_contact(asked: Question) -> Prediction:
     _, of_work, of_curve, of_travel = found.band + FURTHER
     left, force, radius = unloading(found)[0][:, None]
     curves = Curves(found.depth_at_pull_off + left, force, radius)
-    one = np.ones((1, 2)) + np.array([-1, 1]) * of_travel
-    held = Intervals(one, one, np.array([of_curve]), one)
     interval = (float(work * (1 - of_work)), float(work * (1 + of_work)))
-    return with_curve(replace(plain, work_interval=interval), curves, held)
+    travel = np.array([1 - of_travel, 1 + of_travel])
+    return with_curve(replace(plain, work_interval=interval), curves, of_curve, travel)
