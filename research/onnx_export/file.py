@@ -1,6 +1,6 @@
 """Export a surrogate as one ONNX file, for MATLAB, C++ and controllers.
 
-The file computes everything that :class:`viscotack.surrogate.model.Surrogate` does, in double
+The file computes everything that a surrogate does, in double
 precision: limits, networks, curves and intervals. It accepts rows outside the ranges; the output
 ``inside`` marks them.
 """
@@ -67,7 +67,7 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     surrogate : Surrogate
-        Surrogate to export; ``viscotack.surrogate.store.shipped()`` is the one of the package.
+        Surrogate to export; ``store.shipped()`` is the one of the package.
     path : path
         Output file; an existing file is replaced.
 

@@ -60,7 +60,7 @@ def predict(
         Whether to simulate regardless of the time: the result of :func:`viscotack.solve`.
     model : Surrogate, optional
         A surrogate to use alone in place of the tiers, such as one moved to the measured forces of
-        a lab by :func:`viscotack.surrogate.moving.moved`; the coverage of its intervals was not
+        a lab by :func:`.surrogate.moving.moved`; the coverage of its intervals was not
         measured then.
     passport : Passport, optional
         Passport of the material at the temperature of the problem, for
@@ -86,10 +86,10 @@ def predict(
     The surrogates of spheres cover the retraction at constant speed from a relaxed solid, with
     the Lennard-Jones traction and a rigid machine. They were trained on
     :class:`viscotack.RetardationPowerLaw`. Any other linear solid is replaced by the power law with
-    the same creep around the times of the test (:mod:`viscotack.surrogate.alike`), with intervals
+    the same creep around the times of the test (:mod:`.surrogate.alike`), with intervals
     measured on other solids. The surrogate of flat punches covers the same test on a layer of a
-    standard solid that slides on its base (:mod:`viscotack.surrogate.punch_physics`).
-    :mod:`viscotack.forecast.tiers` lists the other tiers and their verified ranges.
+    standard solid that slides on its base (:mod:`.surrogate.punch_physics`).
+    :mod:`.tiers` lists the other tiers and their verified ranges.
 
     Examples
     --------

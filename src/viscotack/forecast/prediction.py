@@ -111,7 +111,7 @@ class Prediction:
 
     @cached_property
     def cautions(self) -> tuple[str, ...]:
-        """Sentences of :func:`~viscotack.forecast.cautions_on`, if :func:`viscotack.predict` asked.
+        """Sentences of :func:`.cautions_on`, if :func:`viscotack.predict` asked.
 
         They are found on first use: theories take up to a second for a new solid.
         """

@@ -1,7 +1,7 @@
 r"""Surrogate for any linear solid: an equivalent power law and first-order corrections.
 
 Force, work and curve are those of the surrogate of power laws (:mod:`.physics`) for the equivalent
-power law (:mod:`viscotack.surrogate.alike`), corrected for the residuals of its creep. The weights
+power law (:mod:`.alike`), corrected for the residuals of its creep. The weights
 of the samples of the creep are a bell curve with two widths,
 
 .. math:: w_i = e^{-(x_i - c)^2/2 b_\pm^2} + w_0, \qquad x_i = \log_{10}(t_i v/h_0) .
