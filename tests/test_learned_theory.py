@@ -7,9 +7,9 @@ import pytest
 
 import viscotack as vt
 from viscotack.campaign.columns import KINDS
-from viscotack.forecast.tiers import AT_ONCE
-from viscotack.surrogate import short_range, store
-from viscotack.surrogate.physics import INPUTS
+from viscotack.prediction.surrogate import short_range, store
+from viscotack.prediction.surrogate.physics import INPUTS
+from viscotack.prediction.tiers import AT_ONCE
 from viscotack.theory import lennard_jones
 
 CASE = {

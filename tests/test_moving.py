@@ -8,9 +8,9 @@ import pytest
 
 from viscotack import OutOfRange, predict, predict_table
 from viscotack.campaign.columns import KINDS
-from viscotack.surrogate import physics, store
-from viscotack.surrogate.moving import moved
-from viscotack.surrogate.store import shipped
+from viscotack.prediction.surrogate import physics, store
+from viscotack.prediction.surrogate.moving import moved
+from viscotack.prediction.surrogate.store import shipped
 
 SOLID = [1.0, 0.05, 0.6]
 

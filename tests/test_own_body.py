@@ -10,8 +10,8 @@ import viscotack as vt
 from front_ends import Http, Question, by_command, by_form, by_http, by_python, by_study
 from tier_problems import PROBLEMS, refusal
 from viscotack.files.toml import read_toml
-from viscotack.forecast.simulation import SIMULATION
-from viscotack.forecast.tiers import TIERS
+from viscotack.prediction.simulation import SIMULATION
+from viscotack.prediction.tiers import TIERS
 from viscotack.problem.nouns import own_nouns
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"

@@ -15,8 +15,8 @@ from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of
 from viscotack.files.toml import read_toml, toml_value
-from viscotack.forecast.simulation import SIMULATION
-from viscotack.forecast.tiers import TIERS
+from viscotack.prediction.simulation import SIMULATION
+from viscotack.prediction.tiers import TIERS
 from viscotack.theory import jkr
 from viscotack.theory.elastic import indenter
 from viscotack.traction import LennardJones

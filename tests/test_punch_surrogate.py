@@ -8,9 +8,9 @@ from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
 from punches import resized
-from viscotack.forecast.tiers import AT_ONCE, SOON
-from viscotack.surrogate import punch_physics as physics
-from viscotack.surrogate import store
+from viscotack.prediction.surrogate import punch_physics as physics
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.tiers import AT_ONCE, SOON
 
 SOLID = {"rubbery_modulus": 1.5e6, "glassy_modulus": 15e6, "poisson_ratio": 0.5}
 # A pad of SI units, in the middle of the range.

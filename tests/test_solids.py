@@ -7,9 +7,9 @@ import pytest
 
 import viscotack as vt
 from viscotack.campaign.random_solids import STRETCHED, creep_spectrum, random_solid
-from viscotack.forecast.tiers import AT_ONCE
 from viscotack.materials.conversion import slowed
-from viscotack.surrogate import alike, linear_solids, physics, store
+from viscotack.prediction.surrogate import alike, linear_solids, physics, store
+from viscotack.prediction.tiers import AT_ONCE
 from viscotack.theory import lennard_jones
 
 UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}

@@ -7,8 +7,8 @@ import pytest
 
 import viscotack as vt
 from tier_problems import PROBLEMS, refusal
-from viscotack.forecast.question import Question
-from viscotack.forecast.tiers import AT_ONCE, EXACT, LEARNED, SOON, THEORIES, TIERS, best
+from viscotack.prediction.question import Question
+from viscotack.prediction.tiers import AT_ONCE, EXACT, LEARNED, SOON, THEORIES, TIERS, best
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 
 UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from viscotack.surrogate.store import shipped
+from viscotack.prediction.surrogate.store import shipped
 
 from .file import export
 

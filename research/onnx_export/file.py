@@ -13,10 +13,10 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.physics import SphereContact
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.physics import SphereContact
 from viscotack.version import __version__
 
 from .graph import IR_VERSION, OPSET, Graph

@@ -7,9 +7,9 @@ pytest.importorskip("onnx", reason="pip install onnx")
 runtime = pytest.importorskip("onnxruntime", reason="pip install onnxruntime")
 
 from research.onnx_export import export  # noqa: E402
-from viscotack.surrogate import physics  # noqa: E402
-from viscotack.surrogate.moving import moved  # noqa: E402
-from viscotack.surrogate.store import shipped  # noqa: E402
+from viscotack.prediction.surrogate import physics  # noqa: E402
+from viscotack.prediction.surrogate.moving import moved  # noqa: E402
+from viscotack.prediction.surrogate.store import shipped  # noqa: E402
 
 LOW, HIGH = np.array(list(physics.LIMITS.values())).T
 # Measured: 1e-13 at worst, of curves beyond the ranges.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.surrogate.network import Networks
+from viscotack.prediction.surrogate.network import Networks
 
 
 def together(networks: list[Networks]) -> Networks:

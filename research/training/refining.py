@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.surrogate.network import Networks
+from viscotack.prediction.surrogate.network import Networks
 
 from .fitting import Fit, Task
 from .joining import added, together

@@ -26,10 +26,10 @@ import numpy as np
 
 from viscotack import datasets
 from viscotack.arrays import Array
-from viscotack.surrogate import store
-from viscotack.surrogate.contact import SECOND_WAY
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.surrogate.contact import SECOND_WAY
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.network import Networks
 from viscotack.version import __version__
 
 from . import fresh_cases

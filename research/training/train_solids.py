@@ -19,12 +19,12 @@ from viscotack import datasets
 from viscotack.arrays import Array
 from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
-from viscotack.surrogate import linear_solids, store
-from viscotack.surrogate.alike import TIMES, Alike
-from viscotack.surrogate.contact import between
-from viscotack.surrogate.linear_solids import SAMPLES, SolidContact
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks
+from viscotack.prediction.surrogate import linear_solids, store
+from viscotack.prediction.surrogate.alike import TIMES, Alike
+from viscotack.prediction.surrogate.contact import between
+from viscotack.prediction.surrogate.linear_solids import SAMPLES, SolidContact
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.network import Networks
 
 from . import calibration, likeness
 from .calibration import Apart, trusted, worth

@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.surrogate import physics
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.physics import SphereContact
+from viscotack.prediction.surrogate import physics
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.physics import SphereContact
 
 from . import drawing, rows
 from .fitting import Fit, Task

@@ -17,7 +17,7 @@ from .declare.statement import Stated, Statement
 from .simulate import HowLong
 
 if TYPE_CHECKING:
-    from viscotack.forecast import Advice, Prediction
+    from viscotack.prediction import Advice, Prediction
     from viscotack.problem import Case
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
@@ -136,9 +136,9 @@ class Predict(Operation):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import predict
-        from viscotack.forecast.prediction import prediction_summary
-        from viscotack.forecast.tiers import SOON
+        from viscotack.prediction import predict
+        from viscotack.prediction.prediction import prediction_summary
+        from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome
 
         assert self.problem is not None
@@ -198,7 +198,7 @@ class Predict(Operation):
                     f"choose one output for the answers to {self.cases}: --csv or --xlsx"
                 )
             return predict_file(self.cases, self.confidence, caller.tell)
-        from viscotack.forecast.tiers import SOON
+        from viscotack.prediction.tiers import SOON
 
         from .parts.predict_changes import predict_changes
 
@@ -237,8 +237,8 @@ class Advise(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
-        from viscotack.forecast.advice import advise
-        from viscotack.forecast.cautions import cautions_on
+        from viscotack.prediction.advice import advise
+        from viscotack.prediction.cautions import cautions_on
 
         problem = self.problem.problem
         if problem.groups().in_plane_strain:
@@ -305,7 +305,7 @@ def _comparison(found: "Prediction", result: "Result") -> dict[str, Any]:
 
     `difference` is prediction over simulation, less 1.
     """
-    from viscotack.forecast.prediction import prediction_summary
+    from viscotack.prediction.prediction import prediction_summary
     from viscotack.result.observables import summary
 
     simulated = summary(result)

@@ -16,7 +16,7 @@ from .forecast import fitted
 from .parts.solid import passport_of, published
 
 if TYPE_CHECKING:
-    from viscotack.forecast.uncertainty import Uncertainty
+    from viscotack.prediction.uncertainty import Uncertainty
 
 
 def deviation_of(text: str) -> tuple[str, float]:
@@ -124,8 +124,8 @@ class OfUncertainty(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Predict the drawn problems, telling ``share``."""
-        from viscotack.forecast.uncertainty import uncertainty
         from viscotack.pictures.uncertainty import draw_uncertainty
+        from viscotack.prediction.uncertainty import uncertainty
 
         from .parts.tables import rows_as_csv
 

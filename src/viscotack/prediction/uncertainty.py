@@ -30,7 +30,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.materials.conversion import slowed
 from viscotack.problem import Case
 
-from .answer import predict
+from .predict import predict
 from .prediction import Prediction
 from .tiers import SOON
 

@@ -10,7 +10,7 @@ from viscotack.problem import Case, Groups, Problem
 from viscotack.protocol import Start
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.model import Surrogate
+    from viscotack.prediction.surrogate.model import Surrogate
 
 _T = TypeVar("_T")
 

@@ -20,7 +20,7 @@ from viscotack.result.trajectory import PRESSED
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.line import Curves
+    from viscotack.prediction.surrogate.line import Curves
 
     from .question import Question
 

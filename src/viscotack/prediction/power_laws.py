@@ -7,8 +7,8 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
+from viscotack.prediction.surrogate import physics, store
 from viscotack.protocol import AtDepth, AtForce, AtRadius
-from viscotack.surrogate import physics, store
 from viscotack.traction import LennardJones
 
 from .beyond import beyond

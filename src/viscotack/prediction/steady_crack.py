@@ -10,10 +10,10 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.methods.by_crack import LEAST_TABOR, CrackContact, crack_contact, unloading
 from viscotack.methods.crack_band import FURTHER, not_measured
+from viscotack.prediction.surrogate.line import Curves
 from viscotack.problem import Groups
 from viscotack.problem.ranges import at_least
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
-from viscotack.surrogate.line import Curves
 from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated
 
 from .prediction import Prediction, of_theory, with_curve

@@ -1,11 +1,11 @@
 """Predictions and their validity: surrogates, theories and the simulation, and their choice."""
 
 from .advice import Advice, advise
-from .answer import predict
 from .cautions import cautions_on
 from .closed_forms import Estimate
+from .predict import predict
 from .prediction import Prediction, prediction_summary
-from .prediction_table import predict_table
+from .table import predict_table
 
 __all__ = [
     "Advice",

@@ -11,8 +11,8 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.materials.conversion import slowed
+from viscotack.prediction.surrogate.trust import check_confidence
 from viscotack.problem import Case
-from viscotack.surrogate.trust import check_confidence
 
 from .cautions import cautions_on
 from .prediction import Prediction, depth_between
@@ -21,7 +21,7 @@ from .tiers import EXACT, SOON, best, by_model
 
 if TYPE_CHECKING:
     from viscotack.materials.passport import Passport
-    from viscotack.surrogate.model import Surrogate
+    from viscotack.prediction.surrogate.model import Surrogate
 
 
 def predict(

@@ -117,7 +117,7 @@ def moved(surrogate: Surrogate, columns: Mapping[str, npt.ArrayLike], *, error: 
 
     Examples
     --------
-    >>> from viscotack.surrogate.store import shipped
+    >>> from viscotack.prediction.surrogate.store import shipped
     >>> held = {"tabor": [1.0] * 3, "modulus_ratio": [0.1] * 3, "exponent": [0.6] * 3}
     >>> points = held | {"preload": [10.0] * 3, "rate": [1.0, 1e2, 1e4]}
     >>> learned = shipped().evaluate(np.column_stack(list(points.values()))).pull_off_force

@@ -10,13 +10,13 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.surrogate import store
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.trust import check_confidence
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.trust import check_confidence
 
-from .answer import predict
 from .learned import not_certain
 from .power_laws import SURROGATE
+from .predict import predict
 from .prediction import MEASURED, NOT_MEASURED
 from .punches import LEARNED_PUNCH
 

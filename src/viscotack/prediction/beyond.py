@@ -41,8 +41,8 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.surrogate import physics
-from viscotack.surrogate.model import Surrogate
+from viscotack.prediction.surrogate import physics
+from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.theory import lennard_jones
 
 # Range of the extrapolation that was compared with simulations.

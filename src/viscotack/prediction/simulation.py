@@ -7,9 +7,9 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.methods.crack_band import not_measured
+from viscotack.prediction.surrogate.line import Curves
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
-from viscotack.surrogate.line import Curves
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
 from .question import Question

@@ -8,8 +8,8 @@ import numpy as np
 
 from viscotack.errors import OutOfRange
 from viscotack.materials import RetardationPowerLaw
+from viscotack.prediction.surrogate import alike, linear_solids, physics, store
 from viscotack.problem import Groups
-from viscotack.surrogate import alike, linear_solids, physics, store
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 
 from . import power_laws

@@ -8,11 +8,11 @@ from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.geometry import FlatPunch, Frictionless, numbers
 from viscotack.materials import Prony, StandardSolid
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.punch_physics import INPUTS, PRELOAD
 from viscotack.problem import Groups, PunchScales
 from viscotack.protocol import AtDepth, AtForce
-from viscotack.surrogate import store
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.punch_physics import INPUTS, PRELOAD
 from viscotack.traction import LennardJones
 
 from .beyond import slower

@@ -1,6 +1,6 @@
 """Surrogate of a contact: physical baseline, learned correction, intervals and their range.
 
-It needs NumPy only. :mod:`viscotack.surrogate.contact` defines the physical baseline.
+It needs NumPy only. :mod:`viscotack.prediction.surrogate.contact` defines the physical baseline.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Surrogate:
 
         Examples
         --------
-        >>> from viscotack.surrogate.store import shipped
+        >>> from viscotack.prediction.surrogate.store import shipped
         >>> low, high = shipped("punch").limits_of([64.85, 3.24, 0.1, 1.0, 1.0])["preload"]
         >>> f"{low:.2g} to {high:.2g} h0"
         '0.0074 to 49 h0'
@@ -209,7 +209,7 @@ class Surrogate:
 
         Examples
         --------
-        >>> from viscotack.surrogate.store import shipped
+        >>> from viscotack.prediction.surrogate.store import shipped
         >>> force, _ = shipped().slopes([[3.24, 0.1, 0.8, 73.0, 316.23]])
         >>> bool(0 < force[0, 4] < 0.5)
         True
