@@ -17,8 +17,8 @@ from research.training.fresh_cases import Case, add_draw, counts_of, drawn, labe
 from research.training.scores import curve_error
 from viscotack import OutOfRange, predict
 from viscotack.arrays import Array
-from viscotack.forecast.prediction import Prediction
-from viscotack.forecast.tiers import AT_ONCE
+from viscotack.prediction.prediction import Prediction
+from viscotack.prediction.tiers import AT_ONCE
 
 # Quantities whose intervals are judged, and an error that must not be silent.
 OF, SILENT = ("force", "work", "curve"), 0.1

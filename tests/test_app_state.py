@@ -6,9 +6,9 @@ import pytest
 
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.state import State, state_of_query, state_of_toml
-from viscotack.forecast import advise, predict
-from viscotack.forecast.closed_forms import closed_forms
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.prediction import advise, predict
+from viscotack.prediction.closed_forms import closed_forms
 from viscotack.problem.case_file import read_case
 from viscotack.theory import lennard_jones
 

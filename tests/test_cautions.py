@@ -9,11 +9,11 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.forecast import cautions_on
 from viscotack.materials.library import published
 from viscotack.materials.passport import Evidence, Passport
 from viscotack.materials.passport_file import write_passport
 from viscotack.materials.shift import Arrhenius
+from viscotack.prediction import cautions_on
 from viscotack.theory import SteadyCrack
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=10e6, tau0=0.01, poisson_ratio=0.5)

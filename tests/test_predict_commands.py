@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.forecast import cautions_on
+from viscotack.prediction import cautions_on
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 RATE = ["--rate", "316.23"]

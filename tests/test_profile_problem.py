@@ -10,10 +10,10 @@ import pytest
 from typer.testing import CliRunner
 
 from viscotack.app.cli import application
-from viscotack.forecast.advice import advise
 from viscotack.geometry import Cone, Disc, HalfSpace, Layer, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
+from viscotack.prediction.advice import advise
 from viscotack.problem import Groups, Problem, revolution
 from viscotack.protocol import (
     Apart,

@@ -8,9 +8,9 @@ from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
 from punches import resized
-from viscotack.forecast.tiers import AT_ONCE, SOON
-from viscotack.surrogate import punch_physics as physics
-from viscotack.surrogate import store
+from viscotack.prediction.surrogate import punch_physics as physics
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.tiers import AT_ONCE, SOON
 
 SOLID = {"rubbery_modulus": 1.5e6, "glassy_modulus": 15e6, "poisson_ratio": 0.5}
 # A pad of SI units, in the middle of the range.
@@ -75,18 +75,6 @@ def test_the_curve_ends_at_the_stress_and_its_area_is_the_work():
     # sigma0 h0 in dg0; by another rule of integration
     off = np.abs(np.array(areas) * physics.STRENGTH / said.work_to_pull_off - 1)
     assert np.median(off) < 5e-4
-
-
-def test_derivatives_are_those_of_differences():
-    surrogate, rows, step = shipped(), random_rows(200, seed=9), 1e-5
-    force, work = surrogate.slopes(rows)
-    for i in range(5):
-        up, down = (
-            surrogate.evaluate(rows * np.exp(sign * step * (np.arange(5) == i))) for sign in (1, -1)
-        )
-        for slope, name in ((force, "pull_off_force"), (work, "work_to_pull_off")):
-            wanted = np.log(getattr(up, name) / getattr(down, name)) / (2 * step)
-            assert slope[:, i] == pytest.approx(wanted, abs=1e-7)
 
 
 def test_a_slower_solid_that_is_pulled_slower_has_the_same_answer():
@@ -262,6 +250,3 @@ def test_rows_of_a_table_are_those_of_single_predictions():
         assert "rate must be positive" in found["why"][3]
     no_cohesion = table | {"cohesion": np.zeros(5), "preload": np.ones(5), "rate": rates}
     assert not vt.predict_table(no_cohesion)["inside"].any()
-
-
-# the file

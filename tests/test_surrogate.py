@@ -9,13 +9,13 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack import solve
 from viscotack.campaign.columns import KINDS
+from viscotack.prediction.surrogate import physics, store
+from viscotack.prediction.surrogate.network import Networks
+from viscotack.prediction.surrogate.physics import INPUTS
+from viscotack.prediction.surrogate.store import shipped
+from viscotack.prediction.surrogate.trust import CONFIDENCES, OF, Trust
+from viscotack.prediction.surrogate.trust import INPUTS as TOLD
 from viscotack.result.observables import pull_off_force, work_to_pull_off
-from viscotack.surrogate import physics, store
-from viscotack.surrogate.network import Networks
-from viscotack.surrogate.physics import INPUTS
-from viscotack.surrogate.store import shipped
-from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
-from viscotack.surrogate.trust import INPUTS as TOLD
 from viscotack.theory import lennard_jones
 
 LOW, HIGH = physics.LOW, physics.HIGH

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import viscotack as vt
 from viscotack.app.cli import application
 from viscotack.errors import InputError
-from viscotack.forecast.uncertainty import TIER
+from viscotack.prediction.uncertainty import TIER
 
 LENS = Path(__file__).parents[1] / "examples" / "from_toml" / "lens.toml"
 CASE = vt.read_case(LENS)

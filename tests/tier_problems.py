@@ -2,6 +2,16 @@
 
 import viscotack as vt
 
+
+def refusal(tier, case):
+    """Return why a tier does not answer a problem, or an empty string."""
+    try:
+        tier.answer(case)
+    except vt.OutOfRange as reason:
+        return str(reason)
+    return ""
+
+
 _SOLID = dict(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SOLIDS = vt.StandardSolid(**_SOLID), vt.RetardationPowerLaw(**_SOLID, exponent=0.6)
 _SOFT = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)

@@ -9,11 +9,11 @@ from research.training import fresh_cases
 from research.training.calibration import Apart, levelled, untested
 from research.training.fresh_cases import DESIGNS, TWO_PEAKS, counts_of, drawn, labelled
 from research.training.scores import curve_error
+from viscotack.prediction.surrogate import physics
+from viscotack.prediction.surrogate.line import Curves
+from viscotack.prediction.surrogate.network import Networks
+from viscotack.prediction.surrogate.trust import CONFIDENCES, INPUTS, OF
 from viscotack.result.trajectory import POINTS
-from viscotack.surrogate import physics
-from viscotack.surrogate.line import Curves
-from viscotack.surrogate.network import Networks
-from viscotack.surrogate.trust import CONFIDENCES, INPUTS, OF
 
 
 def test_a_larger_draw_of_a_seed_contains_the_smaller_one():

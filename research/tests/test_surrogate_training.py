@@ -9,13 +9,13 @@ pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from research.training import train_punch as punches  # noqa: E402
 from research.training.fitting import Fit, Task, fit  # noqa: E402
+from research.training.joining import added  # noqa: E402
 from research.training.rows import read  # noqa: E402
 from research.training.train_punch import parts  # noqa: E402
+from viscotack.prediction.surrogate import contact, line, physics, store  # noqa: E402
+from viscotack.prediction.surrogate.store import shipped  # noqa: E402
+from viscotack.prediction.surrogate.trust import CONFIDENCES, OF  # noqa: E402
 from viscotack.result import trajectory  # noqa: E402
-from viscotack.surrogate import contact, line, physics, store  # noqa: E402
-from viscotack.surrogate.network import added  # noqa: E402
-from viscotack.surrogate.store import shipped  # noqa: E402
-from viscotack.surrogate.trust import CONFIDENCES, OF  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 

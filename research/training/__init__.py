@@ -4,6 +4,6 @@ It needs JAX and pyarrow, ``pip install -e '.[research]'``. ``rows`` reads the d
 ``fitting`` fits a network, ``shop`` many in processes, ``refining`` those of what is left over;
 ``train_sphere``, ``train_solids``, ``train_punch`` and ``train_short_range`` train the surrogate of
 a contact, ``make`` writes any of them; ``second`` adds the networks that must agree;
-``calibration`` measures intervals, ``scores`` errors. ``viscotack.surrogate`` evaluates surrogates
-and imports nothing from here.
+``calibration`` measures intervals, ``scores`` errors. The package evaluates surrogates and
+imports nothing from here.
 """

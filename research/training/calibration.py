@@ -20,11 +20,12 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, together
-from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.network import Networks
+from viscotack.prediction.surrogate.trust import CONFIDENCES, OF, Trust
 
 from .fitting import Fit, Task, fit_all
+from .joining import together
 from .rows import LEARNED, Rows
 from .scores import errors, labels_of
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
-from viscotack.surrogate import physics
-from viscotack.surrogate.physics import INPUTS, Array
+from viscotack.prediction.surrogate import physics
+from viscotack.prediction.surrogate.physics import INPUTS, Array
 
 # Tabor number, modulus ratio, depth [h0], rate times retardation time over depth, and exponent.
 _DEEP_LOW = np.log10([0.02, 1e-4, 5.0, 0.2, 0.6])

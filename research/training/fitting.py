@@ -13,8 +13,8 @@ from threadpoolctl import threadpool_limits
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.surrogate import contact
-from viscotack.surrogate.network import Networks
+from viscotack.prediction.surrogate import contact
+from viscotack.prediction.surrogate.network import Networks
 
 # How many steps the curvature is remembered for.
 _MEMORY = 40

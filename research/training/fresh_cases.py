@@ -26,10 +26,10 @@ from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, sol
 from viscotack.campaign.case import retraction
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.random_solids import STRETCHED, creep_spectrum
-from viscotack.surrogate import linear_solids, physics, punch_physics, short_range
-from viscotack.surrogate.alike import TIMES
-from viscotack.surrogate.linear_solids import SolidContact
-from viscotack.surrogate.model import Surrogate
+from viscotack.prediction.surrogate import linear_solids, physics, punch_physics, short_range
+from viscotack.prediction.surrogate.alike import TIMES
+from viscotack.prediction.surrogate.linear_solids import SolidContact
+from viscotack.prediction.surrogate.model import Surrogate
 
 from .calibration import Apart
 from .contacts import FAMILIES, contact

@@ -17,8 +17,8 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.materials import spectrum
-from viscotack.surrogate import physics, store
-from viscotack.surrogate.alike import (
+from viscotack.prediction.surrogate import physics, store
+from viscotack.prediction.surrogate.alike import (
     DECADES,
     DOUBTS,
     SOUGHT,
@@ -30,9 +30,9 @@ from viscotack.surrogate.alike import (
     crept,
     left,
 )
-from viscotack.surrogate.contact import share
-from viscotack.surrogate.linear_solids import WIDEST, begin_inputs, bell
-from viscotack.surrogate.network import Networks
+from viscotack.prediction.surrogate.contact import share
+from viscotack.prediction.surrogate.linear_solids import WIDEST, begin_inputs, bell
+from viscotack.prediction.surrogate.network import Networks
 
 from .fitting import Fit, Task, fit
 

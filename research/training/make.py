@@ -19,8 +19,8 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from viscotack import datasets
-from viscotack.surrogate import store
-from viscotack.surrogate.model import Surrogate
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.version import __version__
 
 from . import train_punch, train_short_range, train_solids, train_sphere

@@ -15,9 +15,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.surrogate.network import Networks, added, together
+from viscotack.prediction.surrogate.network import Networks
 
 from .fitting import Fit, Task
+from .joining import added, together
 from .shop import Shop
 
 # A shape's values that hardly vary are not worth all of the network's attention.

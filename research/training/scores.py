@@ -6,9 +6,9 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from viscotack.arrays import Array
+from viscotack.prediction.surrogate.answers import Answers
+from viscotack.prediction.surrogate.line import Curves
 from viscotack.result.trajectory import PRESSED
-from viscotack.surrogate.answers import Answers
-from viscotack.surrogate.line import Curves
 
 from .rows import Rows
 

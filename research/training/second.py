@@ -26,10 +26,10 @@ import numpy as np
 
 from viscotack import datasets
 from viscotack.arrays import Array
-from viscotack.surrogate import store
-from viscotack.surrogate.contact import SECOND_WAY
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, together
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.surrogate.contact import SECOND_WAY
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.network import Networks
 from viscotack.version import __version__
 
 from . import fresh_cases
@@ -38,6 +38,7 @@ from . import train_solids as solids
 from . import train_sphere as spheres
 from .calibration import ENOUGH, Apart, by_set, judged, levelled, trusted, untested
 from .fitting import Fit
+from .joining import together
 from .refining import scaled_task
 from .rows import FAR_OFF, LEARNED, Rows, certain, joined, read
 from .shop import Shop

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from viscotack.files.whole import write_whole
-from viscotack.surrogate.contact import LEAST_WAY, STEEP
-from viscotack.surrogate.network import Networks, from_arrays
+from viscotack.prediction.surrogate.contact import LEAST_WAY, STEEP
+from viscotack.prediction.surrogate.network import Networks, from_arrays
 
 from .fitting import Fit, Task, fit
 

@@ -19,14 +19,14 @@ from scipy.stats import qmc
 from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import CrackContact, crack_contacts, unloading
+from viscotack.prediction.surrogate import short_range
+from viscotack.prediction.surrogate.contact import Contact
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.network import Networks
+from viscotack.prediction.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR, Array
+from viscotack.prediction.surrogate.short_range import HIGH, LOW, ShortRangeContact
+from viscotack.prediction.surrogate.trust import OF
 from viscotack.result.trajectory import POINTS
-from viscotack.surrogate import short_range
-from viscotack.surrogate.contact import Contact
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks
-from viscotack.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR, Array
-from viscotack.surrogate.short_range import HIGH, LOW, ShortRangeContact
-from viscotack.surrogate.trust import OF
 
 from .fitting import Fit, Task
 from .refining import Looks, Stage, scaled_task, twice

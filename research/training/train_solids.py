@@ -19,16 +19,17 @@ from viscotack import datasets
 from viscotack.arrays import Array
 from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
-from viscotack.surrogate import linear_solids, store
-from viscotack.surrogate.alike import TIMES, Alike
-from viscotack.surrogate.contact import between
-from viscotack.surrogate.linear_solids import BEND_INPUTS, SAMPLES, SolidContact
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import Networks, together
+from viscotack.prediction.surrogate import linear_solids, store
+from viscotack.prediction.surrogate.alike import TIMES, Alike
+from viscotack.prediction.surrogate.contact import between
+from viscotack.prediction.surrogate.linear_solids import SAMPLES, SolidContact
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.network import Networks
 
 from . import calibration, likeness
 from .calibration import Apart, trusted, worth
 from .fitting import Fit, Task, fit_all
+from .joining import together
 from .rows import Rows, of_table
 from .shop import Shop
 
@@ -154,7 +155,7 @@ def unbent() -> Surrogate:
 
 def _none() -> Networks:
     """Return networks that bend nothing."""
-    return Networks((np.zeros((1, BEND_INPUTS, SAMPLES)),), (np.zeros((1, 1, SAMPLES)),))
+    return Networks((np.zeros((1, 7 + SAMPLES, SAMPLES)),), (np.zeros((1, 1, SAMPLES)),))
 
 
 def bent(begun: Surrogate, solids: Tests) -> Surrogate:

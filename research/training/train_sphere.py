@@ -12,13 +12,13 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.surrogate import physics
-from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.network import together
-from viscotack.surrogate.physics import SphereContact
+from viscotack.prediction.surrogate import physics
+from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.prediction.surrogate.physics import SphereContact
 
 from . import drawing, rows
 from .fitting import Fit, Task
+from .joining import together
 from .refining import Looks, Scaled, Stage, again, all_done, scaled_task, twice
 from .rows import FAR_OFF, FAST, LEARNED, Rows
 from .shop import Shop

@@ -28,16 +28,6 @@ if TYPE_CHECKING:
     from .errors import InputError as InputError
     from .errors import NotInstalled as NotInstalled
     from .errors import OutOfRange as OutOfRange
-    from .forecast import Advice as Advice
-    from .forecast import Estimate as Estimate
-    from .forecast import Prediction as Prediction
-    from .forecast import advise as advise
-    from .forecast import predict as predict
-    from .forecast import predict_table as predict_table
-    from .forecast import prediction_summary as prediction_summary
-    from .forecast import threshold_contact_radius as threshold_contact_radius
-    from .forecast.uncertainty import Uncertainty as Uncertainty
-    from .forecast.uncertainty import uncertainty as uncertainty
     from .geometry import Bonded as Bonded
     from .geometry import Cone as Cone
     from .geometry import Disc as Disc
@@ -74,6 +64,16 @@ if TYPE_CHECKING:
     from .pictures.plot import draw_radius as draw_radius
     from .pictures.plot import draw_regimes as draw_regimes
     from .pictures.plot import save_figure as save_figure
+    from .prediction import Advice as Advice
+    from .prediction import Estimate as Estimate
+    from .prediction import Prediction as Prediction
+    from .prediction import advise as advise
+    from .prediction import predict as predict
+    from .prediction import predict_table as predict_table
+    from .prediction import prediction_summary as prediction_summary
+    from .prediction import threshold_contact_radius as threshold_contact_radius
+    from .prediction.uncertainty import Uncertainty as Uncertainty
+    from .prediction.uncertainty import uncertainty as uncertainty
     from .problem import Groups as Groups
     from .problem import Problem as Problem
     from .problem import PunchScales as PunchScales
@@ -212,15 +212,15 @@ _NAMES = {
     "result.dead_load": ("time_to_detachment",),
     "result.edge_energy": ("EdgeEnergy", "edge_energy"),
     "result.loops": ("Loop",),
-    "forecast": (
+    "prediction": (
         "advise",
         "Advice",
         "Estimate",
-        "threshold_contact_radius",
         "predict",
         "predict_table",
         "Prediction",
         "prediction_summary",
+        "threshold_contact_radius",
     ),
     "pictures.plot": (
         "draw_energy",
@@ -250,7 +250,7 @@ _NAMES = {
         "ArrayYield",
     ),
     "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
-    "forecast.uncertainty": ("uncertainty", "Uncertainty"),
+    "prediction.uncertainty": ("uncertainty", "Uncertainty"),
     "pictures.forecast": ("draw_prediction",),
     "operations": ("ask",),
 }

@@ -17,8 +17,8 @@ from viscotack import (
     Sphere,
     WavySphere,
 )
-from viscotack.forecast.closed_forms import closed_forms
 from viscotack.materials import StandardSolid
+from viscotack.prediction.closed_forms import closed_forms
 from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (

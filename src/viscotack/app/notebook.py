@@ -12,8 +12,8 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from viscotack.cards import Pairs, cards
-from viscotack.forecast import Prediction, prediction_summary
 from viscotack.geometry import FlatPunch
+from viscotack.prediction import Prediction, prediction_summary
 from viscotack.problem import Problem, plane, revolution
 from viscotack.result import Result
 from viscotack.result.observables import summary

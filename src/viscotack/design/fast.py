@@ -10,13 +10,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.forecast import predict
-from viscotack.forecast.tiers import AT_ONCE
 from viscotack.geometry import Bonded, Frictionless, HalfSpace, Layer, PowerLawProfile, Sphere
 from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
 from viscotack.materials import Material
 from viscotack.materials.scaling import scaled
+from viscotack.prediction import predict
+from viscotack.prediction.tiers import AT_ONCE
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce, Retraction
 from viscotack.traction import LennardJones

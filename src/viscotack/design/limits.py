@@ -20,7 +20,7 @@ from math import inf
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.forecast.closed_forms import lennard_jones_alike
+from viscotack.prediction.closed_forms import lennard_jones_alike
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.units import readable
 

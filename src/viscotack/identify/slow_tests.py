@@ -20,12 +20,12 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.forecast import advise
 from viscotack.geometry import Sphere
 from viscotack.lab.tack import Cycle
 from viscotack.materials import Material
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_uncertainty import allowed
+from viscotack.prediction import advise
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce, Retraction
 from viscotack.theory import maugis, transition

@@ -170,7 +170,7 @@ def _cautions(choice: Any, stated: Any) -> list[str]:
     """Return the cautions on the forces of a design, each with its speeds."""
     from viscotack.design.fast import SURROGATES, FastTier
     from viscotack.design.margins import pad_of
-    from viscotack.forecast import cautions_on
+    from viscotack.prediction import cautions_on
 
     fast = FastTier(stated.materials, stated.traction, SURROGATES)
     passport, found = stated.passports.get(choice.material), {}

@@ -26,7 +26,7 @@ from .request import (
 from .simulate import HowLong
 
 if TYPE_CHECKING:
-    from viscotack.forecast import Advice, Prediction
+    from viscotack.prediction import Advice, Prediction
     from viscotack.problem import Case
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
@@ -146,9 +146,9 @@ class Predict(Request):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.forecast import predict
-        from viscotack.forecast.prediction import prediction_summary
-        from viscotack.forecast.tiers import SOON
+        from viscotack.prediction import predict
+        from viscotack.prediction.prediction import prediction_summary
+        from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome
 
         stated = self.stated(caller)
@@ -205,7 +205,7 @@ class Predict(Request):
             if len(caller.wants & {"csv", "xlsx"}) != 1:
                 raise InputError(f"choose one output for the answers to {self.cases}: csv or xlsx")
             return predict_file(caller.file(self.cases), self.confidence, caller.tell)
-        from viscotack.forecast.tiers import SOON
+        from viscotack.prediction.tiers import SOON
 
         from .parts.predict_changes import predict_changes
 
@@ -243,8 +243,8 @@ class Advise(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every tier."""
-        from viscotack.forecast.advice import advise
-        from viscotack.forecast.cautions import cautions_on
+        from viscotack.prediction.advice import advise
+        from viscotack.prediction.cautions import cautions_on
 
         stated = self.stated(caller)
         problem = stated.problem
@@ -312,7 +312,7 @@ def _comparison(found: "Prediction", result: "Result") -> dict[str, Any]:
 
     `difference` is prediction over simulation, less 1.
     """
-    from viscotack.forecast.prediction import prediction_summary
+    from viscotack.prediction.prediction import prediction_summary
     from viscotack.result.observables import summary
 
     simulated = summary(result)

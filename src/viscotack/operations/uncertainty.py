@@ -28,7 +28,7 @@ from .request import (
 )
 
 if TYPE_CHECKING:
-    from viscotack.forecast.uncertainty import Uncertainty
+    from viscotack.prediction.uncertainty import Uncertainty
 
 
 def deviation_of(text: str) -> tuple[str, float]:
@@ -130,8 +130,8 @@ class OfUncertainty(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Predict the drawn problems, telling ``share``."""
-        from viscotack.forecast.uncertainty import uncertainty
         from viscotack.pictures.uncertainty import draw_uncertainty
+        from viscotack.prediction.uncertainty import uncertainty
 
         from .parts.tables import rows_as_csv
 

@@ -13,7 +13,7 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.forecast.prediction import Prediction
+from viscotack.prediction.prediction import Prediction
 from viscotack.problem.outputs import PLANE
 from viscotack.result import Result
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from viscotack.surrogate.line import Curves
+    from viscotack.prediction.surrogate.line import Curves
 
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")

@@ -13,23 +13,23 @@ import numpy as np
 from viscotack.app.engine.state import State
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.forecast import predict
-from viscotack.forecast.advice import estimate_by
-from viscotack.forecast.learned import SURROGATE
-from viscotack.forecast.prediction import Prediction
-from viscotack.forecast.prediction_table import predict_table
-from viscotack.forecast.punches import inputs_of
-from viscotack.forecast.question import Question
-from viscotack.forecast.theories import forms_of
-from viscotack.forecast.tiers import AT_ONCE, TIERS
 from viscotack.geometry import Disc, FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
 from viscotack.operations.parts.json_data import drawn, plain
+from viscotack.prediction import predict
+from viscotack.prediction.advice import estimate_by
+from viscotack.prediction.power_laws import SURROGATE
+from viscotack.prediction.prediction import Prediction
+from viscotack.prediction.punches import inputs_of
+from viscotack.prediction.question import Question
+from viscotack.prediction.surrogate import store
+from viscotack.prediction.surrogate.punch_physics import HIGH, LOW, RATE
+from viscotack.prediction.table import predict_table
+from viscotack.prediction.theories import forms_of
+from viscotack.prediction.tiers import AT_ONCE, TIERS
 from viscotack.problem import Groups, Problem
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
-from viscotack.surrogate import store
-from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.theory.elastic.relaxed import contact, curve, ends
 from viscotack.theory.punch import Pad, unloading
 

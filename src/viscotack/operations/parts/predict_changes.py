@@ -10,9 +10,9 @@ from viscotack.campaign.changes import Changes, changes_of
 from viscotack.campaign.listed import EMPTY
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.forecast import predict
-from viscotack.forecast.prediction import prediction_summary
-from viscotack.forecast.prediction_table import METHOD, WORK, with_interval
+from viscotack.prediction import predict
+from viscotack.prediction.prediction import prediction_summary
+from viscotack.prediction.table import METHOD, WORK, with_interval
 from viscotack.units import readable
 
 from ..request import Answer, Told

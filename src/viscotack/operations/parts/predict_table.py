@@ -16,7 +16,7 @@ from viscotack.campaign.listed import EMPTY, plain_heading, read_words
 from viscotack.errors import InputError
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
-from viscotack.forecast.prediction_table import answers_of, kind_of, predict_table
+from viscotack.prediction.table import answers_of, kind_of, predict_table
 from viscotack.units import is_number
 
 from ..request import Answer, Told

@@ -3,7 +3,7 @@ r"""Relaxed JKR contact at the start of a test: at a depth, under a force or wit
 JKR holds for forces of short range. The relaxed
 contact of a traction law of finite range, which exists slightly beyond the end of JKR's branch, is
 computed by the simulation (``viscotack.bem``) and approximated by a surrogate
-(:meth:`viscotack.surrogate.model.Surrogate.start_depth`). The adhesion map
+(:meth:`viscotack.prediction.surrogate.model.Surrogate.start_depth`). The adhesion map
 (:mod:`viscotack.theory.elastic.adhesion_map`) shows the difference between the two.
 
 Source: as :mod:`viscotack.theory.elastic.jkr`, :mod:`viscotack.theory.elastic.profiles` and

@@ -1,0 +1,127 @@
+"""What a tier is: one way to predict, and the classes of problems for which it was verified."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from viscotack.errors import OutOfRange
+from viscotack.problem import Case, Groups
+
+from .question import Question
+
+if TYPE_CHECKING:
+    from .prediction import Prediction
+
+# For `Verified.solids`: any linear solid.
+ANY: tuple[type, ...] = ()
+
+
+class Uncertain(OutOfRange):
+    """A problem in the range of a surrogate, which is not certain of its answer."""
+
+
+@dataclass(frozen=True)
+class Verified:
+    """The classes for which a tier was compared with simulations; one tuple per kind.
+
+    Classes are compared exactly, because a subclass may behave differently.
+
+    Attributes
+    ----------
+    shapes, bodies, laws : tuple of type
+        Indenters, bodies (for a layer the class of its base) and traction laws.
+    solids : tuple of type
+        Materials; empty for any linear solid, if the tier itself compares its creep or its
+        modulus with the verified ones.
+    starts : tuple of type
+        States in which the test may begin.
+    moves, springs : bool
+        Whether moves before the retraction, and a compliant machine, are allowed.
+    ranges : mapping
+        Smallest and largest value of each input, for :func:`viscotack.problem.ranges.outside`.
+    """
+
+    shapes: tuple[type, ...]
+    bodies: tuple[type, ...]
+    laws: tuple[type, ...]
+    solids: tuple[type, ...]
+    starts: tuple[Any, ...]
+    moves: bool = False
+    springs: bool = False
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    def refuses(self, groups: Groups) -> str:
+        """Return the reason why a problem is not on the list, or an empty string."""
+        solid = type(groups.material)
+        for what, given, allowed in (
+            ("shape", type(groups.geometry), self.shapes),
+            ("body", type(getattr(groups.body, "base", groups.body)), self.bodies),
+            ("traction law", type(groups.traction), self.laws),
+            ("solid", solid, self.solids or (solid,)),
+            ("start", type(groups.start), self.starts),
+        ):
+            if given not in allowed:
+                names = ", ".join(each.__name__ for each in allowed)
+                return f"the {what} is {given.__name__}; verified only for {names}"
+        if groups.moves and not self.moves:
+            return (
+                f"the machine moves before the retraction: {groups.moves[0]!r}; verified only for "
+                "a retraction from rest"
+            )
+        if groups.stiffness is not None and not self.springs:
+            return (
+                f"the machine has a stiffness of {groups.stiffness:.4g} x "
+                f"{groups.units['stiffness']}; verified only for a rigid machine"
+            )
+        if groups.rate is None and not self.moves:
+            return "the test has no retraction at constant speed"
+        return ""
+
+
+@dataclass(frozen=True, eq=False)
+class Tier:
+    """One way to predict: a surrogate, a theory or the simulation.
+
+    Attributes
+    ----------
+    name : str
+        Name, as in the `method` of its predictions.
+    cost : float
+        Approximate time of a prediction [s].
+    verified : tuple of Verified
+        Its allow-lists, one of which must contain the problem; empty if it accepts all classes.
+    reply : callable
+        Computes the prediction of a problem on the list; raises OutOfRange if a number is out of
+        range.
+    """
+
+    name: str
+    cost: float
+    verified: tuple[Verified, ...]
+    reply: Callable[[Question], Prediction]
+
+    def answer(self, problem: Case, *, confidence: float = 0.9) -> Prediction:
+        """Predict by this tier.
+
+        Raises
+        ------
+        OutOfRange
+            If the tier does not accept the problem, with the reason.
+        """
+        return self.ask(Question(problem, confidence))
+
+    def ask(self, asked: Question) -> Prediction:
+        """Return :meth:`answer` for a question with cached results."""
+        reasons = [each.refuses(asked.groups) for each in self.verified]
+        if reasons and all(reasons):
+            raise OutOfRange(reasons[0])
+        try:
+            return self.reply(asked)
+        except OutOfRange:
+            raise
+        except ValueError as error:
+            if not self.verified:
+                raise  # a rejection by the simulation is bad input
+            raise OutOfRange(str(error)) from error
