@@ -202,7 +202,7 @@ def _page(router: APIRouter, engine: Engine) -> None:
 
     @router.post("/api/state", tags=["page"])
     async def state(asked: AskedState) -> Answer:
-        """Return a state as tables, file and link, from one of the three."""
+        """Return the tables of a case file."""
         return Answer(**await engine.page(page_tasks.ask_state, asked.model_dump()))
 
     @router.post("/api/quick", tags=["page"])

@@ -43,7 +43,8 @@ export function percent(share) {
 
 // The axis of what a case is pulled off by: the force of a sphere or the stress of a punch.
 export function pulled({ axes }) {
-  return axes.pull_off_force ?? axes.pull_off_stress;
+  const name = "pull_off_force" in axes ? "pull_off_force" : "pull_off_stress";
+  return { name, ...axes[name] };
 }
 
 // What was simulated of it, from the summary of a simulation.
@@ -92,8 +93,8 @@ export function sliderOf(card, quantity) {
   const low = card.least ?? card.above, high = card.most;
   const example = quantity.si ? Math.abs(read(card.example, card.unit)?.number) || quantity.number : quantity.number;
   if (low !== null && high !== null) {
-    const step = roundStep(high - low), first = card.least === null ? low + step : low;
-    return linear(first, high, step);
+    const step = roundStep(high - low);
+    return linear(card.least === null ? low + step : low, high, step);
   }
   if (low !== null && quantity.number <= low) return null;
   if (low !== null && low >= 0) {
