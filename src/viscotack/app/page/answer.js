@@ -1,7 +1,7 @@
 // The one answer of the case, large, with its band and where it comes from; it stays in sight.
 
 import { h } from "./dom.js";
-import { between, percent, pulled, said } from "./numbers.js";
+import { percent, said, shown } from "./numbers.js";
 
 export function answer(host, store) {
   const lines = ["hint", "large", "band", "hint from"].map((kind) => h("p", { class: kind })), refused = document.getElementById("refused");
@@ -15,17 +15,14 @@ export function answer(host, store) {
     if (refused.textContent !== words) refused.textContent = words;
     if (!best || best === drawn) return;
     drawn = best;
-    const [first] = best, { unit } = pulled(quick), why = [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join(" ");
-    const texts = first ? [quick.axes[first.name].words, said(first.value, unit), bandOf(first, unit), `by the ${first.method}${first.why ? `: ${first.why}` : ""}`] : [pulled(quick).words, "no answer", "", why];
+    const [first] = best, { words: name, unit } = first ? quick.axes[first.name] : quick.axes.pulled, why = [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join(" ");
+    const texts = first ? [name, said(first.value, unit), bandOf(first), `by the ${first.method}${first.why ? `: ${first.why}` : ""}`] : [name, "no answer", "", why];
     lines.forEach((line, i) => { if (line.textContent !== texts[i]) line.textContent = texts[i]; });
     lines[3].title = texts[3];
   });
 }
 
-export function bandOf({ interval, confidence, error }, unit) {
-  if (interval) return `${between(...interval, unit)} in ${percent(confidence)} of cases`;
-  return error ? `numerical error ${percent(error)}` : "";
-}
+export const bandOf = ({ band, error }) => shown(band || (error ? `numerical error ${percent(error)}` : ""));
 
 // "the case, [sphere] radius is missing; write for example radius = "5 mm"" -> its table, and words that fit a field.
 export function refusalOf(refused) {

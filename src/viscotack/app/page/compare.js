@@ -1,7 +1,7 @@
 // Up to four cases beside each other.
 
 import { MOST_KEPT, button, h, table } from "./dom.js";
-import { pulled, pulledBy, said, shown as words, workOf } from "./numbers.js";
+import { said, shown as words } from "./numbers.js";
 import { Plot } from "./plot.js";
 
 export function compare(host, store) {
@@ -17,7 +17,7 @@ export function compare(host, store) {
     keep.disabled = kept.length >= MOST_KEPT;
     if (host.hidden) return;
     const axes = kept[0]?.quick.axes || { depth: { words: "depth", unit: "m" }, force: { words: "force", unit: "N" } };
-    const series = kept.map(({ columns, quick: { curves } }, i) => ({ drawn: columns || curves.surrogate || curves.elastic, colour: `c${i}`, dash: !columns, words: `case ${i + 1}${columns ? ", simulated" : ""}` }));
+    const series = kept.map(({ answer, quick: { curves } }, i) => ({ drawn: answer?.curve || curves.surrogate || curves.elastic, colour: `c${i}`, dash: !answer, words: `case ${i + 1}${answer ? ", simulated" : ""}` }));
     plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series.filter(({ drawn }) => drawn).map(({ drawn, ...more }) => ({ kind: "line", x: drawn.depth, y: drawn.force, ...more })));
     const heads = kept.map(({ tables }, i) => h("span", {}, `case ${i + 1} `, button("open", () => store.take(tables), { "aria-label": `Open case ${i + 1}` }), button("remove", () => store.keepAll(kept.toSpliced(i, 1)), { "aria-label": `Remove case ${i + 1}` })));
     differing.replaceChildren(kept.length ? table("Numbers of the cases", ["number", ...heads], rows(kept)) : h("p", { class: "hint" }, "No case is kept yet."));
@@ -29,11 +29,11 @@ export function compare(host, store) {
       const [table, key] = name.split("."), value = tables[table]?.[key];
       return Array.isArray(value) ? value.join("; ") : words(value);
     })]);
-    const number = (of, name, unit) => kept.map(({ summary, quick }) => said(summary ? of(summary) : quick.numbers.find((one) => one.name === name(quick))?.value, unit(quick)));
+    const number = (key, axis) => kept.map(({ answer, quick }) => said(answer ? answer[key] : quick.numbers.find(({ name }) => name === axis(quick).name)?.value, axis(quick).unit));
     return [
       ...stated.filter(([, ...values]) => kept.length === 1 || new Set(values).size > 1),
-      ["pull-off", ...number(pulledBy, (quick) => pulled(quick).name, (quick) => pulled(quick).unit)],
-      ["work to pull-off", ...number(workOf, () => "work_to_pull_off", (quick) => quick.axes.work_to_pull_off.unit)],
+      ["pull-off", ...number("pull", ({ axes }) => axes.pulled)],
+      ["work to pull-off", ...number("work", ({ axes }) => ({ ...axes.work_to_pull_off, name: "work_to_pull_off" }))],
     ];
   }
 }

@@ -1,12 +1,11 @@
 // The first view: load against depth, what is under the indenter, and what may be trusted.
 
 import { bandOf } from "./answer.js";
-import { MOST_KEPT, button, fill, fold, h, save, table } from "./dom.js";
+import { MOST_KEPT, button, copied, fill, fold, h, save, table } from "./dom.js";
 import { setUp, surface } from "./drawing.js";
-import { digits, percent, pulled, pulledBy, said, shown, workOf } from "./numbers.js";
+import { digits, percent, said, shown } from "./numbers.js";
 import { Plot } from "./plot.js";
 import { reportOf } from "./report.js";
-import { curveOf } from "./store.js";
 
 const ENERGY = { drive: ["work of the drive", "c6"], interface: ["interface", "c0"], elastic: ["elastic energy", "c1"], spring: ["spring of the machine", "c5"], heat: ["heat in the solid", "c2"], interface_heat: ["heat in the interface", "c4"], jumps: ["lost in jumps", "c3"], transfer: ["lost in mesh moves", "c6"] };
 const TOUR = 5000, FRAME = 40; // milliseconds of one way along the curve, and of a picture
@@ -56,7 +55,7 @@ export function contact(host, store) {
     judged.hidden = !words.children.length;
     if (done !== answer) {
       answer = done;
-      curve = done && curveOf(done);
+      curve = done && done.curve;
       work(done);
       at = slider.value = 0;
       pause(!done || matchMedia("(prefers-reduced-motion: reduce)").matches);
@@ -91,58 +90,56 @@ export function contact(host, store) {
       series.push({ kind: "band", x: [place - reach, place + reach], low: [-interval[1], -interval[1]], high: [-interval[0], -interval[0]], colour: "c1", words: `learned: pull-off, ${Math.round(100 * confidence)} % of cases` });
       line(surrogate, { colour: "c1", width: 7, opacity: 0.45 });
     }
-    line(run.answer ? curveOf(run.answer) : run, { colour: "c0", faint: stale, beside: stale, tracked: !stale, width: 2.8, words: stale ? "simulation of the case before" : growing ? "simulation, as it runs" : "simulation" });
+    line(run.answer?.curve || run, { colour: "c0", faint: stale, beside: stale, tracked: !stale, width: 2.8, words: stale ? "simulation of the case before" : growing ? "simulation, as it runs" : "simulation" });
     for (const one of store.rig?.curves.slice(0, 3) || []) series.push({ kind: "points", x: one.depth, y: one.force, colour: "c3", size: 1.5, words: `measured: ${one.file}` });
     plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series);
   }
 
   // What belongs to the answer: the work, and the simulation that judges both.
   function tell(quick, done) {
-    const { best } = store, { axes } = quick, pull = pulled(quick), rows = [];
+    const { best } = store, { axes } = quick, { pulled } = axes, rows = [];
     numbers.classList.toggle("stale", !best);
     if (!best) return;
-    for (const each of best.slice(1)) rows.push([axes[each.name].words, each.value, axes[each.name].unit, bandOf(each, axes[each.name].unit)]);
+    for (const each of best.slice(1)) rows.push([axes[each.name].words, each.value, axes[each.name].unit, bandOf(each)]);
     if (done && best[0]?.method !== "simulation") {
-      const { summary } = done, error = summary.error_estimate || {}, force = pulledBy(summary), work = workOf(summary);
-      const [low, high] = best[0]?.interval || [], room = error.force || 0;
-      const inside = best[0]?.interval && (force >= low * (1 - room) && force <= high * (1 + room) ? "within the band" : "outside the band");
-      rows.push([`${pull.words}, simulated`, force, pull.unit, [bandOf({ error: error.force }), inside].filter(Boolean).join(", ")]);
-      if (work !== null && work !== undefined) rows.push([`${axes.work_to_pull_off.words}, simulated`, work, axes.work_to_pull_off.unit, bandOf({ error: error.work })]);
+      const { pull, error } = done, [low, high] = best[0]?.interval || [], room = error.force || 0;
+      const inside = best[0]?.interval && (pull >= low * (1 - room) && pull <= high * (1 + room) ? "within the band" : "outside the band");
+      rows.push([`${pulled.words}, simulated`, pull, pulled.unit, [bandOf({ error: error.force }), inside].filter(Boolean).join(", ")]);
+      if (done.work !== null) rows.push([`${axes.work_to_pull_off.words}, simulated`, done.work, axes.work_to_pull_off.unit, bandOf({ error: error.work })]);
     }
     const other = done?.summary.other_peak_force_N ?? done?.summary.other_peak_stress_Pa ?? null;
-    if (other !== null) rows.push(["other peak, simulated", other, pull.unit, ""]);
+    if (other !== null) rows.push(["other peak, simulated", other, pulled.unit, ""]);
     fill(numbers, rows, () => rows.map(([name, value, unit, more]) => {
-      const copy = button("copy", () => { navigator.clipboard?.writeText(`${value} ${unit}`.trim()); copy.textContent = "copied"; }, { class: "copy", "aria-label": `Copy the ${name}` });
-      return h("div", {}, h("dt", {}, name), h("dd", {}, said(value, unit), copy, more ? h("small", {}, more) : null));
+      const number = h("dd", {}, said(value, unit), copied(`Copy the ${name}`, () => `${value} ${unit}`.trim()), more ? h("small", {}, more) : null);
+      return h("div", {}, h("dt", {}, name), number);
     }));
-    if (best[0]) plot.remark(`${pull.words} ${said(best[0].value, pull.unit)}`);
   }
 
   // Every tier with its estimate: first what applies, then what does not, and why.
   function compare(quick, done) {
-    const verdict = store.now("verdict"), { words, unit } = pulled(quick);
+    const verdict = store.now("verdict"), { words, unit } = quick.axes.pulled;
     compared.classList.toggle("stale", !verdict);
     if (!verdict) return;
     const rows = verdict.tiers.filter(({ tier }) => !done || tier !== "simulation");
-    if (done) rows.push({ tier: "simulation", value: pulledBy(done.summary), error: done.summary.error_estimate?.force, applies: true, why: done.summary.status });
+    if (done) rows.push({ tier: "simulation", value: done.pull, error: done.error.force, applies: true, why: done.summary.status });
     const groups = Object.entries(quick.groups).filter(([, value]) => typeof value === "number").map(([name, value]) => `${name.replaceAll("_", " ")} ${digits(value)}`);
     const listed = (label, applies) => table(label, ["tier", words, "nine of ten within", "why"], rows.filter((row) => row.applies === applies).map(({ tier, value, error, why }) => [tier === store.best?.[0]?.method ? `${tier} (the answer)` : tier, said(value, unit), error ? `± ${percent(error)}` : "", shown(why)]));
     fill(tiers, [rows, store.best?.[0]?.method], () => [listed("Tiers that apply", true), fold("what does not apply, and why", listed("Tiers that do not apply", false)), h("p", { class: "hint" }, `Without dimensions: ${groups.join(", ")}.`)]);
   }
 
   function speed(quick, done) {
-    const found = quick.speeds || store.now("theory")?.speeds, pull = done && pulledBy(done.summary), { rig } = store;
+    const found = quick.speeds || store.now("theory")?.speeds, pull = done?.pull, { rig } = store;
     const series = found ? ofSpeeds(found, quick.speeds ? "c1" : "c2") : [];
     if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
     if (rig) series.push(measured(rig));
-    speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...pulled(quick), least: 0 } }, series);
+    speeds.draw({ x: { ...quick.axes.speed, log: true }, y: { ...quick.axes.pulled, least: 0 } }, series);
     if (!found) { speeds.legend.textContent = "no theory, and nothing learned, answers at other speeds; a campaign does"; return; }
     const away = found.speed.map((x) => Math.abs(Math.log(x / found.here)));
     speeds.point(found.here, pull ?? found.force[away.indexOf(Math.min(...away))], "this case");
   }
 
   function work(done) {
-    const moved = store.tables.protocol?.moves, along = done && curveOf(done)[moved ? "time" : "depth"];
+    const moved = store.tables.protocol?.moves, along = done?.curve[moved ? "time" : "depth"];
     const series = Object.entries(done?.energy?.series || {}).map(([name, y]) => ({ kind: "line", x: along, y, words: ENERGY[name][0], colour: ENERGY[name][1], dash: name === "drive" }));
     energy.draw({ x: moved ? { words: "time", unit: "s" } : { words: "depth", unit: "m", turned: true }, y: { words: "energy", unit: done?.energy?.unit || "J" } }, series);
   }
@@ -171,10 +168,5 @@ export function contact(host, store) {
 }
 
 // The pull-off at other speeds with its band, and what was measured there.
-export function ofSpeeds({ speed: x, low, high, force: y, words }, colour) {
-  return [{ kind: "band", x, low, high, colour, words: "band of 90 % of cases" }, { kind: "line", x, y, colour, words }];
-}
-
-export function measured({ curves }) {
-  return { kind: "points", x: curves.map((one) => one.speed), y: curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" };
-}
+export const ofSpeeds = ({ speed: x, low, high, force: y, words }, colour) => [{ kind: "band", x, low, high, colour, words: "band of 90 % of cases" }, { kind: "line", x, y, colour, words }];
+export const measured = ({ curves }) => ({ kind: "points", x: curves.map(({ speed }) => speed), y: curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });

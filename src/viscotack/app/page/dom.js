@@ -17,6 +17,10 @@ export function button(words, click, attributes = {}) {
   return h("button", { type: "button", click, ...attributes }, words);
 }
 
+export function copied(label, text) {
+  return button("copy", ({ target }) => { navigator.clipboard?.writeText(text()); target.textContent = "copied"; }, { class: "copy", "aria-label": label });
+}
+
 export function fold(words, ...children) {
   return h("details", {}, h("summary", {}, words), ...children);
 }
@@ -40,13 +44,10 @@ export function fill(host, key, make) {
   host.replaceChildren(...make());
 }
 
-// A place for files that are dropped, or chosen by the keyboard.
+// A place for files: a browser's field takes those that are dropped on it as well.
 export function dropped(words, id, take) {
-  const input = h("input", { type: "file", multiple: true, id, change: () => input.files.length && take([...input.files]) });
-  const over = (event) => { event.preventDefault(); box.classList.add("over"); }, gone = () => box.classList.remove("over");
-  const drop = (event) => { event.preventDefault(); gone(); if (event.dataTransfer.files.length) take([...event.dataTransfer.files]); };
-  const box = h("div", { class: "drop", dragenter: over, dragover: over, dragleave: gone, drop }, h("label", { for: id }, `Drop ${words} here, or choose them`), h("br"), input);
-  return box;
+  const change = ({ target }) => target.files.length && take([...target.files]);
+  return h("div", { class: "drop" }, h("label", { for: id }, `Drop ${words} here, or choose them`), h("input", { type: "file", multiple: true, id, change }));
 }
 
 export function save(name, content) {

@@ -4,6 +4,10 @@ import { escape } from "./dom.js";
 import { read, said, shown as words } from "./numbers.js";
 
 const WIDE = 360, HIGH = 250, MIDDLE = WIDE / 2, GROUND = 165;
+// A length in words, about, and where it stands between two: they only size a drawing.
+const si = (value) => read(value, "m")?.number || 0;
+const squash = (value, low, high) => (value > 0 ? Math.min(Math.max(Math.log(value / low) / Math.log(high / low), 0), 1) : 0);
+const text = (x, y, what, anchor = "start") => `<text x="${x}" y="${y}" font-size="12.5" text-anchor="${anchor}" fill="var(--ink)" stroke="var(--paper)" stroke-width="3" paint-order="stroke">${escape(what)}</text>`;
 
 // The set-up: sizes follow the numbers, each by its logarithm, so that all can be seen.
 export function setUp(tables, { start }) {
@@ -45,18 +49,6 @@ function indenter({ punch, cone, profile, sphere, ...others }, reach) {
   return { half, rise: (x) => R - Math.sqrt(R * R - x * x), tall: 78, called: sphere ? `R = ${words(sphere.radius)}` : name };
 }
 
-function squash(value, low, high) {
-  return value > 0 ? Math.min(Math.max(Math.log(value / low) / Math.log(high / low), 0), 1) : 0;
-}
-
-// A length in words, about: it only sizes a drawing.
-function si(value) {
-  return read(value, "m")?.number || 0;
-}
-
-function text(x, y, what, anchor = "start") {
-  return `<text x="${x}" y="${y}" font-size="12.5" text-anchor="${anchor}" fill="var(--ink)" stroke="var(--paper)" stroke-width="3" paint-order="stroke">${escape(what)}</text>`;
-}
 
 // The surface at one instant, as simulated: the body below, the indenter above, pressure between. Depth is counted from
 // where undeformed surfaces are at their equilibrium gap, which is `length`.

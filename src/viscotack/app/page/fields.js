@@ -78,8 +78,8 @@ export function fields(form, store) {
     const accuracies = [[0.02, "2 %"], [0.01, "1 %"], [0.005, "0.5 %"], [0.002, "0.2 %"], [0.0005, "0.05 %"]], ways = [["detached", "until apart"], ["pull-off", "past the pull-off"]];
     const box = h("input", { type: "checkbox", checked: store.auto, change: () => { store.auto = box.checked; } });
     return group("Simulation", h("div", { class: "row" },
-      selection("Accuracy of the force", accuracies, store.settings.accuracy, (chosen) => store.configure("accuracy", Number(chosen)), { id: "choice-accuracy" }),
-      selection("How far to pull", ways, store.settings.until, (chosen) => store.configure("until", chosen), { id: "choice-until" })),
+      selection("Accuracy of the force", accuracies, store.settings.accuracy, (chosen) => store.configure({ accuracy: Number(chosen) }), { id: "choice-accuracy" }),
+      selection("How far to pull", ways, store.settings.until, (chosen) => store.configure({ until: chosen }), { id: "choice-until" })),
     h("label", { class: "hint" }, box, " simulate when the numbers rest"));
   }
 

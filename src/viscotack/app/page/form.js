@@ -1,7 +1,7 @@
 // The form of an operation, drawn from its declaration: a new option is in it by itself.
 
 import { button, dropped, fold, h } from "./dom.js";
-import { operate } from "./server.js";
+import { cancel, follow, start } from "./server.js";
 
 export class Form {
   constructor(operation, id, skip = []) {
@@ -12,10 +12,6 @@ export class Form {
     const [needed, others] = [true, false].map((is) => this.fields.filter((one) => one.needed === is).map(({ row }) => row));
     this.needed = h("div", {}, needed);
     this.host = h("div", {}, this.needed, others.length ? fold("more options", others) : null);
-  }
-
-  input(name) {
-    return this.fields.find((field) => field.name === name)?.input;
   }
 
   // The words of a refusal. Options that it names become fields in sight, the first with the focus: they stand in it as
@@ -47,26 +43,37 @@ export class Form {
   }
 }
 
+// Compute, with a bar and a way to cancel it meanwhile; null where it was cancelled.
+export async function compute(host, path, body, options) {
+  const bar = h("progress", { "aria-label": "How far it is" }), going = h("div", { class: "row" }, bar);
+  host.replaceChildren(going);
+  const job = await start(path, body, options);
+  going.append(button("Cancel", () => { cancel(job); host.replaceChildren(h("p", { class: "hint" }, "cancelled")); }));
+  return follow(job, ({ share }) => { if (share) bar.value = share; });
+}
+
 // A laboratory's files, read by an operation when they are dropped: what they do not say becomes fields. The answer is
 // given to `told`, null where there is none.
 export function reader(operation, id, words, told) {
-  const form = new Form(operation, id, ["files"]), said = h("div", { role: "status" });
-  const found = { form, said, files: [], drop: dropped(words, `${id}-files`, take), take };
-  // another operation on the same files, read in the same way
-  found.ask = (path, more, outputs = []) => operate(path, { ...form.asked, ...more, files: found.files.map(({ name }) => name) }, { files: [...found.files, ...form.files], outputs });
-  form.needed.addEventListener("change", () => found.files.length && take(found.files));
+  const form = new Form(operation, id, ["files"]), said = h("div", { role: "status" }), found = { form, said, take, ask, drop: dropped(words, `${id}-files`, take) };
+  let files = [];
+  form.needed.addEventListener("change", () => files.length && take(files));
   return found;
 
-  async function take(files) {
-    found.files = files;
-    said.replaceChildren(h("p", { class: "hint" }, "reading …"));
+  async function take(taken) {
+    files = taken;
     let answer = null;
     try {
-      answer = (await found.ask(operation.path, {}, ["drawn"])).beside.drawn;
+      answer = (await ask(said, operation.path, {}, ["drawn"]))?.beside.drawn;
     } catch (error) {
       said.replaceChildren(form.refused(error.message), button("Read it again", () => take(files)));
     }
     told(answer);
+  }
+
+  // Any operation on these files, read in the same way.
+  function ask(host, path, more, outputs = []) {
+    return compute(host, path, { ...form.asked, ...more, files: files.map(({ name }) => name) }, { files: [...files, ...form.files], outputs });
   }
 }
 

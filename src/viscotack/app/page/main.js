@@ -37,11 +37,10 @@ async function begin() {
 // Light or dark, as the system has it or as was chosen before.
 function theme() {
   const root = document.documentElement, system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  root.dataset.theme = localStorage.getItem("theme") || system;
-  at("theme").addEventListener("click", () => {
-    root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
-    localStorage.setItem("theme", root.dataset.theme);
-  });
+  let kept = {};
+  try { kept = localStorage; } catch { /* a browser that keeps nothing */ }
+  root.dataset.theme = kept.theme || system;
+  at("theme").addEventListener("click", () => { kept.theme = root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; });
 }
 
 // The state of the address, or else the first example.

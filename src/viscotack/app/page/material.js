@@ -12,7 +12,7 @@ export function material(host, store) {
   host.append(h("div", { class: "view" }, left, h("section", { class: "card side" }, h("h2", {}, "A DMA file"), file.drop,
     h("p", { class: "hint" }, "TA TRIOS, RheoCompass, Eplexor, RepTate, workbooks or plain tables. What a file does not say is asked for."), file.said, file.form.host)));
   const plot = new Plot(left, "Modulus against frequency", { height: 340 }), residuals = new Plot(left, "Residuals of the fit", { height: 190 }), shifts = new Plot(left, "Shifts with temperature", { height: 220 });
-  file.form.input("poisson_ratio").value = "0.5";
+  file.form.fields.find(({ name }) => name === "poisson_ratio").input.value = "0.5";
   residuals.card.hidden = shifts.card.hidden = true;
   let fit = null, asked = "";
   store.addEventListener("material files", ({ detail }) => file.take(detail));

@@ -1,8 +1,7 @@
 // Every operation that the server knows, by its form; its answer as it is printed, drawn and written.
 
 import { button, fold, h, save, selection } from "./dom.js";
-import { Form } from "./form.js";
-import { cancel, follow, operate } from "./server.js";
+import { Form, compute } from "./form.js";
 
 const EXAMPLES = ["design", "window", "array", "rough"];
 // What a command line says of files, which the page saves by buttons.
@@ -33,10 +32,10 @@ export const operations = (id, ...words) => (host, store) => {
     });
     const [pictures, more] = [true, false].map((is) => outputs.filter(({ box }) => box.checked === is).map(({ line }) => line));
     const example = words.length ? written(form) : () => null;
-    const compute = () => ask(form, [...form.files, ...attached.files], example(), outputs.filter(({ box }) => box.checked).map(({ name }) => name));
+    const go = () => ask(form, [...form.files, ...attached.files], example(), outputs.filter(({ box }) => box.checked).map(({ name }) => name));
     place.replaceChildren(h("p", { class: "hint" }, operation.summary), form.host,
       ...(problem ? [button("Take the case of this page", () => { problem.input.value = JSON.stringify(store.tables, null, 1); })] : []), ...pictures,
-      h("div", { class: "field" }, h("label", { for: attached.id }, "other files that it names"), attached), ...(more.length ? [fold("more to save", more)] : []), button("Compute", compute, { id: `${id}-ask` }));
+      h("div", { class: "field" }, h("label", { for: attached.id }, "other files that it names"), attached), ...(more.length ? [fold("more to save", more)] : []), button("Compute", go, { id: `${id}-ask` }));
     told.replaceChildren();
   }
 
@@ -47,24 +46,20 @@ export const operations = (id, ...words) => (host, store) => {
     const text = h("textarea", { rows: 18, spellcheck: "false", "aria-label": `${field.name}, as text` });
     const take = button("Write it here, from an example", async () => {
       text.value = await (await fetch(`/page/example-${name}`)).text();
-      take.replaceWith(text);
-      field.row.hidden = true;
-      text.focus();
       text.setSelectionRange(0, 0);
-      text.scrollTop = 0;
+      field.row.hidden = true;
+      take.replaceWith(text);
+      text.focus();
     }, { id: `${id}-example` });
     field.row.after(h("p", { class: "hint" }, field.words), ...(EXAMPLES.includes(operation.word) ? [take] : []));
     return () => (text.value ? { option: field.name, file: new File([text.value], name) } : null);
   }
 
   async function ask(form, files, example, outputs) {
-    const bar = h("progress", { "aria-label": "How far it is" }), going = h("div", { class: "row" }, bar), at = operation;
-    told.replaceChildren(going);
+    const at = operation;
     try {
       const body = { ...form.asked, ...(example ? { [example.option]: example.file.name } : {}) };
-      const job = await operate(`jobs/${at.path}`, body, { files: example ? [...files, example.file] : files, outputs: ["words", ...outputs] });
-      going.append(button("Cancel", () => { cancel(job); told.replaceChildren(h("p", { class: "hint" }, "cancelled")); }));
-      const answer = await follow(job, ({ share }) => { if (share) bar.value = share; });
+      const answer = await compute(told, at.path, body, { files: example ? [...files, example.file] : files, outputs: ["words", ...outputs] });
       if (answer && at === operation) tell(answer);
     } catch (error) {
       told.replaceChildren(form.refused(error.message));
@@ -74,25 +69,13 @@ export const operations = (id, ...words) => (host, store) => {
   function tell({ beside: { words: said, notes, files = {} }, ...record }) {
     const text = JSON.stringify(record, null, 2), pictures = [], saves = [button("Save as JSON", () => save("answer.json", text))];
     for (const { name, kind, words: of } of operation.outputs.filter((one) => one.name in files)) {
-      if (kind === "picture") {
-        pictures.push(h("img", { src: URL.createObjectURL(new Blob([files[name]], { type: "image/svg+xml" })), alt: `${operation.word}: ${name}` }));
-        continue;
-      }
+      if (kind === "picture") { pictures.push(h("img", { src: URL.createObjectURL(new Blob([files[name]], { type: "image/svg+xml" })), alt: `${operation.word}: ${name}` })); continue; }
       const content = kind === "binary" ? new Blob([Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0))]) : files[name];
       const ending = ENDINGS[name] || /FILE(\.\w+)/.exec(of)?.[1] || (/a row|table|Write (force|depth)/.test(of) ? ".csv" : "");
       saves.push(button(`Save ${name}`, () => save(`${operation.path.replaceAll("/", "-")}-${name}${ending}`, content)));
     }
-    told.replaceChildren(h("div", { class: "row" }, saves), ...inBlocks(said || text), ...pictures, ...notes.map((note) => h("p", { class: "hint" }, note)));
+    // sentences are wrapped, rows of a table are not
+    const lines = (said || text).split("\n").map((line) => h("span", { class: / {2,}\S+.* {2,}\S/.test(line) ? "rows" : null }, `${line}\n`));
+    told.replaceChildren(h("div", { class: "row" }, saves), h("pre", { tabindex: 0, role: "region", "aria-label": "Answer in words" }, lines), ...pictures, ...notes.map((note) => h("p", { class: "hint" }, note)));
   }
 };
-
-// Lines as they are printed: sentences are wrapped, rows of a table are not.
-function inBlocks(words) {
-  const blocks = [], isRow = (line) => / {2,}\S+.* {2,}\S/.test(line);
-  for (const line of words.split("\n")) {
-    const row = isRow(line), last = blocks.at(-1);
-    if (last?.row === row) last.lines.push(line);
-    else blocks.push({ row, lines: [line] });
-  }
-  return blocks.map(({ row, lines }) => h("pre", { class: row ? "rows" : null, tabindex: 0, "aria-label": row ? "Answer, rows" : "Answer in words" }, lines.join("\n")));
-}

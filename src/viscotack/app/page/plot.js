@@ -34,10 +34,6 @@ export class Plot {
     this.paint();
   }
 
-  remark(words) {
-    this.svg.setAttribute("aria-label", `${this.title}: ${words}`);
-  }
-
   paint() {
     if (!this.axes || !this.card.clientWidth) return;
     const { height, axes, series, svg } = this, width = this.width = Math.max(Math.round(this.card.clientWidth), 240);
@@ -154,9 +150,7 @@ export class Plot {
   }
 }
 
-function round(value) {
-  return Math.round(value * 10) / 10;
-}
+const round = (value) => Math.round(value * 10) / 10;
 
 // An axis: the pixel `at` a value, its unit with a prefix, and ticks of pixel, words, and whether they stand at zero.
 function scaleOf({ log, turned, unit, least = Infinity, most = -Infinity }, lists, from, to, room) {

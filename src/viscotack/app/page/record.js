@@ -1,6 +1,6 @@
 // The record: the state as a link, a file, a command line and Python, and everything to take along.
 
-import { button, dropped, h, save } from "./dom.js";
+import { button, copied, dropped, h, save } from "./dom.js";
 import { ask } from "./server.js";
 
 export function record(host, store) {
@@ -15,10 +15,9 @@ export function record(host, store) {
 
   function text(title, what, file) {
     const shown = h("pre", { tabindex: 0, role: "region", "aria-label": title, id: `record-${title.toLowerCase().replaceAll(" ", "-")}` });
-    const copy = button("copy", () => { navigator.clipboard?.writeText(shown.textContent); copy.textContent = "copied"; }, { "aria-label": `Copy: ${title}` });
     const keep = file ? button("save", () => save(file, shown.textContent), { "aria-label": `Save: ${title}` }) : null;
     texts.push([shown, what]);
-    return [h("div", { class: "head" }, h("h2", {}, title), copy, keep), shown];
+    return [h("div", { class: "head" }, h("h2", {}, title), copied(`Copy: ${title}`, () => shown.textContent), keep), shown];
   }
 
   async function open([file]) {

@@ -3,9 +3,8 @@
 import { measured, ofSpeeds } from "./contact.js";
 import { button, h, table } from "./dom.js";
 import { reader } from "./form.js";
-import { pulled, quantity, said } from "./numbers.js";
+import { quantity, said } from "./numbers.js";
 import { Plot } from "./plot.js";
-import { curveOf } from "./store.js";
 
 const COLOURS = ["c3", "c4", "c5"];
 
@@ -39,9 +38,9 @@ export function rig(host, store) {
   }
 
   async function identify(path, more, answer) {
-    answer.replaceChildren(h("p", { class: "hint" }, "fitting …"));
     try {
-      const found = await file.ask(path, { radius: store.tables.sphere?.radius, ...more });
+      const found = await file.ask(answer, path, { radius: store.tables.sphere?.radius, ...more });
+      if (!found) return;
       answer.replaceChildren(...found.words.map((words) => h("p", {}, words)));
       if (found.equilibrium_gap_m) answer.append(button("Use this interface in the case", () => store.change({ interface: { law: "lennard-jones", work_of_adhesion: quantity(found.work_of_adhesion_J_m2, "J/m^2"), equilibrium_gap: quantity(found.equilibrium_gap_m, "m") } })));
     } catch (error) {
@@ -55,10 +54,10 @@ export function rig(host, store) {
     const { axes, curves: { elastic, surrogate, edge } } = quick, curves = found?.curves || [];
     const line = (one, colour, words = one?.words, dash = false) => (one ? [{ kind: "line", x: one.depth, y: one.force, colour, words, dash }] : []);
     plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, [
-      ...line(elastic, "c6", elastic?.words, true), ...line(edge?.applies ? edge : null, "c2", `theory: ${edge?.words}`), ...line(surrogate, "c1"), ...line(simulated && curveOf(simulated), "c0", "simulation of the case"),
+      ...line(elastic, "c6", elastic?.words, true), ...line(edge?.applies ? edge : null, "c2", `theory: ${edge?.words}`), ...line(surrogate, "c1"), ...line(simulated?.curve, "c0", "simulation of the case"),
       ...curves.slice(0, 9).map((one, i) => ({ kind: "points", x: one.depth, y: one.force, colour: COLOURS[i % 3], size: 1.6, words: `${one.file}, ${said(one.speed, "m/s", 2)}` })),
     ]);
     speeds.card.hidden = !found;
-    if (found) speeds.draw({ x: { ...axes.speed, log: true }, y: { ...pulled(quick), least: 0 } }, [...(quick.speeds ? ofSpeeds(quick.speeds, "c1") : []), measured(found)]);
+    if (found) speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pulled, least: 0 } }, [...(quick.speeds ? ofSpeeds(quick.speeds, "c1") : []), measured(found)]);
   }
 }

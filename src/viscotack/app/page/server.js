@@ -1,7 +1,5 @@
 // The way to the server: the same API that anybody else asks.
 
-export class Refused extends Error {}
-
 export async function ask(path, body, { method = body === undefined ? "GET" : "POST", signal } = {}) {
   const form = body instanceof FormData;
   const options = { method, signal, headers: body === undefined || form ? {} : { "content-type": "application/json" }, body: form ? body : JSON.stringify(body) };
@@ -10,22 +8,22 @@ export async function ask(path, body, { method = body === undefined ? "GET" : "P
     response = await fetch(path, options);
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new Refused("the server does not answer; is viscotack app still running?");
+    throw new Error("the server does not answer; is viscotack app still running?");
   }
   const answer = await response.json().catch(() => ({}));
-  if (!response.ok) throw new Refused(answer.error || `the server answered with status ${response.status}`);
+  if (!response.ok) throw new Error(answer.error || `the server answered with status ${response.status}`);
   return answer;
 }
 
-// Ask an operation, or with "jobs/" start its job; files are sent first, and named in the request.
-export async function operate(path, body, { files = [], outputs = [] } = {}) {
+// Start the job of an operation; files are sent first, and named in the request.
+export async function start(path, body, { files = [], outputs = [] } = {}) {
   const query = new URLSearchParams(outputs.map((name) => ["outputs", name]));
   if (files.length) {
     const form = new FormData();
     for (const file of files) form.append("files", file);
     query.set("files", (await ask("/api/files", form)).files);
   }
-  return ask(`/api/${path}?${query}`, body);
+  return ask(`/api/jobs/${path}?${query}`, body);
 }
 
 // Follow a job until it is over; news is given what is new, and its answer is returned, null where it was cancelled.
@@ -36,7 +34,7 @@ export async function follow(job, news) {
     points += found.points.length;
     news(found);
     if (found.answer) return found.answer;
-    if (found.error) throw new Refused(found.error);
+    if (found.error) throw new Error(found.error);
   }
 }
 

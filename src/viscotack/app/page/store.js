@@ -1,8 +1,7 @@
 // The case, and what is known of it. Views listen; nothing here draws.
 
 import { MOST_KEPT } from "./dom.js";
-import { pulled, pulledBy, workOf } from "./numbers.js";
-import { ask, cancel, follow, operate } from "./server.js";
+import { ask, cancel, follow, start } from "./server.js";
 
 const REST = 80; // milliseconds for which numbers must rest before they are simulated
 const IDLE = { state: "idle", share: 0, depth: [], force: [], error: "", answer: null, job: null, version: -1 };
@@ -48,11 +47,11 @@ export class Store extends EventTarget {
     if (!numbers || numbers.length) return numbers ?? null;
     if (!["done", "stopped", "refused"].includes(this.now("run")?.state)) return null;
     if (!this.simulated) return [];
-    const { summary } = this.simulated, error = summary.error_estimate || {}, more = { method: "simulation", why: verdict.refused };
+    const { pull, work, error } = this.simulated, more = { method: "simulation", why: verdict.refused };
     return [
-      { name: pulled(this.quick).name, value: pulledBy(summary), error: error.force, ...more },
-      { name: "work_to_pull_off", value: workOf(summary), error: error.work, ...more },
-    ].filter(({ value }) => value !== null && value !== undefined);
+      { name: this.quick.axes.pulled.name, value: pull, error: error.force, ...more },
+      { name: "work_to_pull_off", value: work, error: error.work, ...more },
+    ].filter(({ value }) => value !== null);
   }
 
   say(name, detail) {
@@ -83,8 +82,8 @@ export class Store extends EventTarget {
     else this.change({ [table]: { ...this.tables[table], [key]: value } });
   }
 
-  configure(name, value) {
-    this.settings = { ...this.settings, [name]: value };
+  configure(settings) {
+    Object.assign(this.settings, settings);
     this.take(this.tables);
   }
 
@@ -124,7 +123,7 @@ export class Store extends EventTarget {
     const judging = setTimeout(() => this.judge(run), 1500);
     try {
       const asked = { problem: this.tables, ...this.settings, time_limit: 300, profiles: true };
-      run.job = await operate("jobs/simulate", asked, { outputs: ["drawn"] });
+      run.job = await start("simulate", asked, { outputs: ["drawn"] });
       if (run !== this.run) { cancel(run.job); return; }
       const answer = await follow(run.job, (news) => {
         if (run !== this.run) return;
@@ -134,8 +133,7 @@ export class Store extends EventTarget {
         this.say("run");
       });
       if (run !== this.run || !answer) return;
-      const { beside, ...summary } = answer;
-      run.answer = { ...beside.drawn, summary };
+      run.answer = told(answer);
       run.state = run.answer.failed ? "stopped" : "done";
       run.took = performance.now() - began;
       cancel(run.job); // it has been read, and need not be kept there
@@ -165,20 +163,20 @@ export class Store extends EventTarget {
     if (run.judged || run !== this.run) return;
     run.judged = true;
     const { version, tables } = this, { signal } = this.judging = new AbortController();
-    const told = (name, answer) => { if (version === this.version) { this[name] = { ...answer, version }; this.say("verdict"); } };
+    const tell = (name, answer) => { if (version === this.version) { this[name] = { ...answer, version }; this.say("verdict"); } };
     try {
       const verdict = await ask("/api/verdict", { tables }, { signal });
-      told("verdict", verdict);
+      tell("verdict", verdict);
       const speeds = !this.quick.speeds;
-      if (speeds || verdict.crack) told("theory", await ask("/api/theory", { tables, speeds, crack: verdict.crack }, { signal }));
+      if (speeds || verdict.crack) tell("theory", await ask("/api/theory", { tables, speeds, crack: verdict.crack }, { signal }));
     } catch (error) {
-      if (error.name !== "AbortError" && !this.now("verdict")) told("verdict", { numbers: [], refused: error.message, words: [], tiers: [] });
+      if (error.name !== "AbortError" && !this.now("verdict")) tell("verdict", { numbers: [], refused: error.message, words: [], tiers: [] });
     }
   }
 
   keep(tables = this.tables, quick = this.quick, answer = this.simulated) {
     if (this.kept.length >= MOST_KEPT || !quick) return;
-    this.keepAll([...this.kept, { tables, quick, columns: answer && curveOf(answer), summary: answer?.summary }]);
+    this.keepAll([...this.kept, { tables, quick, answer }]);
   }
 
   keepAll(kept) {
@@ -188,8 +186,12 @@ export class Store extends EventTarget {
   }
 }
 
-// Depth and force of a result in SI, force positive in compression.
-export function curveOf({ columns }) {
-  const { depth_m: depth, time_s: time, force_N: force, stress_Pa: stress } = columns;
-  return { depth, time, force: force || stress.map((x) => (x === null ? null : -x)) };
+// The answer of a simulation: its summary as the command prints it, the pull-off, that of a punch as a stress, the work, their
+// errors, and its curve in SI, with the force positive in compression.
+function told({ beside, ...summary }) {
+  const { depth_m: depth, time_s: time, force_N, stress_Pa } = beside.drawn.columns;
+  return {
+    ...beside.drawn, summary, error: summary.error_estimate || {}, curve: { depth, time, force: force_N || stress_Pa.map((x) => (x === null ? null : -x)) },
+    pull: summary.pull_off_force_N ?? summary.pull_off_stress_Pa ?? null, work: summary.work_to_pull_off_J ?? summary.work_to_pull_off_J_per_m2 ?? null,
+  };
 }
