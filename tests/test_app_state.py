@@ -6,13 +6,9 @@ from urllib.parse import parse_qs
 import pytest
 
 from viscotack.app.engine.overview import quick
-from viscotack.app.engine.state import State, state_of_query, state_of_toml
+from viscotack.app.engine.state import State, state_of_toml
 from viscotack.forecast import advise, predict
 from viscotack.forecast.closed_forms import closed_forms
-<<<<<<< HEAD
-=======
-from viscotack.app.engine.state import State, state_of_toml
->>>>>>> e89fcb5f (Shorten the page: jobs for all operations, intervals in words from the server)
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.problem.case_file import read_case
 from viscotack.theory import lennard_jones
