@@ -9,7 +9,7 @@ export class Form {
       const input = control(one, `${id}-${one.name}`);
       return { ...one, input, row: h("div", { class: "field" }, h("label", { for: input.id }, one.name.replaceAll("_", " ")), input) };
     });
-    const [needed, others] = [true, false].map((is) => this.fields.filter((one) => one.needed === is).map(({ row }) => row));
+    const [needed, others] = [true, false].map((is) => this.fields.filter((one) => (one.needed || one.form === "problem") === is).map(({ row }) => row));
     this.needed = h("div", {}, needed);
     this.host = h("div", {}, this.needed, others.length ? fold("more options", others) : null);
   }
@@ -32,7 +32,7 @@ export class Form {
       if (form === "switch") { if (input.checked !== input.defaultChecked) body[name] = input.checked; } else if (!text) continue;
       else if (input.files) body[name] = [...input.files].map((file) => file.name);
       else if (many) body[name] = text.split("\n").map((line) => line.trim()).filter(Boolean);
-      else body[name] = form === "problem" && text.startsWith("{") ? JSON.parse(text) : text;
+      else body[name] = form === "problem" && text.startsWith("{") ? tablesOf(text) : text;
       if (input.files && !many) [body[name]] = body[name];
     }
     return body;
@@ -42,6 +42,8 @@ export class Form {
     return this.fields.flatMap(({ input }) => [...(input.files || [])]);
   }
 }
+
+const tablesOf = (text) => { try { return JSON.parse(text); } catch (error) { throw new Error(`problem is not JSON: ${error.message}`); } };
 
 // Compute, with a bar and a way to cancel it meanwhile; null where it was cancelled.
 export async function compute(host, path, body, options) {

@@ -8,7 +8,7 @@ import { ask } from "./server.js";
 const PARTS = { storage: ["storage modulus", "c0"], loss: ["loss modulus", "c1"], relaxation: ["relaxation modulus", "c0"], creep: ["creep compliance", "c0"] };
 
 export function material(host, store) {
-  const left = h("section", { class: "card main" }), file = reader(store.operation("material fit"), "fit", "DMA, relaxation or creep files", tell);
+  const left = h("section", { class: "card main" }), file = reader(store.operations["material fit"], "fit", "DMA, relaxation or creep files", tell);
   host.append(h("div", { class: "view" }, left, h("section", { class: "card side" }, h("h2", {}, "A DMA file"), file.drop,
     h("p", { class: "hint" }, "TA TRIOS, RheoCompass, Eplexor, RepTate, workbooks or plain tables. What a file does not say is asked for."), file.said, file.form.host)));
   const plot = new Plot(left, "Modulus against frequency", { height: 340 }), residuals = new Plot(left, "Residuals of the fit", { height: 190 }), shifts = new Plot(left, "Shifts with temperature", { height: 220 });

@@ -10,10 +10,10 @@ const ENDINGS = { csv: ".csv", c: ".h", fmu: ".fmu", parquet: ".parquet", mat: "
 
 // A view of some operations, or of all; alone, without the case of the page, where they are named.
 export const operations = (id, ...words) => (host, store) => {
-  const known = words.length ? words.map((word) => store.operation(word)) : store.operations.filter(({ local }) => !local);
+  const known = words.length ? words.map((word) => store.operations[word]) : Object.values(store.operations).filter(({ local }) => !local);
   const place = h("div"), told = h("div", { role: "status" }), [view, asked] = decodeURIComponent(location.hash.slice(1)).split("=");
   let operation = known.find(({ word }) => view === id && word === asked) || known[0];
-  const chosen = (word) => { operation = known.find((one) => one.word === word); show(); history.replaceState(null, "", `#${hash()}`); };
+  const chosen = (word) => { operation = store.operations[word]; show(); history.replaceState(null, "", `#${hash()}`); };
   const choice = selection("Task", known.map(({ word }) => [word, word]), operation.word, chosen, { id });
   const hash = () => (known.length > 1 ? `${id}=${encodeURIComponent(operation.word)}` : id);
   host.append(h("div", { class: "view asked" },

@@ -10,7 +10,7 @@ const COLOURS = ["c3", "c4", "c5"];
 
 export function rig(host, store) {
   const left = h("section", { class: "card main" }), cycles = h("div"), below = h("section", { class: "card wide", hidden: true }, h("h2", {}, "Cycles"), cycles);
-  const file = reader(store.operation("test read"), "rig", "tack tests or force curves", tell);
+  const file = reader(store.operations["test read"], "rig", "tack tests or force curves", tell);
   host.append(h("div", { class: "view" }, left, h("section", { class: "card side" }, h("h2", {}, "Files of a rig"), file.drop,
     h("p", { class: "hint" }, "CSV and text with units, testXpert, Nanosurf, JPK, Asylum."), file.form.host, file.said), below));
   const plot = new Plot(left, "Measured beside the forecast", { height: 360 }), speeds = new Plot(left, "Measured pull-off against speed", { height: 240 });

@@ -22,11 +22,7 @@ export class Store extends EventTarget {
 
   constructor(forms, operations) {
     super();
-    Object.assign(this, { forms, operations });
-  }
-
-  operation(word) {
-    return this.operations.find((one) => one.word === word);
+    Object.assign(this, { forms, operations: Object.fromEntries(operations.map((one) => [one.word, one])) });
   }
 
   // What was said of the present case, null while it is of the case before.
