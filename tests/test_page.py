@@ -42,6 +42,7 @@ def test_a_refusal_names_the_field_that_it_belongs_to():
     for table, key, value in (
         ("sphere", "radius", "-5 mm"),
         ("sphere", "radius", "5 kg"),
+        ("sphere", "radius", "5"),
         ("material", "poisson_ratio", 0.7),
         ("material", "glassy_modulus", "1 Pa"),
         ("interface", "equilibrium_gap", "1 km"),

@@ -14,14 +14,16 @@ export class Form {
     this.host = h("div", {}, this.needed, others.length ? fold("more options", others) : null);
   }
 
-  // The words of a refusal. Options that it names become fields in sight, the first with the focus: they stand in it as
-  // on the command line, with underscores, first of all, or in a list of what to give.
+  // The words of a refusal. Options that it names, in backquotes, as flags, with underscores or first of all, become fields
+  // in sight; the first empty one has the focus.
   refused(words) {
-    const said = words.replace(/; for example: viscotack .*$/s, "");
-    const named = this.fields.filter(({ name }) => new RegExp(`--${name.replaceAll("_", "-")}\\b|^${name}\\b|${name.includes("_") ? `\\b${name}\\b` : `(give |needs |, | or | and )${name}(?= "|,| or | and | is | are |$)`}`).test(said));
+    const spelt = (name) => [`\`${name}\``, `--${name.replaceAll("_", "-")}`, ...(name.includes("_") ? [name] : [])];
+    const named = this.fields.filter(({ name }) => spelt(name).some((spelling) => words.includes(spelling)) || RegExp(`^${name}[ :]`).test(words));
     for (const { row } of named) this.needed.append(row);
-    named[0]?.input.focus();
-    return h("p", { class: "refused" }, named.reduce((text, { name }) => text.replaceAll(`--${name.replaceAll("_", "-")}`, name).replaceAll(name, name.replaceAll("_", " ")), said));
+    named.find(({ input }) => !input.value)?.input.focus();
+    let said = words.replace(/; for example: viscotack .*$/s, "");
+    for (const { name } of named) for (const spelling of spelt(name)) said = said.replaceAll(spelling, name.replaceAll("_", " "));
+    return h("p", { class: "refused" }, said);
   }
 
   // Only what was filled in is asked: what was left out has its default where it is declared.

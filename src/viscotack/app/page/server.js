@@ -3,13 +3,7 @@
 export async function ask(path, body, { method = body === undefined ? "GET" : "POST", signal } = {}) {
   const form = body instanceof FormData;
   const options = { method, signal, headers: body === undefined || form ? {} : { "content-type": "application/json" }, body: form ? body : JSON.stringify(body) };
-  let response;
-  try {
-    response = await fetch(path, options);
-  } catch (error) {
-    if (error.name === "AbortError") throw error;
-    throw new Error("the server does not answer; is viscotack app still running?");
-  }
+  const response = await fetch(path, options).catch((error) => { throw error.name === "AbortError" ? error : new Error("the server does not answer; is viscotack app still running?"); });
   const answer = await response.json().catch(() => ({}));
   if (!response.ok) throw new Error(answer.error || `the server answered with status ${response.status}`);
   return answer;
