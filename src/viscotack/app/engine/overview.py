@@ -225,7 +225,7 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
 
 def _band(interval: tuple[float, float], scale: float, unit: str, confidence: float | None) -> str:
     """Return an interval in words."""
-    words = readable_interval(*(x * scale for x in interval), unit)
+    words = readable_interval(interval[0] * scale, interval[1] * scale, unit)
     return words if confidence is None else f"{words} in {100 * confidence:.3g} % of cases"
 
 
