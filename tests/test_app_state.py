@@ -1,11 +1,12 @@
-"""The state of the page: the same case as tables, link, file, command line and Python."""
+"""The state of the page: the same case as tables, link, file and Python."""
 
 import json
+from urllib.parse import parse_qs
 
 import pytest
 
 from viscotack.app.engine.overview import quick
-from viscotack.app.engine.state import State, state_of_query, state_of_toml
+from viscotack.app.engine.state import State, state_of_toml
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.prediction import advise, predict
 from viscotack.prediction.closed_forms import closed_forms
@@ -18,7 +19,7 @@ examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)
 @examples
 def test_link_file_and_python_state_the_same_problem(tables, tmp_path):
     state = State(tables)
-    assert state_of_query(state.query).tables == state.tables
+    assert json.loads(parse_qs(state.query)["state"][0])["case"] == state.tables
     assert state_of_toml(state.toml).tables == state.tables
     file = tmp_path / "case.toml"
     file.write_text(state.toml)

@@ -96,6 +96,15 @@ def test_a_dma_file_becomes_the_material_and_a_rig_file_stands_beside_the_foreca
     assert "lens_1000_um_s.csv" in legend and "simulation of the case" in legend
 
 
+def test_what_a_file_does_not_say_becomes_a_field_in_sight(page, server, tmp_path):
+    file = tmp_path / "dma.csv"
+    file.write_text("frequency [Hz],storage modulus [MPa],loss modulus [MPa]\n1,1,0.1\n10,2,0.2\n")
+    opened(page, server[0])
+    page.set_input_files("#material-file", file)
+    until(page, "document.activeElement.id === 'fit-kind'")  # tensile or shear?
+    assert page.is_visible("#fit-kind")
+
+
 def test_a_number_that_is_impossible_is_refused_where_it_stands(page, server):
     opened(page, server[0])
     page.fill("#sphere-radius", "-5 mm")

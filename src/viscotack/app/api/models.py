@@ -26,11 +26,9 @@ class Strict(BaseModel):
 
 
 class AskedState(Strict):
-    """A state of the page in one of its forms."""
+    """A case file, as text."""
 
-    toml: Annotated[str | None, Field(max_length=200_000)] = None
-    query: Annotated[str | None, Field(max_length=200_000)] = None
-    tables: dict[str, Any] | None = None
+    toml: Annotated[str, Field(max_length=200_000)]
 
 
 class AskedQuick(Strict):

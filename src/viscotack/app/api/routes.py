@@ -202,7 +202,7 @@ def _page(router: APIRouter, engine: Engine) -> None:
 
     @router.post("/api/state", tags=["page"])
     async def state(asked: AskedState) -> Answer:
-        """Return a state as tables, file and link, from one of the three."""
+        """Return the tables of a case file."""
         return Answer(**await engine.page(page_tasks.ask_state, asked.model_dump()))
 
     @router.post("/api/quick", tags=["page"])
@@ -211,7 +211,7 @@ def _page(router: APIRouter, engine: Engine) -> None:
         return Answer(**await engine.page(page_tasks.ask_quick, asked.model_dump()))
 
     @router.post("/api/moduli", tags=["page"])
-    async def moduli(asked: AskedQuick) -> Answer:
+    async def moduli(asked: AskedVerdict) -> Answer:
         """Return storage and loss modulus of a state's material over the frequency."""
         return Answer(**await engine.page(page_tasks.ask_moduli, asked.model_dump()))
 

@@ -6,10 +6,9 @@ The forms are plain data from which the page creates its fields.
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from viscotack.cards import Field, Pairs, Quantity, card_of, cards
+from viscotack.cards import Field, Pairs, Quantity, cards
 from viscotack.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
 from viscotack.problem import plane, revolution
-from viscotack.problem.accuracy import Accuracy
 from viscotack.problem.case_file import ProfilePoint
 from viscotack.problem.law_table import STRENGTH
 from viscotack.problem.nouns import Nouns, known
@@ -52,7 +51,7 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
     -------
     dict
         ``material``, ``interface``, ``shape``: a list of choices, each with its word, title, words
-        and fields; ``layer``; ``protocol`` with its starts, by symmetry; ``accuracy``.
+        and fields; ``layer``; ``protocol`` with its starts, by symmetry.
 
     Examples
     --------
@@ -74,7 +73,6 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
             ],
         },
         "protocol": {"revolution": _protocol(revolution.SI), "plane": _protocol(plane.SI)},
-        "accuracy": _asked("accuracy", card_of(Accuracy)),
     }
 
 

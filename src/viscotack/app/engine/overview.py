@@ -32,6 +32,7 @@ from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.theory.elastic.relaxed import contact, curve, ends
 from viscotack.theory.punch import Pad, unloading
+from viscotack.units import readable_interval
 
 # Speeds of the picture of force against speed, in one table or one by one at a millisecond each,
 # and how many decades around the present one.
@@ -99,6 +100,7 @@ def _axes(problem: Problem) -> dict[str, Any]:
     numbers = {name: kind.observables[name] for name in (pulled(kind), _WORK)}
     axes |= {name: {"words": x.words, "unit": x.unit.si} for name, x in numbers.items()}
     return axes | {
+        "pulled": axes[pulled(kind)] | {"name": pulled(kind)},
         "speed": {"words": "retraction speed", "unit": "m/s"},
         "pressure": {"words": "pressure", "unit": "Pa"},
         "gap": {"words": "gap", "unit": "m"},
@@ -211,6 +213,7 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
             "name": name,
             "value": value * units[name],
             "interval": [x * units[name] for x in interval],
+            "band": _band(interval, units[name], kind.observables[name].unit.si, answer.confidence),
             "method": answer.method,
             "confidence": answer.confidence,
             "why": answer.why,
@@ -218,6 +221,12 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
         for name, value, interval in given
         if value is not None and interval is not None
     ]
+
+
+def _band(interval: tuple[float, float], scale: float, unit: str, confidence: float | None) -> str:
+    """Return an interval in words."""
+    words = readable_interval(interval[0] * scale, interval[1] * scale, unit)
+    return words if confidence is None else f"{words} in {100 * confidence:.3g} % of cases"
 
 
 def _speeds(answer: Prediction) -> dict[str, Any]:

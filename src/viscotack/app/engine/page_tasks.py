@@ -23,7 +23,7 @@ from viscotack.version import __version__
 
 from .forms import forms
 from .overview import numbers_of, pulled, quick
-from .state import State, state_of_query, state_of_toml
+from .state import State, state_of_toml
 
 Tell = Callable[[dict[str, Any]], None]
 Asked = Mapping[str, Any]
@@ -45,27 +45,18 @@ def ask_forms(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, A
 
 
 def ask_state(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return a state in every form, from a file's text, a link's query or tables."""
-    given = [name for name in ("toml", "query", "tables") if asked.get(name) is not None]
-    if len(given) != 1:
-        raise InputError(f"give one of toml, query and tables, got {', '.join(given) or 'none'}")
-    if given == ["toml"]:
-        state = state_of_toml(asked["toml"], also)
-        state.problem  # noqa: B018  # a file that states no case is refused
-    elif given == ["query"]:
-        state = state_of_query(asked["query"], also)
-    else:
-        state = State(asked["tables"], also)
-    return {"tables": plain(dict(state.tables)), "toml": state.toml, "query": state.query}
+    """Return the tables of a case file; one that states no case is refused."""
+    state = state_of_toml(asked["toml"], also)
+    state.problem  # noqa: B018
+    return {"tables": plain(dict(state.tables))}
 
 
 def ask_quick(asked: Asked, *, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the fast overview of a state, and the state in every form."""
+    """Return the fast overview of a state, and the state as file, command and Python."""
     state = State(asked["tables"], also)
     run = {"accuracy": asked["accuracy"], "until": asked["until"]}
     return quick(state, confidence=asked["confidence"]) | {
         "toml": state.toml,
-        "query": state.query,
         "command": state.command(**run),
         "python": state.python(**run),
     }

@@ -1,7 +1,7 @@
-"""State of the page: the tables of a case, and their forms as link, file, command and Python code.
+"""State of the page: the tables of a case, and their forms as file, command and Python code.
 
-A :class:`State` contains the tables of a case file. Link, file, command line and Python code
-generated from it define the same problem and give the same digits.
+A :class:`State` contains the tables of a case file, which the link of the page holds as JSON. File,
+command line and Python code generated from it define the same problem and give the same digits.
 """
 
 import json
@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from typing import Any
-from urllib.parse import parse_qsl, urlencode
+from urllib.parse import urlencode
 
 from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml, toml_value
@@ -21,9 +21,8 @@ from viscotack.problem.nouns import known
 from viscotack.problem.problem import Problem
 from viscotack.problem.tables import Reading
 
-# Of a case that is sent: it states a few dozen numbers, a Prony series some hundred.
-_MOST_TEXT, _MOST_KEYS = 200_000, 200
-_NUMBER = re.compile(r"[+-]?(0|[1-9]\d*)(\.\d+)?([eE][+-]?\d+)?")
+# Of a case that is sent: it states a few dozen numbers.
+_MOST_KEYS = 200
 _WHERE = "the case"
 
 Tables = Mapping[str, Mapping[str, Any]]
@@ -48,11 +47,13 @@ class State:
 
     Examples
     --------
-    >>> state = state_of_query("sphere.radius=1+mm&material.poisson_ratio=0.5")
-    >>> state.tables["material"]
-    {'poisson_ratio': 0.5}
-    >>> state.query
-    'sphere.radius=1+mm&material.poisson_ratio=0.5'
+    >>> print(State({"sphere": {"radius": "5.19 mm"}, "material": {"poisson_ratio": 0.5}}).toml)
+    [sphere]
+    radius = "5.19 mm"
+    <BLANKLINE>
+    [material]
+    poisson_ratio = 0.5
+    <BLANKLINE>
     """
 
     tables: Tables
@@ -90,14 +91,8 @@ class State:
 
     @property
     def query(self) -> str:
-        """The state as the query of a link."""
-        return urlencode(
-            [
-                (f"{name}.{key}", value if isinstance(value, str) else json.dumps(value))
-                for name, table in self.tables.items()
-                for key, value in table.items()
-            ]
-        )
+        """The query of a link to the page with this state."""
+        return urlencode({"state": json.dumps({"case": self.tables})})
 
     @property
     def toml(self) -> str:
@@ -140,52 +135,18 @@ def state_of_toml(text: str, also: Iterable[Any] = ()) -> State:
     Raises
     ------
     ValueError
-        If it is not TOML, or too long.
+        If it is not TOML.
     """
-    _check_length(text)
     return State(parse_toml(text, _WHERE), tuple(also))
 
 
-def state_of_query(query: str, also: Iterable[Any] = ()) -> State:
-    """Read a state from the query of a link.
-
-    Keys without a dot belong to the page, not to the case, and are ignored.
-    """
-    _check_length(query)
-    tables: dict[str, dict[str, Any]] = {}
-    for name, value in parse_qsl(query.removeprefix("?"), keep_blank_values=True):
-        table, point, key = name.partition(".")
-        if point:
-            tables.setdefault(table, {})[key] = _value(value)
-    return State(tables, tuple(also))
-
-
-def _check_length(text: str) -> None:
-    if len(text) > _MOST_TEXT:
-        raise InputError(
-            f"{_WHERE} has {len(text):,} characters, more than the limit of {_MOST_TEXT:,}"
-        )
-
-
-def _value(text: str) -> Any:
-    """Convert a text in a link to a list, a number or text."""
-    if not text.startswith("[") and not _NUMBER.fullmatch(text):
-        return text
-    try:
-        return json.loads(text)
-    except (ValueError, RecursionError):
-        return text
-
-
 def _plain(value: Any, depth: int = 0) -> Any:
-    """Check a value of a table; numeric text is converted to a number."""
+    """Check a value of a table, and return it."""
     if isinstance(value, list | tuple) and depth < 3:
         return [_entry(entry, depth) for entry in value]
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         raise InputError(f"{_WHERE}: a value must be text, a number or a list, got {value!r:.60}")
-    if isinstance(value, str):
-        return _value(value) if _NUMBER.fullmatch(value) else value
-    if abs(value) > 1e300 or value != value:
+    if not isinstance(value, str) and (abs(value) > 1e300 or value != value):
         raise InputError(f"{_WHERE}: a number must be finite and below 1e300, got {value!r:.60}")
     return value
 

@@ -1,42 +1,31 @@
 // The one answer of the case, large, with its band and where it comes from; it stays in sight.
 
-import { element } from "./plot.js";
-import { between, percent, said } from "./numbers.js";
+import { h } from "./dom.js";
+import { percent, said, shown } from "./numbers.js";
 
-export class Answer {
-  constructor(host, store) {
-    this.host = host;
-    this.store = store;
-    this.name = element("p", "hint");
-    this.number = element("p", "large", "…");
-    this.band = element("p", "band");
-    this.from = element("p", "hint from");
-    this.refused = document.getElementById("refused");
-    host.append(this.name, this.number, this.band, this.from);
-    for (const name of ["case", "quick", "verdict", "run"]) store.addEventListener(name, () => this.draw());
-  }
-
-  // Numbers of the case before stay, dimmed, until new ones have come.
-  draw() {
-    const { store, refused } = this, { best } = store;
-    this.host.classList.toggle("stale", !best || !!store.refused);
-    if (best && best === this.drawn && !store.refused) return;
-    this.drawn = best;
+export function answer(host, store) {
+  const lines = ["hint", "large", "band", "hint from"].map((kind) => h("p", { class: kind })), refused = document.getElementById("refused");
+  host.append(...lines);
+  let drawn = null;
+  store.on("case quick verdict run", () => {
+    const { best, quick } = store;
+    host.classList.toggle("stale", !best || !!store.refused); // numbers of the case before stay, dimmed, until new ones have come
     refused.hidden = !store.refused;
-    const refusal = store.refused.replace(/^the case(, \[[\w-]+\])?:? /, "");
-    if (refused.textContent !== refusal) refused.textContent = refusal;
-    if (!best) return;
-    const [first] = best;
-    const { words } = store.quick.axes[first ? first.name : "pull_off_force"] ?? store.quick.axes.pull_off_stress;
-    this.name.textContent = words;
-    this.number.textContent = first ? said(first.value, store.quick.axes[first.name].unit) : "no answer";
-    this.band.textContent = first ? bandOf(first, store.quick.axes[first.name].unit) : "";
-    this.from.textContent = first ? `by the ${first.method}${first.why ? `: ${first.why}` : ""}` : [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join(" ");
-    this.from.title = this.from.textContent;
-  }
+    const { words } = refusalOf(store.refused);
+    if (refused.textContent !== words) refused.textContent = words;
+    if (!best || best === drawn) return;
+    drawn = best;
+    const [first] = best, { words: name, unit } = first ? quick.axes[first.name] : quick.axes.pulled, why = [store.verdict?.refused, store.run.error || store.run.answer?.summary.status].filter(Boolean).join(" ");
+    const texts = first ? [name, said(first.value, unit), bandOf(first), `by the ${first.method}${first.why ? `: ${first.why}` : ""}`] : [name, "no answer", "", why];
+    lines.forEach((line, i) => { if (line.textContent !== texts[i]) line.textContent = texts[i]; });
+    lines[3].title = texts[3];
+  });
 }
 
-export function bandOf({ interval, confidence, error }, unit) {
-  if (interval) return `${between(...interval, unit)} in ${percent(confidence)} of cases`;
-  return error ? `numerical error ${percent(error)}` : "";
+export const bandOf = ({ band, error }) => shown(band || (error ? `numerical error ${percent(error)}` : ""));
+
+// "the case, [sphere] radius is missing; write for example radius = "5 mm"" -> its table, and words that fit a field.
+export function refusalOf(refused) {
+  const [, table = "", rest] = /^the case(?:, \[([\w-]+)\])?:? ?(.*)/s.exec(refused) || [null, "", refused];
+  return { table, words: rest.replace(/write for example \w+ = "?([^"]*)"?/, "for example $1") };
 }

@@ -1,70 +1,91 @@
 // The form of an operation, drawn from its declaration: a new option is in it by itself.
 
-import { element } from "./plot.js";
-
-const ROWS = { problem: 8, rows: 4 };
+import { button, dropped, fold, h } from "./dom.js";
+import { cancel, follow, start } from "./server.js";
 
 export class Form {
-  constructor(host, operation, id, { skip = [] } = {}) {
-    this.fields = [];
-    const more = element("details", ""), needed = this.needed = element("div", "");
-    more.append(element("summary", "", "more options"));
-    for (const one of operation.options) {
-      if (skip.includes(one.name) || one.form === "folder") continue;
-      const row = element("div", "field"), label = element("label", "", one.name.replaceAll("_", " ")), input = control(one);
-      input.id = label.htmlFor = `${id}-${one.name}`;
-      input.title = one.words;
-      row.append(label, input);
-      (one.needed ? needed : more).append(row);
-      this.fields.push({ ...one, input });
-    }
-    host.append(needed);
-    if (more.children.length > 1) host.append(more);
+  constructor(operation, id, skip = []) {
+    this.fields = operation.options.filter(({ name }) => !skip.includes(name)).map((one) => {
+      const input = control(one, `${id}-${one.name}`);
+      return { ...one, input, row: h("div", { class: "field" }, h("label", { for: input.id }, one.name.replaceAll("_", " ")), input) };
+    });
+    const [needed, others] = [true, false].map((is) => this.fields.filter((one) => (one.needed || one.form === "problem") === is).map(({ row }) => row));
+    this.needed = h("div", {}, needed);
+    this.host = h("div", {}, this.needed, others.length ? fold("more options", others) : null);
   }
 
-  // A field, for whoever drew the form and fills it: with files that are dropped, the case of the page.
-  input(name) {
-    return this.fields.find((field) => field.name === name)?.input;
-  }
-
-  // The words of a refusal; the options that it names become fields in sight, the first of them with the focus.
+  // The words of a refusal. Options that it names, in backquotes, as flags, with underscores or first of all, become fields
+  // in sight; the first empty one has the focus.
   refused(words) {
-    const spoken = (name) => name.replaceAll("_", " ");
-    // a name of one word may be a word of the sentence as well, and is one where it stands in a list of what to give
-    const named = this.fields.filter(({ name }) => new RegExp(name.includes("_") ? `\\b${name}\\b` : `(give |needs |, | or | and )${name}(?= "|,| or |$)`).test(words));
-    for (const { input } of named) this.needed.append(input.parentElement);
-    named[0]?.input.focus();
-    return element("p", "refused", named.reduce((text, { name }) => text.replaceAll(name, spoken(name)), words));
+    const spelt = (name) => [`\`${name}\``, `--${name.replaceAll("_", "-")}`, ...(name.includes("_") ? [name] : [])];
+    const named = this.fields.filter(({ name }) => spelt(name).some((spelling) => words.includes(spelling)) || RegExp(`^${name}[ :]`).test(words));
+    for (const { row } of named) this.needed.append(row);
+    named.find(({ input }) => !input.value)?.input.focus();
+    let said = words.replace(/; for example: viscotack .*$/s, "");
+    for (const { name } of named) for (const spelling of spelt(name)) said = said.replaceAll(spelling, name.replaceAll("_", " "));
+    return h("p", { class: "refused" }, said);
   }
 
-  // Only what was filled in is sent: what was left out has its default where it is declared.
-  fill(body) {
+  // Only what was filled in is asked: what was left out has its default where it is declared.
+  get asked() {
+    const body = {};
     for (const { name, form, many, input } of this.fields) {
-      if (form === "file") for (const file of input.files) body.append(name, file);
-      else if (form === "switch") { if (input.checked !== input.defaultChecked) body.append(name, String(input.checked)); }
-      else if (many) for (const line of input.value.split("\n")) { if (line.trim()) body.append(name, line.trim()); }
-      else if (input.value.trim()) body.append(name, input.value.trim());
+      const text = input.value.trim();
+      if (form === "switch") { if (input.checked !== input.defaultChecked) body[name] = input.checked; } else if (!text) continue;
+      else if (input.files) body[name] = [...input.files].map((file) => file.name);
+      else if (many) body[name] = text.split("\n").map((line) => line.trim()).filter(Boolean);
+      else body[name] = form === "problem" && text.startsWith("{") ? tablesOf(text) : text;
+      if (input.files && !many) [body[name]] = body[name];
     }
     return body;
   }
+
+  get files() {
+    return this.fields.flatMap(({ input }) => [...(input.files || [])]);
+  }
 }
 
-function control(one) {
-  if (one.form === "choice" && !one.many) {
-    const select = element("select", ""), usual = element("option", "", one.default === null || one.default === "" ? "" : `${one.default} (usual)`);
-    usual.value = "";
-    select.append(usual, ...one.choices.map((word) => element("option", "", word)));
-    return select;
+const tablesOf = (text) => { try { return JSON.parse(text); } catch (error) { throw new Error(`problem is not JSON: ${error.message}`); } };
+
+// Compute, with a bar and a way to cancel it meanwhile; null where it was cancelled.
+export async function compute(host, path, body, options) {
+  const bar = h("progress", { "aria-label": "How far it is" }), going = h("div", { class: "row" }, bar);
+  host.replaceChildren(going);
+  const job = await start(path, body, options);
+  going.append(button("Cancel", () => { cancel(job); host.replaceChildren(h("p", { class: "hint" }, "cancelled")); }));
+  return follow(job, ({ share }) => { if (share) bar.value = share; });
+}
+
+// A laboratory's files, read by an operation when they are dropped: what they do not say becomes fields. The answer is
+// given to `told`, null where there is none.
+export function reader(operation, id, words, told) {
+  const form = new Form(operation, id, ["files"]), said = h("div", { role: "status" }), found = { form, said, take, ask, drop: dropped(words, `${id}-files`, take) };
+  let files = [];
+  form.needed.addEventListener("change", () => files.length && take(files));
+  return found;
+
+  async function take(taken) {
+    files = taken;
+    let answer = null;
+    try {
+      answer = (await ask(said, operation.path, {}, ["drawn"]))?.beside.drawn;
+    } catch (error) {
+      said.replaceChildren(form.refused(error.message), button("Read it again", () => take(files)));
+    }
+    told(answer);
   }
-  if (one.many && one.form !== "file" || ROWS[one.form]) {
-    const area = element("textarea", "");
-    area.rows = ROWS[one.form] || 2;
-    area.placeholder = one.many ? `${one.example || one.choices.join(", ")}, one a line` : one.form === "rows" ? '[{"protocol.speed": 1e-5}]' : "";
-    return area;
+
+  // Any operation on these files, read in the same way.
+  function ask(host, path, more, outputs = []) {
+    return compute(host, path, { ...form.asked, ...more, files: files.map(({ name }) => name) }, { files: [...files, ...form.files], outputs });
   }
-  const input = element("input", "");
-  if (one.form === "file") { input.type = "file"; input.multiple = one.many; }
-  else if (one.form === "switch") { input.type = "checkbox"; input.checked = input.defaultChecked = one.default === true; }
-  else input.placeholder = one.example || (one.default === null ? one.unit === "1" ? "" : one.unit : String(one.default));
-  return input;
+}
+
+function control({ name, form, many, choices, example, unit, words, default: usual }, id) {
+  const more = { id, title: words };
+  if (form === "choice" && !many) return h("select", more, h("option", { value: "" }, usual === null || usual === "" ? "" : `${usual} (usual)`), choices.map((word) => h("option", { value: word }, word)));
+  if (form === "file" || form === "rows") return h("input", { ...more, type: "file", multiple: many });
+  if (form === "switch") return h("input", { ...more, type: "checkbox", checked: usual === true });
+  if (many || form === "problem") return h("textarea", { ...more, rows: many ? 2 : 8, placeholder: many ? `${example || choices.join(", ")}, one a line` : "" });
+  return h("input", { ...more, placeholder: example || (usual === null ? (unit === "1" ? "" : unit) : String(usual)) });
 }

@@ -1,123 +1,99 @@
 // The page: its views, its case, and what the address says of them.
 
-import { Store } from "./store.js";
-import { Fields } from "./fields.js";
-import { Answer } from "./answer.js";
-import { Contact } from "./contact.js";
-import { Material } from "./material.js";
-import { Rig } from "./rig.js";
-import { Compare } from "./compare.js";
-import { Record } from "./record.js";
-import { Operations, some } from "./operations.js";
+import { answer } from "./answer.js";
+import { compare } from "./compare.js";
+import { contact } from "./contact.js";
+import { MOST_KEPT, h } from "./dom.js";
+import { fields } from "./fields.js";
+import { material } from "./material.js";
+import { operations } from "./operations.js";
+import { record } from "./record.js";
+import { rig } from "./rig.js";
 import { ask } from "./server.js";
-import { theme } from "./theme.js";
-import { element } from "./plot.js";
+import { Store } from "./store.js";
 
-// A view more is a line more: its class draws into an element, and listens to the store.
-const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["design", "Design", some("design", "design", "uncertainty")], ["window", "Pick and print", some("window", "window")], ["array", "Arrays", some("array", "array", "theory rectangle")], ["rough", "Rough surfaces", some("rough", "rough")], ["report", "Reports", some("report", "report", "forecast", "next-test")], ["operations", "All operations", Operations]];
+// A view more is a line more: its function draws into an element, and listens to the store.
+const VIEWS = [
+  ["contact", "Contact", contact], ["material", "Material", material], ["rig", "Rig", rig], ["compare", "Compare", compare], ["record", "Record", record],
+  ["design", "Design", operations("design", "design", "uncertainty")], ["window", "Pick and print", operations("window", "window")],
+  ["array", "Arrays", operations("array", "array")], ["rough", "Rough surfaces", operations("rough", "rough")],
+  ["report", "Reports", operations("report", "report", "forecast", "next-test")], ["operations", "All operations", operations("operations")],
+];
+const at = (id) => document.getElementById(id);
 
 async function begin() {
   theme();
-  const [forms, { operations }] = await Promise.all([ask("/api/forms"), ask("/api/operations")]);
-  const store = new Store(forms);
-  store.operations = operations;
-  window.viscotack = store;
-  const views = tabs(store);
-  new Answer(document.getElementById("best"), store);
-  new Fields(document.getElementById("fields"), store);
-  examples(store);
-  let frame = 0;
-  // what many events ask for is drawn once
-  store.addEventListener("quick", () => { cancelAnimationFrame(frame); frame = requestAnimationFrame(() => { document.body.dataset.drawn = store.version; }); });
-  store.addEventListener("run", () => { document.body.dataset.run = store.run.state; });
+  const [forms, known] = await Promise.all([ask("/api/forms"), ask("/api/operations")]);
+  const store = window.viscotack = new Store(forms, known.operations);
+  tabs(store);
+  answer(at("best"), store);
+  fields(at("fields"), store);
+  at("example").append(h("option", { value: "" }, "choose …"), ...Object.keys(forms.examples).map((words) => h("option", { value: words }, words)));
+  at("example").addEventListener("change", ({ target }) => target.value && store.take(forms.examples[target.value]));
+  store.on("run", () => { document.body.dataset.run = store.run.state; });
   await restore(store);
-  return views;
 }
 
-// The case of the address, or else the first example.
+// Light or dark, as the system has it or as was chosen before.
+function theme() {
+  const root = document.documentElement, system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  let kept = {};
+  try { kept = localStorage; } catch { /* a browser that keeps nothing */ }
+  root.dataset.theme = kept.theme || system;
+  at("theme").addEventListener("click", () => { kept.theme = root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; });
+}
+
+// The state of the address, or else the first example.
 async function restore(store) {
-  const more = new URLSearchParams(location.search);
-  const query = [...more].filter(([name]) => name.includes("."));
-  if (more.get("accuracy")) store.settings.accuracy = Number(more.get("accuracy")) || store.settings.accuracy;
-  if (["detached", "pull-off"].includes(more.get("until"))) store.settings.until = more.get("until");
-  let tables = Object.values(store.forms.examples)[0];
-  if (query.length) tables = await stated(new URLSearchParams(query).toString()) || tables;
-  store.take(structuredClone(tables));
-  for (const kept of more.getAll("keep").slice(0, 4)) {
-    const known = await stated(kept);
-    if (!known) continue;
-    const quick = await ask("/api/quick", { tables: known }).catch(() => null);
-    if (quick) store.kept.push({ tables: known, query: kept, quick, columns: null, summary: null });
-  }
-  store.say("kept");
-}
-
-async function stated(query) {
+  let state = {};
   try {
-    return (await ask("/api/state", { query })).tables;
-  } catch (error) {
-    document.getElementById("status").textContent = error.message;
-    return null;
+    state = JSON.parse(new URLSearchParams(location.search).get("state")) || {};
+  } catch {
+    at("status").textContent = "the link is not whole; the first example is shown";
   }
-}
-
-function examples(store) {
-  const select = document.getElementById("example");
-  const first = element("option", "", "choose …");
-  first.value = "";
-  select.append(first, ...Object.keys(store.forms.examples).map((words) => element("option", "", words)));
-  select.addEventListener("change", () => {
-    const tables = store.forms.examples[select.value];
-    if (tables) store.take(structuredClone(tables));
-  });
+  const { case: tables, kept = [], ...settings } = state;
+  for (const name of ["accuracy", "until"]) if (settings[name]) store.settings[name] = settings[name];
+  store.take(tables || Object.values(store.forms.examples)[0]);
+  for (const one of kept.slice(0, MOST_KEPT)) {
+    const quick = await ask("/api/quick", { tables: one }).catch(() => null);
+    store.keep(one, quick, null);
+  }
 }
 
 function tabs(store) {
-  const list = document.getElementById("tabs"), content = document.getElementById("content");
   const shown = location.hash.slice(1).split("=")[0];
-  const all = VIEWS.map(([id, words, View]) => {
-    const tab = element("button", "", words), panel = element("div", "");
-    tab.type = "button";
-    tab.id = `tab-${id}`;
-    tab.setAttribute("role", "tab");
-    tab.setAttribute("aria-controls", `view-${id}`);
-    panel.id = `view-${id}`;
-    panel.setAttribute("role", "tabpanel");
-    panel.setAttribute("aria-labelledby", tab.id);
-    panel.hidden = true;
-    list.append(tab);
-    content.append(panel);
-    const one = { id, tab, panel, view: new View(panel, store) };
-    tab.addEventListener("click", () => show(one));
+  const all = VIEWS.map(([id, words, make]) => {
+    const panel = h("div", { id: `view-${id}`, role: "tabpanel", "aria-labelledby": `tab-${id}`, hidden: true });
+    const one = { id, panel, tab: h("button", { type: "button", id: `tab-${id}`, role: "tab", "aria-controls": panel.id, click: () => show(one) }, words) };
+    at("tabs").append(one.tab);
+    at("content").append(panel);
+    one.view = make(panel, store) || {};
     return one;
   });
   const show = (chosen) => {
-    for (const one of all) {
-      const is = one === chosen;
-      one.panel.hidden = !is;
-      one.tab.setAttribute("aria-selected", is);
-      one.tab.tabIndex = is ? 0 : -1;
+    for (const { tab, panel } of all) {
+      const is = panel === chosen.panel;
+      panel.hidden = !is;
+      tab.setAttribute("aria-selected", is);
+      tab.tabIndex = is ? 0 : -1;
     }
     document.body.dataset.view = chosen.id;
     document.body.classList.toggle("alone", !!chosen.view.alone);
-    history.replaceState(null, "", location.pathname + location.search + (chosen.id === all[0].id ? "" : `#${chosen.view.hash || chosen.id}`));
+    history.replaceState(null, "", location.pathname + location.search + (chosen === all[0] ? "" : `#${chosen.view.hash?.() || chosen.id}`));
     chosen.view.shown?.();
   };
-  list.addEventListener("keydown", (event) => {
+  at("tabs").addEventListener("keydown", (event) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step) return;
-    const now = all.findIndex(({ tab }) => tab === document.activeElement);
-    const next = all[(now + step + all.length) % all.length];
+    const next = all[(all.findIndex(({ tab }) => tab === document.activeElement) + step + all.length) % all.length];
     show(next);
     next.tab.focus();
     event.preventDefault();
   });
   show(all.find(({ id }) => id === shown) || all[0]);
-  return all;
 }
 
-begin().catch((error) => {
-  const words = document.getElementById("refused"); // before there is a case
-  words.hidden = false;
-  words.textContent = error.message;
+begin().catch((error) => { // before there is a case
+  at("refused").hidden = false;
+  at("refused").textContent = error.message;
 });

@@ -27,38 +27,10 @@ export function said(value, unit, count = 4) {
   return `${digits(value / factor, count)} ${word}`.trim();
 }
 
-// An interval with one prefix, and at least two digits of its width.
-export function between(low, high, unit) {
-  const width = high - low, size = Math.max(Math.abs(low), Math.abs(high));
-  const count = width > 0 && width < size ? Math.max(3, Math.min(2 + Math.ceil(Math.log10(size / width)), 8)) : 3;
-  if (low !== 0 && 1000 * Math.abs(low) < Math.abs(high)) return `${said(low, unit, count)} to ${said(high, unit, count)}`;
-  const { factor, unit: word } = prefixOf(Number(size.toPrecision(count)), unit);
-  const [first, last] = [low, high].map((x) => digits(x / factor, count));
-  return `${first}${first === last ? "" : ` to ${last}`} ${word}`.trim();
-}
-
-export function percent(share) {
-  return `${digits(100 * share, 2)} %`;
-}
-
-// The axis of what a case is pulled off by: the force of a sphere or the stress of a punch.
-export function pulled({ axes }) {
-  return axes.pull_off_force ?? axes.pull_off_stress;
-}
-
-// What was simulated of it, from the summary of a simulation.
-export function pulledBy(summary) {
-  return summary.pull_off_force_N ?? summary.pull_off_stress_Pa;
-}
-
-export function workOf(summary) {
-  return summary.work_to_pull_off_J ?? summary.work_to_pull_off_J_per_m2;
-}
-
-// What a user typed, as it is shown: keyboards have a "u" for micro.
-export function shown(text) {
-  return String(text ?? "–").replace(/(\d\s*)u(?=[mNsJP])/g, "$1µ");
-}
+export const percent = (share) => `${digits(100 * share, 2)} %`;
+// A number in SI as a file states it, and what a user typed as it is shown: keyboards have a "u" for micro.
+export const quantity = (number, unit) => said(number, unit).replace("µ", "u");
+export const shown = (text) => String(text ?? "–").replace(/(\d\s*)u(?=[mNsJP])/g, "$1µ");
 
 const QUANTITY = /^\s*([a-z]+ )?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*((?![,.\d]).*?)\s*$/i;
 
@@ -79,39 +51,27 @@ export function written({ word, number, unit, si }) {
   return word + (si ? quantity(number, unit) : `${Number(number.toPrecision(4))} ${unit}`.trim());
 }
 
-// A number in SI as a file states it.
-export function quantity(number, unit) {
-  return said(number, unit).replace("µ", "u");
-}
-
 // The slider of a field: from the least to the most that its card allows, in about a hundred steps; where only
 // the sign is known, over four decades around its example in steps of 12 % (20 a decade, the series R20); else to
-// twice the number on both sides. A number beyond widens the slider; one that is not allowed has none. `at` turns a place into a number, `of` a
-// number into a place.
-export function sliderOf(card, quantity) {
-  const low = card.least ?? card.above, high = card.most;
-  const example = quantity.si ? Math.abs(read(card.example, card.unit)?.number) || quantity.number : quantity.number;
+// twice the number on both sides. A number beyond widens the slider; one that is not allowed has none. `at` turns a
+// place into a number, `of` a number into a place.
+export function sliderOf(card, { number, si }) {
+  const low = card.least ?? card.above, high = card.most, example = (si && Math.abs(read(card.example, card.unit)?.number)) || number;
+  const steps = (span) => { const power = 10 ** Math.floor(Math.log10(span / 50)); return Number(([5, 2, 1].find((x) => x * power <= span / 50) * power).toPrecision(1)); };
   if (low !== null && high !== null) {
-    const step = roundStep(high - low), first = card.least === null ? low + step : low;
-    return linear(first, high, step);
+    const step = steps(high - low);
+    return linear(card.least === null ? low + step : low, high, step);
   }
-  if (low !== null && quantity.number <= low) return null;
-  if (low !== null && low >= 0) {
-    const middle = Math.floor(Math.log10(example));
-    const first = Math.min(middle - 2, Math.floor(Math.log10(quantity.number)));
-    const last = Math.max(middle + 2, Math.ceil(Math.log10(quantity.number)));
-    return { min: 20 * first, max: 20 * last, step: 1, ends: [10 ** first, 10 ** last], at: (x) => Number((10 ** (x / 20)).toPrecision(2)), of: (v) => 20 * Math.log10(v) };
+  if (low !== null && number <= low) return null;
+  if (low === null || low < 0) {
+    const reach = 2 * Math.max(example, Math.abs(number)) || 1, step = steps(2 * reach), end = Math.ceil(reach / step) * step;
+    return linear(-end, end, step);
   }
-  const reach = 2 * Math.max(example, Math.abs(quantity.number)) || 1, step = roundStep(2 * reach);
-  return linear(-Math.ceil(reach / step) * step, Math.ceil(reach / step) * step, step);
+  const middle = Math.floor(Math.log10(example)), first = Math.min(middle - 2, Math.floor(Math.log10(number))), last = Math.max(middle + 2, Math.ceil(Math.log10(number)));
+  return { min: 20 * first, max: 20 * last, step: 1, ends: [10 ** first, 10 ** last], at: (x) => Number((10 ** (x / 20)).toPrecision(2)), of: (v) => 20 * Math.log10(v) };
 }
 
 function linear(first, last, step) {
-  const at = (x) => Number((Number(x)).toPrecision(6));
-  return { min: at(first), max: at(last), step, ends: [at(first), at(last)], at, of: (v) => v };
-}
-
-function roundStep(span) {
-  const power = 10 ** Math.floor(Math.log10(span / 50));
-  return Number(([5, 2, 1].find((x) => x * power <= span / 50) * power).toPrecision(1));
+  const at = (x) => Number(Number(x).toPrecision(6)), ends = [at(first), at(last)];
+  return { min: ends[0], max: ends[1], step, ends, at, of: (v) => v };
 }

@@ -1,162 +1,81 @@
 // Every operation that the server knows, by its form; its answer as it is printed, drawn and written.
 
-import { element, save } from "./plot.js";
-import { button, card } from "./contact.js";
-import { Form } from "./form.js";
-import { ask, cancel, follow } from "./server.js";
+import { button, fold, h, save, selection } from "./dom.js";
+import { Form, compute } from "./form.js";
 
 const EXAMPLES = ["design", "window", "array", "rough"];
 // What a command line says of files, which the page saves by buttons.
 const ON_THE_LINE = /(; - is standard output|,? to an? \.\w+.*)\.?$/;
+const ENDINGS = { csv: ".csv", c: ".h", fmu: ".fmu", parquet: ".parquet", mat: ".mat", xlsx: ".xlsx", maps: ".npz", film: ".gif", movie: ".mp4" };
 
-export class Operations {
-  constructor(host, store, id = "operation", words = null) {
-    this.alone = !!words; // the case of the page is not asked for
-    this.store = store;
-    this.id = id;
-    this.view = words ? id : "operations";
-    const box = element("div", "view asked");
-    host.append(box);
-    const side = card(box, "side"), label = element("label", "", "Task");
-    this.select = element("select", "");
-    this.select.id = label.htmlFor = id;
-    const there = store.operations.filter(({ refused }) => !refused.http);
-    this.known = words ? words.map((name) => there.find(({ word }) => word === name)) : there;
-    this.select.append(...this.known.map(({ word }) => element("option", "", word)));
-    const [view, word] = decodeURIComponent(location.hash.slice(1)).split("=");
-    if (view === this.view && this.known.some((one) => one.word === word)) this.select.value = word;
-    this.select.addEventListener("change", () => { this.show(); history.replaceState(null, "", `#${this.hash}`); });
-    this.words = element("p", "hint", "");
-    this.form = element("div", "");
-    if (this.known.length > 1) side.append(label, this.select);
-    else side.append(element("h2", "", this.known[0].word));
-    side.append(this.words, this.form);
-    const main = card(box, "main");
-    this.said = element("div", "");
-    this.said.setAttribute("role", "status");
-    main.append(element("h2", "", "Answer"), this.said);
-    this.show();
-  }
+// A view of some operations, or of all; alone, without the case of the page, where they are named.
+export const operations = (id, ...words) => (host, store) => {
+  const known = words.length ? words.map((word) => store.operations[word]) : Object.values(store.operations).filter(({ local }) => !local);
+  const place = h("div"), told = h("div", { role: "status" }), [view, asked] = decodeURIComponent(location.hash.slice(1)).split("=");
+  let operation = known.find(({ word }) => view === id && word === asked) || known[0];
+  const chosen = (word) => { operation = store.operations[word]; show(); history.replaceState(null, "", `#${hash()}`); };
+  const choice = selection("Task", known.map(({ word }) => [word, word]), operation.word, chosen, { id });
+  const hash = () => (known.length > 1 ? `${id}=${encodeURIComponent(operation.word)}` : id);
+  host.append(h("div", { class: "view asked" },
+    h("section", { class: "card side" }, known.length > 1 ? [h("label", { for: id }, "Task"), choice] : h("h2", {}, operation.word), place),
+    h("section", { class: "card main" }, h("h2", {}, "Answer"), told)));
+  show();
+  return { hash, alone: words.length > 0 };
 
-  // The view and its operation, in the address.
-  get hash() {
-    return this.known.length > 1 ? `${this.view}=${encodeURIComponent(this.select.value)}` : this.view;
-  }
-
-  show() {
-    const operation = this.operation = this.known.find(({ word }) => word === this.select.value);
-    this.words.textContent = operation.summary;
-    this.form.replaceChildren();
-    this.fields = new Form(this.form, operation, this.id);
-    const problem = this.fields.fields.find(({ form }) => form === "problem");
-    if (problem) this.form.append(button("Take the case of this page", () => { problem.input.value = JSON.stringify(this.store.tables, null, 1); }));
-    if (this.alone) this.example(operation);
-    const attached = element("input", ""), label = element("label", "", "other files that it names"), row = element("div", "field");
-    attached.type = "file";
-    attached.multiple = true;
-    attached.id = label.htmlFor = `${this.id}-attached`;
-    row.append(label, attached);
+  function show() {
+    const form = new Form(operation, id), problem = form.fields.find((field) => field.form === "problem");
+    const attached = h("input", { type: "file", multiple: true, id: `${id}-attached` });
     // some answers have no curve to write: what is not asked for is not missed
-    const wanted = element("details", "");
-    wanted.append(element("summary", "", "more to save"));
-    this.outputs = operation.outputs.map(({ name, words, kind }) => {
-      const box = element("input", ""), line = element("label", "hint");
-      box.type = "checkbox";
-      box.id = `${this.id}-with-${name}`;
-      // a tab of its own shows its picture
-      box.checked = this.alone && kind === "picture";
-      line.append(box, ` ${name}: ${words.replace(ON_THE_LINE, "")}`);
-      line.style.display = "block";
-      (box.checked ? this.form : wanted).append(line);
-      return { name, box };
+    const outputs = operation.outputs.map(({ name, words: of, kind }) => {
+      const box = h("input", { type: "checkbox", id: `${id}-with-${name}`, checked: words.length > 0 && kind === "picture" });
+      return { name, box, line: h("label", { class: "hint" }, box, ` ${name}: ${of.replace(ON_THE_LINE, "")}`) };
     });
-    const go = button("Compute", () => this.ask(attached.files));
-    go.id = `${this.id}-ask`;
-    this.form.append(row, ...(wanted.children.length > 1 ? [wanted] : []), go);
-    this.said.replaceChildren();
+    const [pictures, more] = [true, false].map((is) => outputs.filter(({ box }) => box.checked === is).map(({ line }) => line));
+    const example = words.length ? written(form) : () => null;
+    const go = () => ask(form, [...form.files, ...attached.files], example(), outputs.filter(({ box }) => box.checked).map(({ name }) => name));
+    place.replaceChildren(h("p", { class: "hint" }, operation.summary), form.host,
+      ...(problem ? [button("Take the case of this page", () => { problem.input.value = JSON.stringify(store.tables, null, 1); })] : []), ...pictures,
+      h("div", { class: "field" }, h("label", { for: attached.id }, "other files that it names"), attached), ...(more.length ? [fold("more to save", more)] : []), button("Compute", go, { id: `${id}-ask` }));
+    told.replaceChildren();
   }
 
-  // What the needed file contains; it may be written here, where there is an example of it.
-  example({ word, options }) {
-    this.text = null;
-    const file = this.file = options.find(({ form, needed }) => form === "file" && needed);
-    if (!file) return;
-    const place = element("div", ""), row = this.fields.input(file.name).parentElement;
-    row.after(place);
-    place.append(element("p", "hint", file.words));
-    if (!EXAMPLES.includes(word)) return;
+  // What the needed file contains; it may be written here, where there is an example of it. Returns what says it.
+  function written(form) {
+    const field = form.fields.find((one) => one.form === "file" && one.needed), name = `${operation.word}.toml`;
+    if (!field) return () => null;
+    const text = h("textarea", { rows: 18, spellcheck: "false", "aria-label": `${field.name}, as text` });
     const take = button("Write it here, from an example", async () => {
-      const text = element("textarea", ""), found = await fetch(`/page/example-${word}.toml`);
-      text.rows = 18;
-      text.spellcheck = false;
-      text.setAttribute("aria-label", `${file.name}, as text`);
-      text.value = await found.text();
-      take.replaceWith(text);
-      row.hidden = true;
-      text.focus();
+      text.value = await (await fetch(`/page/example-${name}`)).text();
       text.setSelectionRange(0, 0);
-      text.scrollTop = 0;
-      this.text = text;
-    });
-    take.id = `${this.id}-example`;
-    place.append(take);
+      field.row.hidden = true;
+      take.replaceWith(text);
+      text.focus();
+    }, { id: `${id}-example` });
+    field.row.after(h("p", { class: "hint" }, field.words), ...(EXAMPLES.includes(operation.word) ? [take] : []));
+    return () => (text.value ? { option: field.name, file: new File([text.value], name) } : null);
   }
 
-  async ask(files) {
-    const { operation } = this, body = this.fields.fill(new FormData());
-    if (this.text) body.append(this.file.name, new File([this.text.value], `${operation.word}.toml`));
-    for (const file of files) body.append("attached", file);
-    body.append("outputs", "words");
-    for (const { name, box } of this.outputs) if (box.checked) body.append("outputs", name);
-    const bar = element("progress", ""), going = element("div", "row");
-    bar.setAttribute("aria-label", "How far it is");
-    going.append(bar);
-    this.said.replaceChildren(going);
+  async function ask(form, files, example, outputs) {
+    const at = operation;
     try {
-      const job = await ask(`/api/jobs/${operation.path}`, body);
-      going.append(button("Cancel", () => { cancel(job); this.said.replaceChildren(element("p", "hint", "cancelled")); }));
-      const answer = await follow(job, ({ share }) => { if (share) bar.value = share; });
-      if (answer) this.tell(answer);
+      const body = { ...form.asked, ...(example ? { [example.option]: example.file.name } : {}) };
+      const answer = await compute(told, at.path, body, { files: example ? [...files, example.file] : files, outputs: ["words", ...outputs] });
+      if (answer && at === operation) tell(answer);
     } catch (error) {
-      this.said.replaceChildren(this.fields.refused(error.message));
+      told.replaceChildren(form.refused(error.message));
     }
   }
 
-  tell({ beside = {}, ...record }) {
-    const { words = "", notes = [], files = {} } = beside, row = element("div", "row"), text = JSON.stringify(record, null, 2);
-    row.append(button("Save as JSON", () => save("answer.json", new Blob([text]))));
-    const parts = [row, ...notes.map((note) => element("p", "hint", note))];
-    for (const { name, kind, words: of } of this.operation.outputs) {
-      if (!(name in files)) continue;
-      if (kind === "picture") {
-        const picture = element("img", "");
-        picture.src = URL.createObjectURL(new Blob([files[name]], { type: "image/svg+xml" }));
-        picture.alt = `${this.operation.word}: ${name}`;
-        parts.push(picture);
-      } else row.append(button(`Save ${name}`, () => save(`${this.operation.path.replaceAll("/", "-")}-${name}${/FILE(\.\w+)/.exec(of)?.[1] || (name === "csv" ? ".csv" : "")}`, new Blob([kind === "binary" ? Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0)) : files[name]]))));
+  function tell({ beside: { words: said, notes, files = {} }, ...record }) {
+    const text = JSON.stringify(record, null, 2), pictures = [], saves = [button("Save as JSON", () => save("answer.json", text))];
+    for (const { name, kind, words: of } of operation.outputs.filter((one) => one.name in files)) {
+      if (kind === "picture") { pictures.push(h("img", { src: URL.createObjectURL(new Blob([files[name]], { type: "image/svg+xml" })), alt: `${operation.word}: ${name}` })); continue; }
+      const content = kind === "binary" ? new Blob([Uint8Array.from(atob(files[name]), (x) => x.charCodeAt(0))]) : files[name];
+      const ending = ENDINGS[name] || /FILE(\.\w+)/.exec(of)?.[1] || (/a row|table|Write (force|depth)/.test(of) ? ".csv" : "");
+      saves.push(button(`Save ${name}`, () => save(`${operation.path.replaceAll("/", "-")}-${name}${ending}`, content)));
     }
-    parts.splice(1, 0, ...inBlocks(words || text));
-    this.said.replaceChildren(...parts);
+    // sentences are wrapped, rows of a table are not
+    const lines = (said || text).split("\n").map((line) => h("span", { class: / {2,}\S+.* {2,}\S/.test(line) ? "rows" : null }, `${line}\n`));
+    told.replaceChildren(h("div", { class: "row" }, saves), h("pre", { tabindex: 0, role: "region", "aria-label": "Answer in words" }, lines), ...pictures, ...notes.map((note) => h("p", { class: "hint" }, note)));
   }
-}
-
-// Lines as they are printed: sentences are wrapped, rows of a table are not.
-function inBlocks(words) {
-  const blocks = [], isRow = (line) => / {2,}\S+.* {2,}\S/.test(line);
-  for (const line of words.split("\n")) {
-    const row = isRow(line), last = blocks[blocks.length - 1];
-    if (last?.row === row) last.lines.push(line);
-    else blocks.push({ row, lines: [line] });
-  }
-  return blocks.map(({ row, lines }) => {
-    const block = element("pre", row ? "rows" : "", lines.join("\n"));
-    block.tabIndex = 0;
-    block.setAttribute("aria-label", row ? "Answer, rows" : "Answer in words");
-    return block;
-  });
-}
-
-// A view of some operations alone.
-export const some = (id, ...words) => class extends Operations {
-  constructor(host, store) { super(host, store, id, words); }
 };

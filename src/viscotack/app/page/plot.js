@@ -1,338 +1,184 @@
 // Pictures as SVG: axes, lines, bands, points. Colours are those of the library's pictures.
 
+import { button, escape, h, save } from "./dom.js";
 import { digits, prefixOf, said } from "./numbers.js";
 
-const SVG = "http://www.w3.org/2000/svg";
-const MARGIN = { left: 62, right: 14, top: 12, bottom: 44 };
+const LEFT = 62, RIGHT = 14, TOP = 12, BOTTOM = 44;
 const REACH = 60; // pixels from a point within which it is said
-let count = 0;
 
 export class Plot {
-  // axes: { x: { words, unit, log }, y: { ... } }; title is what a reader of the screen hears.
-  constructor(host, title, { height = 300, aspect = 0 } = {}) {
-    this.title = title;
-    this.height = height;
-    this.aspect = aspect;
-    this.series = [];
-    this.axes = null;
-    this.id = `plot${count += 1}`;
-    this.card = element("div", "");
-    const head = element("div", "head");
-    const name = element("h2", "");
-    name.textContent = title;
-    const exports = element("div", "exports");
-    for (const kind of ["SVG", "PNG", "CSV"]) {
-      const button = element("button", "");
-      button.type = "button";
-      button.textContent = kind;
-      button.setAttribute("aria-label", `Save ${title} as ${kind}`);
-      button.addEventListener("click", () => this.save(kind));
-      exports.append(button);
-    }
-    head.append(name, exports);
-    this.svg = document.createElementNS(SVG, "svg");
-    this.svg.setAttribute("class", "plot");
-    this.svg.setAttribute("role", "img");
-    this.svg.setAttribute("aria-label", title);
-    this.legend = element("ul", "legend");
-    this.card.append(head, this.svg, this.legend);
+  // drag: is given the place of a point of the series "tracked" that a pointer chooses.
+  constructor(host, title, { height = 300, drag = null } = {}) {
+    Object.assign(this, { title, height, series: [], axes: null, cursor: null });
+    this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    for (const [name, value] of Object.entries({ class: "plot", role: "img", "aria-label": title })) this.svg.setAttribute(name, value);
+    this.legend = h("ul", { class: "legend" });
+    const kinds = ["SVG", "PNG", "CSV"].map((kind) => button(kind, () => this.save(kind), { "aria-label": `Save ${title} as ${kind}` }));
+    this.card = h("div", {}, h("div", { class: "head" }, h("h2", {}, title), h("div", { class: "exports" }, kinds)), this.svg, this.legend);
     host.append(this.card);
-    this.svg.addEventListener("pointermove", (event) => this.read(this.nearest(event)));
+    const point = (event) => {
+      if (drag && event.buttons) drag(this.nearest(event, this.series.filter(({ tracked }) => tracked))?.i);
+      else this.read(this.nearest(event, this.series));
+    };
+    for (const name of ["pointermove", "pointerdown"]) this.svg.addEventListener(name, point);
     this.svg.addEventListener("pointerleave", () => this.read(null));
-    this.seen = new ResizeObserver(() => this.paint());
-    this.seen.observe(this.card);
+    new ResizeObserver(() => this.paint()).observe(this.card);
   }
 
-  draw(axes, series, extra = {}) {
+  // axes: { x: { words, unit, log, turned, least, most }, y }; a series: { kind, x, y, colour, words } and how it looks;
+  // one `beside` does not widen the axes.
+  draw(axes, series) {
     this.axes = axes;
-    this.series = series.filter((one) => one && one.x.length);
-    this.extra = extra;
+    this.series = series.filter(({ x }) => x.length);
+    this.cursor = null;
     this.paint();
   }
 
-  remark(words) {
-    this.svg.setAttribute("aria-label", `${this.title}: ${words}`);
-  }
-
   paint() {
-    const width = Math.max(Math.round(this.card.clientWidth), 240);
     if (!this.axes || !this.card.clientWidth) return;
-    const height = this.height;
-    this.size = { width, height };
-    if (!this.series.length) {
-      this.over = this.hover = null;
-      this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      this.svg.setAttribute("height", height);
-      this.svg.innerHTML = `<text x="${width / 2}" y="${height / 2}" text-anchor="middle" font-size="13" fill="var(--quiet)">nothing to draw here yet</text>`;
-      this.legend.replaceChildren();
+    const { height, axes, series, svg } = this, width = this.width = Math.max(Math.round(this.card.clientWidth), 240);
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    this.legend.replaceChildren(...series.filter(({ words }) => words).map(({ kind, dash, faint, colour, words }) => h("li", { class: kind === "line" && dash ? "dash" : kind, style: faint ? "opacity: .75" : null }, h("span", { style: `border-color: var(--${colour})` }), words)));
+    if (!series.length) {
+      svg.innerHTML = `<text x="${width / 2}" y="${height / 2}" text-anchor="middle" font-size="13" fill="var(--quiet)">nothing to draw here yet</text>`;
       return;
     }
-    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.svg.setAttribute("height", height);
-    const ranges = this.ranges();
-    const inner = { x0: MARGIN.left, x1: width - MARGIN.right, y0: height - MARGIN.bottom, y1: MARGIN.top };
-    this.toX = toPixels(ranges.x, inner.x0, inner.x1);
-    this.toY = toPixels(ranges.y, inner.y0, inner.y1);
-    this.inner = inner;
-    this.fromX = fromPixels(ranges.x, inner.x0, inner.x1);
-    const parts = [`<defs><clipPath id="${this.id}"><rect x="${inner.x0}" y="${inner.y1}" width="${inner.x1 - inner.x0}" height="${inner.y0 - inner.y1}"/></clipPath></defs>`];
-    parts.push(this.frame(ranges, inner));
-    parts.push(`<g clip-path="url(#${this.id})">`);
-    for (const one of this.series) parts.push(this.shape(one));
-    parts.push("</g>");
-    parts.push(`<g></g><g></g>`);
-    this.svg.innerHTML = parts.join("");
-    [this.over, this.hover] = [...this.svg.children].slice(-2);
-    this.words();
+    const drawn = series.filter(({ beside }) => !beside), right = width - RIGHT, foot = height - BOTTOM;
+    const x = this.x = scaleOf(axes.x, drawn.map((one) => one.x), LEFT, right, 80);
+    const y = this.y = scaleOf(axes.y, drawn.flatMap((one) => [one.y, one.low, one.high]), foot, TOP, 45);
+    const upright = x.ticks.map(([at, words]) => `<path d="M${at} ${TOP}V${foot}" stroke="var(--grid)"/><path d="M${at} ${foot}v6" stroke="var(--ink)"/><text x="${at}" y="${foot + 19}" text-anchor="middle" font-size="12" fill="var(--ink)">${words}</text>`);
+    const level = y.ticks.map(([at, words, zero]) => `<path d="M${LEFT} ${at}H${right}" stroke="var(--${zero ? "c6" : "grid"})"/><path d="M${LEFT} ${at}h-6" stroke="var(--ink)"/><text x="${LEFT - 9}" y="${at + 4}" text-anchor="end" font-size="12" fill="var(--ink)">${words}</text>`);
+    const name = ({ words, unit }, way, place) => `<text ${place} text-anchor="middle" font-size="13" fill="var(--ink)">${escape(way(unit ? `${words} [${unit}]` : words))}</text>`;
+    // the axis of depth is turned, so that a test goes to the right as it does in time
+    const turned = (words) => (axes.x.turned ? `← pressed in \u2003 ${words} \u2003 pulled up →` : words);
+    svg.innerHTML = `${upright.join("")}${level.join("")}<path d="M${LEFT} ${TOP}V${foot}H${right}" fill="none" stroke="var(--ink)" stroke-width="1.2"/>`
+      + name({ ...axes.x, unit: x.unit }, turned, `x="${(LEFT + right) / 2}" y="${foot + 38}"`) + name({ ...axes.y, unit: y.unit }, String, `transform="translate(13 ${(foot + TOP) / 2}) rotate(-90)"`)
+      + `<svg x="0" y="${TOP}" width="${right}" height="${foot - TOP}" viewBox="0 ${TOP} ${right} ${foot - TOP}">${series.map((one) => this.shape(one)).join("")}</svg><g></g><g></g>`;
+    [this.over, this.hover] = [...svg.children].slice(-2);
     if (this.cursor) this.point(...this.cursor);
   }
 
-  ranges() {
-    const found = {};
-    for (const name of ["x", "y"]) {
-      const axis = this.axes[name];
-      let low = Infinity, high = -Infinity;
-      for (const one of this.series) {
-        if (one.beside) continue;
-        for (const list of name === "x" ? [one.x] : [one.y, one.low, one.high]) {
-          if (!list) continue;
-          for (const value of list) {
-            if (value === null || !isFinite(value) || (axis.log && value <= 0)) continue;
-            if (value < low) low = value;
-            if (value > high) high = value;
-          }
-        }
-      }
-      if (axis.least !== undefined) low = Math.min(low, axis.least);
-      if (axis.most !== undefined) high = Math.max(high, axis.most);
-      if (!isFinite(low)) [low, high] = axis.log ? [1, 10] : [0, 1];
-      if (axis.log) {
-        const room = Math.max((high / low) ** 0.03, 1.1);
-        [low, high] = [low / room, high * room];
-      } else {
-        const room = (high - low || Math.abs(high) || 1) * 0.06;
-        low -= room; high += room;
-      }
-      const { factor, unit } = axis.log ? prefixOf(high / low < 1e6 ? Math.sqrt(low * high) : 1, axis.unit) : prefixOf(Math.max(Math.abs(low), Math.abs(high)) / 1.06, axis.unit);
-      found[name] = { low, high, log: !!axis.log, turned: !!axis.turned, factor, unit };
+  shape({ kind, x, y, low, high, colour, opacity = 1, faint, width = 2.2, dash, size }) {
+    const at = (list) => x.map((value, i) => [this.x.at(value), this.y.at(list[i])]), seen = faint ? 0.35 : opacity;
+    const joined = (points) => points.map((point) => point.map(round).join(" ")).join("L");
+    if (kind === "band") {
+      const [up, down] = [at(high), at(low)].map((points) => points.filter((point) => point.every(isFinite)));
+      return up.length ? `<path d="M${joined(up)}L${joined(down.reverse())}Z" fill="var(--${colour})" opacity="0.28"/>` : "";
     }
-    return found;
+    const there = at(y);
+    if (kind === "points") {
+      const radius = size || (x.length > 80 ? 2 : 4);
+      return there.filter((point) => point.every(isFinite)).map(([px, py]) => `<circle cx="${round(px)}" cy="${round(py)}" r="${radius}" fill="var(--paper)" stroke="var(--${colour})" stroke-width="1.5"/>`).join("");
+    }
+    // a gap in the numbers is a gap in the line
+    const pieces = there.reduce((all, point) => { if (point.every(isFinite)) all[all.length - 1].push(point); else all.push([]); return all; }, [[]]);
+    const path = pieces.filter(({ length }) => length).map((points) => `M${joined(points)}`).join("");
+    return `<path d="${path}" fill="none" stroke="var(--${colour})" stroke-width="${width}" stroke-linejoin="round" opacity="${seen}"${dash ? ' stroke-dasharray="6 4"' : ""}/>`;
   }
 
-  frame(ranges, inner) {
-    const parts = [];
-    for (const tick of ticksOf(ranges.x, Math.floor((inner.x1 - inner.x0) / 80))) {
-      const x = round(this.toX(tick));
-      parts.push(`<path d="M${x} ${inner.y1}V${inner.y0}" stroke="var(--grid)"/><path d="M${x} ${inner.y0}v6" stroke="var(--ink)"/>`);
-      parts.push(`<text x="${x}" y="${inner.y0 + 19}" text-anchor="middle" font-size="12" fill="var(--ink)">${label(tick, ranges.x)}</text>`);
-    }
-    for (const tick of ticksOf(ranges.y, Math.max(Math.floor((inner.y0 - inner.y1) / 45), 4))) {
-      const y = round(this.toY(tick));
-      parts.push(`<path d="M${inner.x0} ${y}H${inner.x1}" stroke="var(--grid)"/><path d="M${inner.x0} ${y}h-6" stroke="var(--ink)"/>`);
-      parts.push(`<text x="${inner.x0 - 9}" y="${y + 4}" text-anchor="end" font-size="12" fill="var(--ink)">${label(tick, ranges.y)}</text>`);
-    }
-    if (!ranges.y.log && ranges.y.low < 0 && ranges.y.high > 0) {
-      const y = round(this.toY(0));
-      parts.push(`<path d="M${inner.x0} ${y}H${inner.x1}" stroke="var(--c6)"/>`);
-    }
-    parts.push(`<path d="M${inner.x0} ${inner.y1}V${inner.y0}H${inner.x1}" fill="none" stroke="var(--ink)" stroke-width="1.2"/>`);
-    parts.push(`<text x="${(inner.x0 + inner.x1) / 2}" y="${inner.y0 + 38}" text-anchor="middle" font-size="13" fill="var(--ink)">${named(this.axes.x, ranges.x)}</text>`);
-    const middle = (inner.y0 + inner.y1) / 2;
-    parts.push(`<text transform="translate(13 ${middle}) rotate(-90)" text-anchor="middle" font-size="13" fill="var(--ink)">${named(this.axes.y, ranges.y)}</text>`);
-    return parts.join("");
-  }
-
-  shape(one) {
-    const colour = `var(--${one.colour || "c0"})`, faint = one.faint ? ' opacity="0.35"' : "";
-    if (one.kind === "band") {
-      const there = one.x.map((x, i) => [x, one.low[i], one.high[i]]).filter((row) => row.every((v) => v !== null));
-      const up = there.map(([x, , high]) => `${round(this.toX(x))} ${round(this.toY(high))}`);
-      const down = there.map(([x, low]) => `${round(this.toX(x))} ${round(this.toY(low))}`).reverse();
-      return up.length ? `<path d="M${up.join("L")}L${down.join("L")}Z" fill="${colour}" opacity="0.28"/>` : "";
-    }
-    if (one.kind === "points") {
-      const size = one.size || (one.x.length > 80 ? 2 : 4);
-      return one.x.map((x, i) => (x === null || one.y[i] === null || !isFinite(this.toY(one.y[i])) ? "" : mark(round(this.toX(x)), round(this.toY(one.y[i])), size, colour, one.filled))).join("");
-    }
-    let path = "", open = false;
-    for (let i = 0; i < one.x.length; i += 1) {
-      const x = one.x[i], y = one.y[i];
-      const there = x !== null && y !== null && isFinite(x) && isFinite(y) && !(this.axes.y.log && y <= 0);
-      if (there) path += `${open ? "L" : "M"}${round(this.toX(x))} ${round(this.toY(y))}`;
-      open = there;
-    }
-    const soft = one.soft ? ' opacity="0.45"' : "";
-    const dash = one.dash ? ' stroke-dasharray="6 4"' : "";
-    return path ? `<path d="${path}" fill="none" stroke="${colour}" stroke-width="${one.width || 2.2}" stroke-linejoin="round"${dash}${faint}${soft}/>` : "";
-  }
-
-  // The point of lines and points that is nearest to the pointer: its series and place, null where there is none.
-  nearest(event, series = this.series) {
-    if (!this.over) return null;
-    const box = this.svg.getBoundingClientRect(), scale = this.size.width / box.width;
-    const x = (event.clientX - box.left) * scale, y = (event.clientY - box.top) * scale;
-    let found = null, least = Infinity;
+  // The point of lines and points that is nearest to the pointer: its series and place.
+  nearest(event, series) {
+    if (!this.series.length || !this.width) return null;
+    const box = this.svg.getBoundingClientRect(), scale = this.width / box.width;
+    const px = (event.clientX - box.left) * scale, py = (event.clientY - box.top) * scale;
+    let found = null;
     for (const one of series) {
       if (one.kind === "band") continue;
-      for (let i = 0; i < one.x.length; i += 1) {
-        if (one.x[i] === null || one.y[i] === null) continue;
-        const far = Math.hypot(this.toX(one.x[i]) - x, this.toY(one.y[i]) - y);
-        if (far < least) { least = far; found = { one, i, far }; }
-      }
+      one.x.forEach((x, i) => {
+        const far = Math.hypot(this.x.at(x) - px, this.y.at(one.y[i]) - py);
+        if (far < (found?.far ?? Infinity)) found = { one, i, far };
+      });
     }
     return found;
   }
 
   // Say the numbers of a point under the pointer, and what it is a point of.
   read(found) {
-    if (!this.hover) return;
+    if (!this.series.length || !this.hover) return;
     if (!found || found.far > REACH) { this.hover.innerHTML = ""; return; }
-    const { one, i } = found, { x, y } = this.axes;
-    const px = round(this.toX(one.x[i])), py = round(this.toY(one.y[i]));
-    const lines = [`${said(one.y[i], y.unit)} at ${said(one.x[i], x.unit)}`, one.words || ""];
-    const [side, anchor] = px > this.size.width / 2 ? [-10, "end"] : [10, "start"], top = py < this.inner.y1 + 40 ? py + 24 : py - 26;
-    this.hover.innerHTML = `<circle cx="${px}" cy="${py}" r="4" fill="var(--ink)"/>` + lines.map((words, row) => lettered(px + side, top + 15 * row, words, anchor)).join("");
+    const { one, i } = found, { x, y } = this.axes, px = this.x.at(one.x[i]), py = this.y.at(one.y[i]);
+    const lines = [`${said(one.y[i], y.unit)} at ${said(one.x[i], x.unit)}`, one.words || ""], top = py < TOP + 40 ? py + 24 : py - 26;
+    this.hover.innerHTML = `<circle cx="${px}" cy="${py}" r="4" fill="var(--ink)"/>${lines.map((words, row) => this.lettered(px, top + 15 * row, words)).join("")}`;
   }
 
   // Mark a point, in SI, above everything.
-  point(x, y, words = "") {
+  point(x, y, words) {
     this.cursor = [x, y, words];
-    if (!this.over || x === null || y === null) return;
-    const px = round(this.toX(x)), py = round(this.toY(y));
-    const side = px > this.size.width * 0.6 ? -12 : 12;
-    this.over.innerHTML = `<circle cx="${px}" cy="${py}" r="7" fill="var(--paper)" stroke="var(--c0)" stroke-width="3"/>`
-      + (words ? lettered(px + side, Math.max(py - 12, 16), words, side < 0 ? "end" : "start") : "");
+    if (!this.series.length || !this.over || x === null || y === null) return;
+    const px = this.x.at(x), py = this.y.at(y);
+    this.over.innerHTML = `<circle cx="${px}" cy="${py}" r="7" fill="var(--paper)" stroke="var(--c0)" stroke-width="3"/>${this.lettered(px, Math.max(py - 12, 16), words)}`;
   }
 
-  words() {
-    this.legend.replaceChildren(...this.series.filter((one) => one.words).map((one) => {
-      const item = element("li", one.kind === "band" ? "band" : one.kind === "points" ? "dot" : one.dash ? "dash" : "");
-      const line = element("span", "");
-      line.style.borderColor = `var(--${one.colour || "c0"})`;
-      if (one.faint) item.style.opacity = 0.75;
-      item.append(line, document.createTextNode(one.words));
-      return item;
-    }));
+  lettered(x, y, words) {
+    const left = x > this.width / 2;
+    return `<text x="${x + (left ? -12 : 12)}" y="${y}" text-anchor="${left ? "end" : "start"}" font-size="13" font-weight="600" fill="var(--ink)" stroke="var(--paper)" stroke-width="4" paint-order="stroke">${escape(words)}</text>`;
   }
 
+  // The picture by itself, with its legend and with colours in place of their names.
   text() {
-    const style = getComputedStyle(document.documentElement);
-    const { width, height } = this.size;
-    const inner = this.svg.innerHTML.replaceAll(/var\(--([a-z0-9]+)\)/g, (_, name) => style.getPropertyValue(`--${name}`).trim());
-    const rows = [...this.legend.children].map((item, i) => {
-      const colour = getComputedStyle(item.firstChild).borderTopColor;
-      return `<g transform="translate(${MARGIN.left} ${height + 14 + 18 * i})"><path d="M0 -4h24" stroke="${colour}" stroke-width="3"/><text x="32" font-size="12" fill="${style.getPropertyValue("--ink").trim()}">${escape(item.textContent)}</text></g>`;
-    });
+    const style = getComputedStyle(document.documentElement), { width, height } = this;
+    const rows = this.series.filter(({ words }) => words).map(({ colour, words }, i) => `<g transform="translate(${LEFT} ${height + 14 + 18 * i})"><path d="M0 -4h24" stroke="var(--${colour})" stroke-width="3"/><text x="32" font-size="12" fill="var(--ink)">${escape(words)}</text></g>`);
     const whole = height + 18 * rows.length + 8;
-    return `<svg xmlns="${SVG}" width="${width}" height="${whole}" viewBox="0 0 ${width} ${whole}" font-family="sans-serif"><rect width="100%" height="100%" fill="${style.getPropertyValue("--paper").trim()}"/>${inner}${rows.join("")}</svg>`;
+    return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${whole}" viewBox="0 0 ${width} ${whole}" font-family="sans-serif"><rect width="100%" height="100%" fill="var(--paper)"/>${this.svg.innerHTML}${rows.join("")}</svg>`
+      .replaceAll(/var\((--[a-z0-9]+)\)/g, (_, name) => style.getPropertyValue(name).trim());
   }
 
   csv() {
-    const heads = [], columns = [];
-    const { x, y } = this.axes;
-    for (const one of this.series) {
-      const name = (one.words || "series").replaceAll(/[",\n]/g, " ");
-      const lists = one.kind === "band" ? [["low", one.low], ["high", one.high]] : [[y.words, one.y]];
-      heads.push(`"${name}: ${x.words}${x.unit ? ` [${x.unit}]` : ""}"`);
-      columns.push(one.x);
-      for (const [what, list] of lists) {
-        heads.push(`"${name}: ${what}${y.unit ? ` [${y.unit}]` : ""}"`);
-        columns.push(list);
-      }
-    }
-    const longest = Math.max(0, ...columns.map((list) => list.length));
-    const rows = Array.from({ length: longest }, (_, i) => columns.map((list) => list[i] ?? "").join(","));
-    return [heads.join(","), ...rows].join("\n") + "\n";
+    const { x, y } = this.axes, headed = ({ words = "series" }, name, unit) => `"${words.replaceAll(/[",\n]/g, " ")}: ${name}${unit ? ` [${unit}]` : ""}"`;
+    const columns = this.series.flatMap((one) => [
+      [headed(one, x.words, x.unit), ...one.x],
+      ...(one.kind === "band" ? ["low", "high"] : ["y"]).map((key) => [headed(one, key === "y" ? y.words : key, y.unit), ...one[key]]),
+    ]);
+    const longest = Math.max(0, ...columns.map(({ length }) => length));
+    return `${Array.from({ length: longest }, (_, i) => columns.map((column) => column[i] ?? "").join(",")).join("\n")}\n`;
   }
 
   async save(kind) {
-    const name = this.title.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-");
-    if (!this.size) return;
-    if (kind === "CSV") return save(`${name}.csv`, new Blob([this.csv()], { type: "text/csv" }));
-    const text = this.text(), svg = new Blob([text], { type: "image/svg+xml" });
-    if (kind === "SVG") return save(`${name}.svg`, svg);
-    const picture = new Image(), source = URL.createObjectURL(svg);
-    picture.src = source;
+    if (!this.width) return;
+    const name = `${this.title.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-")}.${kind.toLowerCase()}`;
+    if (kind === "CSV") { save(name, this.csv()); return; }
+    const svg = new Blob([this.text()], { type: "image/svg+xml" });
+    if (kind === "SVG") { save(name, svg); return; }
+    const picture = new Image();
+    picture.src = URL.createObjectURL(svg);
     await picture.decode();
-    const canvas = document.createElement("canvas");
-    canvas.width = 2 * picture.width; canvas.height = 2 * picture.height;
+    const canvas = h("canvas", { width: 2 * picture.width, height: 2 * picture.height });
     canvas.getContext("2d").drawImage(picture, 0, 0, canvas.width, canvas.height);
-    URL.revokeObjectURL(source);
-    canvas.toBlob((blob) => save(`${name}.png`, blob));
+    URL.revokeObjectURL(picture.src);
+    canvas.toBlob((blob) => save(name, blob));
   }
 }
 
-export function save(name, blob) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+const round = (value) => Math.round(value * 10) / 10;
+
+// An axis: the pixel `at` a value, its unit with a prefix, and ticks of pixel, words, and whether they stand at zero.
+function scaleOf({ log, turned, unit, least = Infinity, most = -Infinity }, lists, from, to, room) {
+  let low = least, high = most;
+  for (const list of lists) for (const value of list || []) if (value !== null && isFinite(value) && !(log && value <= 0)) { low = Math.min(low, value); high = Math.max(high, value); }
+  if (!isFinite(low)) [low, high] = log ? [1, 10] : [0, 1];
+  const prefix = log ? prefixOf(high / low < 1e6 ? Math.sqrt(low * high) : 1, unit) : prefixOf(Math.max(Math.abs(low), Math.abs(high)), unit);
+  const margin = log ? Math.max((high / low) ** 0.03, 1.1) : (high - low || Math.abs(high) || 1) * 0.06;
+  [low, high] = log ? [low / margin, high * margin] : [low - margin, high + margin];
+  const [first, last] = turned ? [to, from] : [from, to], by = log ? Math.log : Number;
+  const at = (value) => (value === null || (log && value <= 0) ? NaN : first + (last - first) * (by(value) - by(low)) / (by(high) - by(low)));
+  const count = Math.max(Math.floor(Math.abs(to - from) / room), 4), { factor } = prefix;
+  const ticks = ticksOf(low / factor, high / factor, count, log).map((tick) => [round(at(tick * factor)), label(tick, log), !log && tick === 0]);
+  return { at, ticks, unit: prefix.unit };
 }
 
-export function element(name, className, text = "") {
-  const found = document.createElement(name);
-  if (className) found.className = className;
-  if (text) found.textContent = text;
-  return found;
-}
-
-export function escape(text) {
-  return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
-}
-
-function lettered(x, y, words, anchor) {
-  return `<text x="${x}" y="${y}" text-anchor="${anchor}" font-size="13" font-weight="600" fill="var(--ink)" stroke="var(--paper)" stroke-width="4" paint-order="stroke">${escape(words)}</text>`;
-}
-
-function mark(x, y, size, colour, filled) {
-  return `<circle cx="${x}" cy="${y}" r="${size}" fill="${filled ? colour : "var(--paper)"}" stroke="${colour}" stroke-width="1.5"/>`;
-}
-
-function round(value) {
-  return Math.round(value * 10) / 10;
-}
-
-function toPixels({ low, high, log, turned }, from, to) {
-  if (turned) [from, to] = [to, from];
+function ticksOf(low, high, most, log) {
   if (log) {
-    const a = Math.log(low), b = Math.log(high);
-    return (value) => from + (to - from) * (Math.log(value) - a) / (b - a);
+    const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9), every = Math.max(1, Math.ceil((last - first + 1) / most));
+    if (last - first >= every) return Array.from({ length: Math.floor((last - first) / every) + 1 }, (_, i) => 10 ** (first + i * every));
   }
-  return (value) => from + (to - from) * (value - low) / (high - low);
+  const span = (high - low) / most, power = 10 ** Math.floor(Math.log10(span));
+  const step = [1, 2, 5, 10].find((x) => x * power >= span) * power, first = Math.ceil(low / step);
+  return Array.from({ length: Math.floor(high / step) - first + 1 }, (_, i) => (first + i) * step).filter((tick) => !log || tick > 0);
 }
 
-function fromPixels({ low, high, log, turned }, from, to) {
-  if (turned) [from, to] = [to, from];
-  if (log) return (pixel) => low * (high / low) ** ((pixel - from) / (to - from));
-  return (pixel) => low + (high - low) * (pixel - from) / (to - from);
-}
-
-function ticksOf({ low, high, log, factor }, most) {
-  if (log) {
-    const first = Math.ceil(Math.log10(low / factor) - 1e-9), last = Math.floor(Math.log10(high / factor) + 1e-9);
-    const every = Math.max(1, Math.ceil((last - first + 1) / Math.max(most, 2)));
-    const found = [];
-    for (let i = first; i <= last; i += every) found.push(10 ** i * factor);
-    if (found.length > 1) return found;
-  }
-  const span = (high - low) / factor / Math.max(most, 2);
-  const power = 10 ** Math.floor(Math.log10(span));
-  const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= span) * factor;
-  const found = [];
-  for (let i = Math.ceil(low / step); i * step <= high; i += 1) found.push(i * step);
-  return found;
-}
-
-function label(tick, { factor, log }) {
-  const value = tick / factor;
-  const power = Math.log10(value);
-  if (log && Math.abs(power - Math.round(power)) < 1e-6 && (value >= 1e4 || value < 1e-2)) return `10<tspan dy="-5" font-size="9">${Math.round(power)}</tspan>`;
-  return digits(Math.abs(value) < 1e-12 ? 0 : value, 3);
-}
-
-// The axis of depth is turned, so that a test goes to the right as it does in time.
-function named(axis, { unit }) {
-  const words = escape(unit ? `${axis.words} [${unit}]` : axis.words);
-  return axis.turned ? `← pressed in \u2003 ${words} \u2003 pulled up →` : words;
+function label(tick, log) {
+  const power = Math.log10(tick), whole = Math.round(power);
+  if (log && Math.abs(power - whole) < 1e-6 && (whole > 3 || whole < -2)) return `10<tspan dy="-5" font-size="9">${whole}</tspan>`;
+  return digits(Math.abs(tick) < 1e-12 ? 0 : tick, 3);
 }

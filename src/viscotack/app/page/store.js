@@ -1,118 +1,125 @@
 // The case, and what is known of it. Views listen; nothing here draws.
 
-import { ask, cancel, follow } from "./server.js";
-import { pulledBy, workOf } from "./numbers.js";
+import { MOST_KEPT } from "./dom.js";
+import { ask, cancel, follow, start } from "./server.js";
 
-// Milliseconds for which numbers must rest before they are simulated.
-const REST = 80;
-const PAGE_KEYS = ["accuracy", "until"];
-const MOST_KEPT = 4;
+const REST = 80; // milliseconds for which numbers must rest before they are simulated
+const IDLE = { state: "idle", share: 0, depth: [], force: [], error: "", answer: null, job: null, version: -1 };
 
 export class Store extends EventTarget {
-  constructor(forms) {
+  tables = {};
+  settings = { accuracy: 0.005, until: "detached" };
+  quick = null;
+  refused = "";
+  run = IDLE;
+  verdict = null;
+  theory = null;
+  kept = [];
+  rig = null;
+  auto = true;
+  version = 0;
+  answered = 0; // the version of the case that `quick` is of
+
+  constructor(forms, operations) {
     super();
-    this.forms = forms;
-    this.tables = {};
-    this.settings = { accuracy: 0.005, until: "detached" };
-    this.quick = null;
-    this.refused = "";
-    this.run = idle();
-    this.verdict = null;
-    this.theory = null;
-    this.kept = [];
-    this.rig = null;
-    this.auto = true;
-    this.times = [];
-    this.version = 0;
-    this.answered = 0; // the version of the case that `quick` is of
+    Object.assign(this, { forms, operations: Object.fromEntries(operations.map((one) => [one.word, one])) });
+  }
+
+  // What was said of the present case, null while it is of the case before.
+  now(name) {
+    return this[name]?.version === this.version ? this[name] : null;
+  }
+
+  // The answer of a simulation of the present case, where it has one.
+  get simulated() {
+    return this.run.state === "done" ? this.now("run")?.answer ?? null : null;
   }
 
   // The numbers of `viscotack.predict`, which ranks the tiers: from the surrogates at once, else from the theories; where
   // it refuses, those of the simulation. Null while they are being computed.
   get best() {
-    const { quick, run } = this, verdict = this.verdict?.version === this.version ? this.verdict : null;
-    if (!quick || this.answered !== this.version) return null;
-    const numbers = quick.numbers.length ? quick.numbers : verdict ? verdict.numbers : null;
-    if (!numbers || numbers.length) return numbers;
-    if (run.version !== this.version || !["done", "stopped", "refused"].includes(run.state)) return null;
-    if (run.state !== "done") return [];
-    const { summary } = run.answer, error = summary.error_estimate || {};
-    const force = "pull_off_force" in quick.axes ? "pull_off_force" : "pull_off_stress";
+    if (!this.quick || this.answered !== this.version) return null;
+    const verdict = this.now("verdict"), numbers = this.quick.numbers.length ? this.quick.numbers : verdict?.numbers;
+    if (!numbers || numbers.length) return numbers ?? null;
+    if (!["done", "stopped", "refused"].includes(this.now("run")?.state)) return null;
+    if (!this.simulated) return [];
+    const { pull, work, error } = this.simulated, more = { method: "simulation", why: verdict.refused };
     return [
-      { name: force, value: pulledBy(summary), error: error.force, method: "simulation", why: verdict.refused },
-      { name: "work_to_pull_off", value: workOf(summary), error: error.work, method: "simulation", why: verdict.refused },
-    ].filter(({ value }) => value !== null && value !== undefined);
+      { name: this.quick.axes.pulled.name, value: pull, error: error.force, ...more },
+      { name: "work_to_pull_off", value: work, error: error.work, ...more },
+    ].filter(({ value }) => value !== null);
   }
 
   say(name, detail) {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 
+  on(names, listener) {
+    for (const name of names.split(" ")) this.addEventListener(name, listener);
+  }
+
   // Take a case: at once what is known at once, a simulation when it rests.
-  take(tables, { began = performance.now() } = {}) {
-    this.tables = tables;
+  take(tables) {
+    this.tables = structuredClone(tables);
     this.version += 1;
     this.say("case");
     this.stop();
-    this.began = began;
-    clearTimeout(this.resting);
     this.askQuick();
   }
 
-  set(table, key, value, more) {
-    const tables = structuredClone(this.tables);
-    tables[table] = { ...tables[table] };
-    if (value === null || value === "") delete tables[table][key];
-    else tables[table][key] = value;
-    this.take(tables, more);
+  // Change some tables of the case, or a number of one; null takes it away.
+  change(tables) {
+    this.take({ ...this.tables, ...tables });
   }
 
-  configure(name, value) {
-    this.settings = { ...this.settings, [name]: value };
+  set(table, key, value) {
+    const { [key]: before, ...others } = this.tables[table] || {};
+    if (value === null || value === "") this.change({ [table]: others });
+    else this.change({ [table]: { ...this.tables[table], [key]: value } });
+  }
+
+  configure(settings) {
+    Object.assign(this.settings, settings);
     this.take(this.tables);
   }
 
   async askQuick() {
     if (this.asking) return; // the last case is asked for when the answer has come
     this.asking = true;
-    const version = this.version, began = this.began;
+    const { version } = this;
     try {
       this.quick = await ask("/api/quick", { tables: this.tables, ...this.settings });
       this.answered = version;
       this.refused = "";
+      clearTimeout(this.linking);
+      this.linking = setTimeout(() => this.link(), 150);
     } catch (error) {
       this.refused = error.message;
     }
     this.asking = false;
-    if (!this.refused) this.link();
     this.say("quick");
-    this.times.push(performance.now() - began);
-    if (this.times.length > 2500) this.times.splice(0, 500);
     if (version !== this.version) this.askQuick();
     else if (!this.refused && this.auto) this.resting = setTimeout(() => this.simulate(), REST);
   }
 
-  // The query of the address is the case: a reload, or whoever gets the link, sees the same.
-  link() {
-    clearTimeout(this.linking);
-    this.linking = setTimeout(() => history.replaceState(null, "", this.address()), 150);
+  // The address is the state: a reload, or whoever gets the link, sees the same.
+  get address() {
+    const state = { case: this.tables, ...this.settings, kept: this.kept.map(({ tables }) => tables) };
+    return `/?${new URLSearchParams({ state: JSON.stringify(state) })}${location.hash}`;
   }
 
-  address() {
-    const more = new URLSearchParams();
-    for (const name of PAGE_KEYS) more.set(name, this.settings[name]);
-    for (const one of this.kept) more.append("keep", one.query);
-    return `/?${this.quick ? this.quick.query : ""}&${more}${location.hash}`;
+  link() {
+    history.replaceState(null, "", this.address);
   }
 
   async simulate() {
     this.stop();
-    const run = this.run = { ...idle(), state: "queued", began: performance.now(), version: this.version };
+    const run = this.run = { ...IDLE, depth: [], force: [], state: "queued", version: this.version }, began = performance.now();
     this.say("run");
     const judging = setTimeout(() => this.judge(run), 1500);
     try {
-      const asked = { problem: this.tables, ...this.settings, time_limit: 300, profiles: true, outputs: ["drawn"] };
-      run.job = await ask("/api/jobs/simulate", asked);
+      const asked = { problem: this.tables, ...this.settings, time_limit: 300, profiles: true };
+      run.job = await start("simulate", asked, { outputs: ["drawn"] });
       if (run !== this.run) { cancel(run.job); return; }
       const answer = await follow(run.job, (news) => {
         if (run !== this.run) return;
@@ -122,10 +129,9 @@ export class Store extends EventTarget {
         this.say("run");
       });
       if (run !== this.run || !answer) return;
-      const { beside, ...summary } = answer;
-      run.answer = { ...beside.drawn, summary };
+      run.answer = told(answer);
       run.state = run.answer.failed ? "stopped" : "done";
-      run.took = performance.now() - run.began;
+      run.took = performance.now() - began;
       cancel(run.job); // it has been read, and need not be kept there
     } catch (error) {
       if (run !== this.run) return;
@@ -141,66 +147,47 @@ export class Store extends EventTarget {
   // End what goes on; its curve stays, marked as one of another case.
   stop(words = "") {
     clearTimeout(this.resting);
-    const run = this.run;
-    if (this.judging) this.judging.abort();
-    if (run.job && !["done", "stopped", "refused"].includes(run.state)) {
-      const began = performance.now();
-      cancel(run.job).then(() => { this.cancelled = performance.now() - began; this.say("cancelled"); });
-    }
-    if (["queued", "running"].includes(run.state)) {
-      this.run = { ...run, state: "cancelled", error: words, job: null };
-      this.say("run");
-    }
+    this.judging?.abort();
+    if (!["queued", "running"].includes(this.run.state)) return;
+    if (this.run.job) cancel(this.run.job);
+    this.run = { ...this.run, state: "cancelled", error: words, job: null };
+    this.say("run");
   }
 
+  // Ask what is known of the case by every method, then the theories that take seconds.
   async judge(run) {
     if (run.judged || run !== this.run) return;
     run.judged = true;
-    const version = this.version;
-    this.judging = new AbortController();
-    const { signal } = this.judging, asked = { tables: this.tables };
+    const { version, tables } = this, { signal } = this.judging = new AbortController();
+    const tell = (name, answer) => { if (version === this.version) { this[name] = { ...answer, version }; this.say("verdict"); } };
     try {
-      const verdict = await ask("/api/verdict", asked, { signal });
-      if (version !== this.version) return;
-      this.verdict = { ...verdict, version };
-      this.say("verdict");
+      const verdict = await ask("/api/verdict", { tables }, { signal });
+      tell("verdict", verdict);
       const speeds = !this.quick.speeds;
-      if (!speeds && !verdict.crack) return;
-      const theory = await ask("/api/theory", { ...asked, speeds, crack: verdict.crack }, { signal });
-      if (version === this.version) { this.theory = { ...theory, version }; this.say("verdict"); }
+      if (speeds || verdict.crack) tell("theory", await ask("/api/theory", { tables, speeds, crack: verdict.crack }, { signal }));
     } catch (error) {
-      if (error.name !== "AbortError" && version === this.version) {
-        this.verdict = { numbers: [], refused: error.message, words: [], tiers: [], version };
-        this.say("verdict");
-      }
+      if (error.name !== "AbortError" && !this.now("verdict")) tell("verdict", { numbers: [], refused: error.message, words: [], tiers: [] });
     }
   }
 
-  keep() {
-    if (this.kept.length >= MOST_KEPT || !this.quick) return;
-    const run = this.run, done = run.state === "done" && run.version === this.version;
-    this.kept.push({
-      tables: this.tables, query: this.quick.query, quick: this.quick,
-      columns: done ? curveOf(run.answer) : null, summary: done ? run.answer.summary : null,
-    });
-    history.replaceState(null, "", this.address());
-    this.say("kept");
+  keep(tables = this.tables, quick = this.quick, answer = this.simulated) {
+    if (this.kept.length >= MOST_KEPT || !quick) return;
+    this.keepAll([...this.kept, { tables, quick, answer }]);
   }
 
-  forget(index) {
-    this.kept.splice(index, 1);
-    history.replaceState(null, "", this.address());
+  keepAll(kept) {
+    this.kept = kept;
+    this.link();
     this.say("kept");
   }
 }
 
-export function idle() {
-  return { state: "idle", share: 0, depth: [], force: [], error: "", answer: null, job: null, version: -1 };
-}
-
-// Depth and force of a result in SI, force positive in compression.
-export function curveOf(answer) {
-  const columns = answer.columns;
-  if (columns.force_N) return { depth: columns.depth_m, force: columns.force_N, radius: columns.contact_radius_m, time: columns.time_s };
-  return { depth: columns.depth_m, force: columns.stress_Pa.map((x) => (x === null ? null : -x)), radius: columns.ligament_m, time: columns.time_s };
+// The answer of a simulation: its summary as the command prints it, the pull-off, that of a punch as a stress, the work, their
+// errors, and its curve in SI, with the force positive in compression.
+function told({ beside, ...summary }) {
+  const { depth_m: depth, time_s: time, force_N, stress_Pa } = beside.drawn.columns;
+  return {
+    ...beside.drawn, summary, error: summary.error_estimate || {}, curve: { depth, time, force: force_N || stress_Pa.map((x) => (x === null ? null : -x)) },
+    pull: summary.pull_off_force_N ?? summary.pull_off_stress_Pa ?? null, work: summary.work_to_pull_off_J ?? summary.work_to_pull_off_J_per_m2 ?? null,
+  };
 }
