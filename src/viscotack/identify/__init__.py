@@ -5,7 +5,8 @@ from .forecasting import RateForecast, forecast_rates, interfaces
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff, pull_offs
 from .ranked_tests import NextTests, RankedTest, Trial, next_tests
-from .rate_series import RateSeriesFit, identify_rates
+from .rate_fit import RateSeriesFit, identify_rates
+from .rate_series import RateSeries
 from .sampling import Posterior, posterior
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
@@ -21,6 +22,7 @@ __all__ = [
     "PullOff",
     "RankedTest",
     "RateForecast",
+    "RateSeries",
     "RateSeriesFit",
     "SlowTest",
     "SlowTestFit",

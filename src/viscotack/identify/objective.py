@@ -20,6 +20,8 @@ Residuals = Callable[[Mapping[str, float]], Array]
 # parts.
 _PLACES = np.union1d(np.geomspace(2e-3, 1.0, 9), np.linspace(0.2, 1.0, 9))
 _BEYOND = 1e-9
+_SAME = 0.05  # relative difference of equal solutions
+_TRIALS = 32  # values of a parameter between the ends of its interval
 
 
 @dataclass(frozen=True)
@@ -193,6 +195,38 @@ class Objective:
                 inside, near = half, found
         return (inside + outside) / 2, True, split
 
+    def solutions(
+        self, best: Best, intervals: Mapping[str, Interval], level: float
+    ) -> tuple[Best, ...]:
+        """Return the best fit and, where intervals are split, the others inside them.
+
+        Each is a local minimum of the misfit; the most likely is first.
+        """
+        limit = best.misfit + float(chi2.ppf(level, 1))
+        found = [best]
+        for parameter in self.parameters:
+            if intervals[parameter.name].split:
+                for one in self._others(parameter, best, intervals[parameter.name], limit):
+                    if not any(_equal(one, other) for other in found):
+                        found.append(one)
+        return tuple(sorted(found, key=lambda one: one.misfit))
+
+    def _others(self, parameter: Parameter, best: Best, ends: Interval, limit: float) -> list[Best]:
+        """Return the best fit of each likely range of a parameter without the best of all."""
+        near = best
+        ranges: list[list[Best]] = [[]]
+        middle = parameter.inner(best.values[parameter.name])
+        trials = np.linspace(parameter.inner(ends.low), parameter.inner(ends.high), _TRIALS)
+        for x in np.sort(np.append(trials, middle)):
+            held = {parameter.name: parameter.outer(x)}
+            near = best if x == middle else self.best(held, near)
+            if near.misfit <= limit:
+                ranges[-1].append(near)
+            elif ranges[-1]:
+                ranges.append([])
+        likely = (min(one, key=lambda fit: fit.misfit) for one in ranges if one and best not in one)
+        return [self.best(near=one) for one in likely]
+
     def _rest(self, inner: Array, free: tuple[Parameter, ...], held: Mapping[str, float]) -> Array:
         values = {p.name: p.outer(x) for p, x in zip(free, inner, strict=True)} | dict(held)
         priors = [
@@ -201,3 +235,7 @@ class Objective:
             if p.prior is not None
         ]
         return np.concatenate([self.residuals(values), priors])
+
+
+def _equal(one: Best, other: Best) -> bool:
+    return bool(np.allclose(list(one.values.values()), list(other.values.values()), rtol=_SAME))
