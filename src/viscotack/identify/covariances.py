@@ -108,14 +108,15 @@ class ModelError:
         )
 
 
-def shared_covariance(
+def joint_covariance(
     series: RateSeries,
     tests: Sequence[SphereTests],
     interface: Interface,
     model: ModelError,
     softer: Array,
+    others: Array,
 ) -> Array:
-    """Return the covariance of ln(force) that tests share, over all of them.
+    """Return the covariance of ln(force) over tests.
 
     Parameters
     ----------
@@ -129,6 +130,8 @@ def shared_covariance(
         Errors of the forces of all tests.
     softer : ndarray
         Error of ln(force) by the compliance of the machine, at all tests.
+    others : ndarray
+        Covariance by other errors, such as noise.
     """
     speed = np.concatenate([x.speed for x in tests])
     more = np.concatenate([x.layer_error(interface) for x in tests])
@@ -136,12 +139,11 @@ def shared_covariance(
     kelvins = series.temperature_error
     errors = [x.slower(shift_error(x.passport, kelvins), interface) for x in tests]
     warmer = np.concatenate([errors[0] * series.time_errors(), *errors[1:]])
-    spread = replace(model, theory=model.theory + more).covariance(speed)
-    spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
-    if not allowed(series.passport):
-        return spread
-    rows = [x.log_forces(_solids(series.passport, x.passport), interface) for x in tests]
-    return spread + covariance(np.concatenate(rows, axis=1))
+    spread = others + replace(model, theory=model.theory + more).covariance(speed)
+    if allowed(series.passport):
+        rows = [x.log_forces(_solids(series.passport, x.passport), interface) for x in tests]
+        spread = spread + covariance(np.concatenate(rows, axis=1))
+    return spread + np.outer(warmer, warmer) + np.outer(softer, softer)
 
 
 def _solids(first: Passport, second: Passport) -> Sequence[Any]:

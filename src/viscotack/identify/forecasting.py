@@ -26,7 +26,7 @@ from viscotack.geometry import Layer
 from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import ModelError, SphereTests, shared_covariance, trend_covariance
+from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
 from .force_ratios import Mixed
 from .forward import law_of
 from .pull_off import SAME, History
@@ -262,15 +262,17 @@ def conditioned(
         Covariance about it, by the errors of theory, material, temperature and machine that the
         series leaves open.
     """
-    given, interface, m = fit.given, fit.interface, len(fit.series)
+    given, m = fit.given, len(fit.series)
     own = SphereTests(fit.forward, fit.passport, given.speed, given.load)
     speed = np.concatenate([own.speed, *(x.speed for x in asked)])
     simulation = fit.found.search.model.simulation
     measured = ModelError(np.where(simulation > 0, 0.0, theory), simulation)
     softer = _softer(fit, speed[m:], springy)
-    spread = shared_covariance(given, [own, *asked], interface, measured.joined(model), softer)
+    trend = np.zeros((speed.size, speed.size))
     if fit.trend:
-        spread = spread + trend_covariance(speed, own.speed, fit.between_speeds)
+        trend = trend_covariance(speed, own.speed, fit.between_speeds)
+    tests, error = [own, *asked], measured.joined(model)
+    spread = joint_covariance(given, tests, fit.interface, error, softer, trend)
     # covariance of the fit: noise, theory and material of the measured forces
     gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
     left = spread[m:, m:] - gain @ spread[:m, m:]

@@ -309,7 +309,8 @@ class Forward:
         if at_rest:
             return Changed(none + 1, band, refused)
         rigid = self.pulled(work, gap, speed, preload, growth=growth).force
-        ratio = np.where(refused == "", force * 1.5 * np.pi * self.radius * work / rigid, 1.0)
+        unit = 1.5 * np.pi * self.radius * work
+        ratio = np.where(refused == "", force * unit / rigid, 1.0)
         return Changed(ratio, band, refused)
 
     def layer_error(self, work: float, gap: float, speed: Array, preload: Array) -> Array:

@@ -23,7 +23,7 @@ from viscotack.theory.crack.contact.films import MOST_ZONE
 from viscotack.units import readable
 
 from .computed import Computed
-from .covariances import SphereTests, shared_covariance, shift_covariance
+from .covariances import SphereTests, joint_covariance, shift_covariance
 from .force_ratios import Mixed, yielding_near
 from .forward import Changed, Forward, Interface
 from .growth import FoundGrowth, shares_of
@@ -282,8 +282,8 @@ def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
     ratio, changed = yielding_near(series, search.forward, interface)
     own = SphereTests(search.forward, series.passport, series.speed, series.load)
     softer = series.compliance_error * ratio.log_ratio
-    shared = shared_covariance(series, [own], interface, search.model, softer)
-    spread = series.noise + shared + shift_covariance(series, own, interface)
+    noise = series.noise + shift_covariance(series, own, interface)
+    spread = joint_covariance(series, [own], interface, search.model, softer, noise)
     return replace(search, spread=spread, ratio=ratio), changed, bool(ratio.slopes.any())
 
 
