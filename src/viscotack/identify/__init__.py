@@ -2,12 +2,11 @@
 
 from .contact_time import DwellFit, identify_dwell
 from .forecasting import RateForecast, forecast_rates, interfaces
-from .objective import Best, Interval, Objective, Parameter
+from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff, pull_offs
 from .ranked_tests import NextTests, RankedTest, Trial, next_tests
 from .rate_fit import RateSeriesFit, identify_rates
 from .rate_series import RateSeries
-from .sampling import Posterior, posterior
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from viscotack.arrays import Array
 from viscotack.theory import dmt, jkr, maugis, transition
 
-from .objective import Parameter
+from .likelihood import Parameter
 
 Values = Mapping[str, float]
 

@@ -29,10 +29,10 @@ from viscotack.units import readable
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
 from .force_ratios import Mixed
 from .forward import law_of
+from .likelihood import Posterior
 from .pull_off import SAME, History
 from .rate_fit import RateSeriesFit
 from .rate_words import forecast_words, simulation_words
-from .sampling import Posterior
 from .search import LEAST_TABOR
 from .simulated_tests import Conditions, by_theory, tested
 

@@ -24,7 +24,7 @@ from viscotack.theory.crack.contact import GrowingCracks
 from viscotack.traction.growing import reference_speed
 
 from .forward import Forward, Growth, Pulled
-from .objective import Parameter
+from .likelihood import Parameter
 
 STRENGTHENING, EXPONENT = "strengthening", "exponent"
 # The largest strengthening searched; exponents searched, and those of the lattice.

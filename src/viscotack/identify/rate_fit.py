@@ -27,11 +27,10 @@ from .covariances import SphereTests, joint_covariance, shift_covariance
 from .force_ratios import Mixed, yielding_near
 from .forward import Changed, Forward, Interface
 from .growth import FoundGrowth, shares_of
-from .objective import Best, Interval, Objective
+from .likelihood import Best, Interval, Objective, Posterior, posterior
 from .pull_off import PullOff
 from .rate_series import RateSeries
 from .rate_words import fit_words, misfit_words
-from .sampling import Posterior, posterior
 from .search import LEAST_TABOR, Search, Settled, closely, grown, opening_near, settled, widely
 from .simulated_tests import with_simulations
 from .simulations import Simulations

@@ -13,8 +13,7 @@ from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 
 from .growth import FoundGrowth
-from .objective import Interval
-from .sampling import Posterior
+from .likelihood import Interval, Posterior
 from .temperatures import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from .force_ratios import Mixed, Yielding
 from .forward import Forward, Interface
 from .growth import Opening, growing, growth_parameters
 from .interpolated_forces import Table
-from .objective import Best, Interval, Objective, Parameter
+from .likelihood import Best, Interval, Objective, Parameter
 from .rate_series import RateSeries
 
 _WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth

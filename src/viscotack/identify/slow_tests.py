@@ -33,7 +33,7 @@ from viscotack.traction import LennardJones
 from viscotack.units import readable
 
 from .contacts import MODELS, RANGES, ElasticModel
-from .objective import Best, Interval, Objective, Parameter
+from .likelihood import Best, Interval, Objective, Parameter
 from .slow_words import DIFFERENT, slow_words, upper_bound_words
 
 _FEWEST, _MOST = 12, 300  # numbers of points
@@ -90,26 +90,18 @@ class SlowTest:
         if self.against not in ("radius", "depth"):
             raise InputError(f"against must be 'radius' or 'depth', got {self.against!r}")
         if self.force.shape != self.at.shape or self.force.ndim != 1:
-            raise InputError(
-                "force and at must be one-dimensional arrays of the same length, got shapes "
-                f"{self.force.shape} and {self.at.shape}"
-            )
+            raise InputError("force and at must be one-dimensional arrays of the same length")
         if self.force.size < _FEWEST:
             raise InputError(f"a fit needs at least {_FEWEST} points, got {self.force.size}")
         if not np.all(np.isfinite(self.force) & np.isfinite(self.at)):
             raise InputError("forces and radii or depths must be finite")
-        if not (0 < self.radius < np.inf and 0 < self.force_noise < np.inf):
-            raise InputError(
-                f"radius and force_noise must be positive, got {self.radius} m and "
-                f"{self.force_noise} N"
-            )
+        for name in ("radius", "force_noise"):
+            if not 0 < getattr(self, name) < np.inf:
+                raise InputError(f"{name} must be positive, got {getattr(self, name)}")
         if self.against == "radius" and np.any(self.at <= 0):
             raise InputError(f"contact radii must be positive, got {readable(self.at.min(), 'm')}")
         if not self.force.min() < 0:
-            raise InputError(
-                "no force is tensile, so adhesion cannot be determined; check the sign "
-                "(compression positive)"
-            )
+            raise InputError("no force is tensile; check the sign (compression positive)")
 
 
 def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTest:
@@ -126,9 +118,7 @@ def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTe
     at = cycle.depth if against == "depth" or size is None else size
     points = points[np.isfinite(at[points]) & ((against == "depth") | (at[points] > 0))]
     if points.size < _FEWEST:
-        raise InputError(
-            f"a fit needs at least {_FEWEST} points up to the pull-off, got {points.size}"
-        )
+        raise InputError(f"a fit needs at least {_FEWEST} points up to the pull-off")
     chosen = points[np.unique(np.linspace(0, points.size - 1, _MOST, dtype=int))]
     noise = max(cycle.noise, _QUIET * cycle.pull_off_force.value)
     return SlowTest(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from viscotack.materials.passport import Passport
 from viscotack.units import readable, readable_interval
 
-from .objective import Interval
+from .likelihood import Interval
 from .temperatures import assumed_temperature
 
 if TYPE_CHECKING:
