@@ -11,12 +11,14 @@ from rate_tests import LENS, measured
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify import simulations as simulating
 from viscotack.identify.computed import Computed
+from viscotack.identify.covariances import SphereTests
 from viscotack.identify.force_ratios import LENGTHS
 from viscotack.identify.forward import Forward
 from viscotack.identify.pull_off import History
-from viscotack.identify.simulated_tests import Conditions, KnownRatios
+from viscotack.identify.simulated_tests import KnownRatios
 from viscotack.identify.simulations import Simulations
 from viscotack.lab.tack import survey
+from viscotack.materials import Passport
 from viscotack.protocol import Approach, Dwell
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
@@ -72,8 +74,9 @@ def test_a_finite_dwell_is_simulated():
     moves = (Approach(1e-4, to=vt.AtForce(PRELOAD)), Dwell(0.2, hold="force"))
     speed = np.array([1e-4])
     with Simulations() as runs:
-        tests = Conditions(speed, np.array([PRELOAD]), None, (moves,))
-        tiers = KnownRatios.none(FORWARD, tests, runs).at(np.log([[WORK, LENGTH / 3]]) / LENGTHS)
+        passport = Passport(name="", material=SOLID)
+        tests = SphereTests(FORWARD, passport, speed, np.array([PRELOAD]), moves=(moves,))
+        tiers = KnownRatios.none(tests, runs).at(np.log([[WORK, LENGTH / 3]]) / LENGTHS)
         assert runs.count == 1
     ratio = float(np.exp(tiers.log_ratio[0, 0]))
     rigid = float(FORWARD.pulled(WORK, LENGTH / 3, speed, PRELOAD).force[0])

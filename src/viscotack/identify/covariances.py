@@ -14,14 +14,16 @@ from math import exp, log
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.lab.grouping import GAP
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
 from viscotack.materials.passport_uncertainty import allowed, shift_error
+from viscotack.protocol import Move
 
-from .forward import Forward, Interface
+from .forward import Changed, Forward, Interface
 from .rate_series import RateSeries
 
 # Part of the variance between speeds that is a power of the speed, where there is a trend.
@@ -42,12 +44,34 @@ class SphereTests(NamedTuple):
         The material at the temperature of the tests.
     speed, load : ndarray, shape (n,)
         Retraction speed [m/s] and preload [N].
+    stiffness : float or None
+        Stiffness of the machine [N/m]; None for a rigid one.
+    moves : tuple of tuple of Move
+        Moves of each test before the retraction; empty if all contacts are relaxed.
     """
 
     forward: Forward
     passport: Passport
     speed: Array
     load: Array
+    stiffness: float | None = None
+    moves: tuple[tuple[Move, ...], ...] = ()
+
+    def some(self, at: npt.NDArray[Any]) -> "SphereTests":
+        """Select tests."""
+        moves = tuple(self.moves[i] for i in np.arange(self.speed.size)[at]) if self.moves else ()
+        return self._replace(speed=self.speed[at], load=self.load[at], moves=moves)
+
+    def at(self, speed: Array) -> "SphereTests":
+        """Return tests at other speeds, with load and moves of the first."""
+        load = np.full(speed.size, self.load[0])
+        return self._replace(speed=speed, load=load, moves=self.moves[:1] * speed.size)
+
+    def changed(self, interface: Interface) -> Changed:
+        """Return the effect of machine and moves on the forces."""
+        work, gap, growth = interface
+        more: dict[str, Any] = {"stiffness": self.stiffness, "moves": self.moves, "growth": growth}
+        return self.forward.changed(work, gap, self.speed, self.load, **more)
 
     def log_forces(self, solids: Sequence[Any], interface: Interface) -> Array:
         """Return ln of the pull-off forces of neighbouring solids, shape (solids, n)."""

@@ -34,7 +34,7 @@ from .pull_off import SAME, History
 from .rate_fit import RateSeriesFit
 from .rate_words import forecast_words, simulation_words
 from .search import LEAST_TABOR
-from .simulated_tests import Conditions, by_theory, tested
+from .simulated_tests import by_theory, tested
 
 _MOST = 200  # largest number of speeds
 _SURELY = 2.0  # standard deviations of a measured force
@@ -146,7 +146,8 @@ def forecast_rates(
     pressed: tuple[tuple[Move, ...], ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
-    changed = known.changed(work, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)
+    tests = SphereTests(known, passport, v, loaded, spring, pressed)
+    changed = tests.changed(fit.interface)
     chain = fit.sampled(seed)
     draws = chain.thinned(_DRAWS)
     theory = fit.theory if theory is None else theory
@@ -155,10 +156,8 @@ def forecast_rates(
         found = by_theory(changed, v, theory)
     else:
         likely = np.log(np.vstack([(work, gap), draws]))
-        found = tested(likely, changed, known, Conditions(v, loaded, spring, pressed), theory)
-
-    asked = [SphereTests(known, passport, v, loaded)]
-    moved, left = conditioned(fit, asked, draws, theory, found.model, spring is not None)
+        found = tested(likely, changed, tests, theory)
+    moved, left = conditioned(fit, [tests], draws, theory, found.model)
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
     sample = (np.exp(moved + noise) * found.ratio).reshape(-1, v.size)
@@ -235,7 +234,6 @@ def conditioned(
     draws: Array,
     theory: float,
     model: ModelError,
-    springy: bool,
 ) -> tuple[Array, Array]:
     """Return ln of the forces of tests for sampled interfaces, given the series, and a covariance.
 
@@ -251,8 +249,6 @@ def conditioned(
         Relative standard error of the forward model at the measured speeds.
     model : ModelError
         Errors of the forces of the tests.
-    springy : bool
-        Whether the compliance of the machine counts at the tests.
 
     Returns
     -------
@@ -263,10 +259,11 @@ def conditioned(
         series leaves open.
     """
     given, m = fit.given, len(fit.series)
-    own = SphereTests(fit.forward, fit.passport, given.speed, given.load)
+    own = fit.found.search.tests
     speed = np.concatenate([own.speed, *(x.speed for x in asked)])
     simulation = fit.found.search.model.simulation
     measured = ModelError(np.where(simulation > 0, 0.0, theory), simulation)
+    springy = np.concatenate([np.full(x.speed.size, x.stiffness is not None) for x in asked])
     softer = _softer(fit, speed[m:], springy)
     trend = np.zeros((speed.size, speed.size))
     if fit.trend:
@@ -342,10 +339,10 @@ def _refuse_low_tabor(speed: Array, effective: Array) -> None:
         )
 
 
-def _softer(fit: RateSeriesFit, wanted: Array, springy: bool) -> Array:
+def _softer(fit: RateSeriesFit, wanted: Array, springy: npt.NDArray[np.bool_]) -> Array:
     """Return the error of ln(force) by the compliance of the machine, at both sets of speeds.
 
-    It counts at the wanted speeds if the machine is springy there.
+    It counts at the wanted speeds where the machine is springy.
     """
     ratio, measured = fit.found.search.ratio, fit.given.speed
     yielding = ratio.others if isinstance(ratio, Mixed) else ratio

@@ -290,11 +290,11 @@ def _joint(
         speed, load = (
             np.array([getattr(x, name) for x in some], float) for name in ("speed", "preload")
         )
-        groups.append(SphereTests(_forward(fit, radius), fit.passport, speed, load))
+        spring = fit.given.stiffness
+        groups.append(SphereTests(_forward(fit, radius), fit.passport, speed, load, spring))
         order += numbers
     model = ModelError.of_theory(fit.theory, len(tests))
-    springy = fit.given.stiffness is not None
-    moved, left = conditioned(fit, groups, draws, fit.theory, model, springy)
+    moved, left = conditioned(fit, groups, draws, fit.theory, model)
     back = np.argsort(order)
     moved, left = moved[:, back], left[np.ix_(back, back)]
     for i, each in enumerate(tests):

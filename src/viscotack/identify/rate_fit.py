@@ -23,7 +23,7 @@ from viscotack.theory.crack.contact.films import MOST_ZONE
 from viscotack.units import readable
 
 from .computed import Computed
-from .covariances import SphereTests, joint_covariance, shift_covariance
+from .covariances import joint_covariance, shift_covariance
 from .force_ratios import Mixed, yielding_near
 from .forward import Changed, Forward, Interface
 from .growth import FoundGrowth, shares_of
@@ -279,7 +279,7 @@ def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
     """
     series, interface = search.series, search.interface(best)
     ratio, changed = yielding_near(series, search.forward, interface)
-    own = SphereTests(search.forward, series.passport, series.speed, series.load)
+    own = search.tests
     softer = series.compliance_error * ratio.log_ratio
     noise = series.noise + shift_covariance(series, own, interface)
     spread = joint_covariance(series, [own], interface, search.model, softer, noise)
@@ -310,7 +310,7 @@ def _check_place(search: Search, best: Best) -> None:
 
     Conditions whose forces are simulated need no theory.
     """
-    series, (work, gap, growth) = search.series, search.interface(best)
+    series, gap = search.series, search.interface(best).gap
     simulated = search.ratio.mixed if isinstance(search.ratio, Mixed) else ()
     if not len(simulated) and search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
@@ -321,9 +321,8 @@ def _check_place(search: Search, best: Best) -> None:
     fastest = int(np.argmax(series.speed))
     if fastest in simulated:
         return
-    case = work, gap, series.speed[[fastest]], series.load[[fastest]]
-    changed = search.forward.changed(*case, stiffness=series.stiffness, growth=growth)
-    if why := str(changed.refused[0]):
+    relaxed = search.tests._replace(moves=()).some(np.array([fastest]))
+    if why := str(relaxed.changed(search.interface(best)).refused[0]):
         raise OutOfRange(f"at {series.tests[fastest].at}: {why}")
 
 

@@ -16,7 +16,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import LEAST_TABOR
 
-from .covariances import TREND, ModelError, trend_covariance
+from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import Mixed, Yielding
 from .forward import Forward, Interface
 from .growth import Opening, growing, growth_parameters
@@ -133,6 +133,14 @@ class Search:
             middle = one.outer((one.inner(low) + one.inner(high)) / 2)
             found.append(replace(one, low=low, high=high, start=middle))
         return tuple(found)
+
+    @property
+    def tests(self) -> SphereTests:
+        """The measured tests."""
+        one = self.series
+        return SphereTests(
+            self.forward, one.passport, one.speed, one.load, one.stiffness, one.moves
+        )
 
     def interface(self, best: Best) -> Interface:
         """Return the interface of some parameters."""

@@ -17,12 +17,11 @@ from scipy.interpolate import CubicSpline
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Problem
-from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import ModelError
+from .covariances import ModelError, SphereTests
 from .force_ratios import LENGTHS, Mixed, SmoothRatio, Yielding, scaled
-from .forward import Changed, Forward
+from .forward import Changed, Forward, Interface
 from .search import Search
 from .simulations import ACCURACY, Simulations
 
@@ -50,44 +49,13 @@ _BENT, _MOST_BENT = 0.02, 0.004
 _TOO_LARGE = "the theory does not hold, and the Tabor number is too large to simulate"
 
 
-class Conditions(NamedTuple):
-    """Conditions of tests.
-
-    Attributes
-    ----------
-    speed, load : ndarray, shape (S,)
-        Speed of the drive [m/s] and preload [N].
-    stiffness : float or None
-        Stiffness of the machine [N/m]; None for a rigid one.
-    moves : tuple of tuple of Move
-        Moves of each test before the retraction; empty if all contacts are relaxed.
-    """
-
-    speed: Array
-    load: Array
-    stiffness: float | None
-    moves: tuple[tuple[Move, ...], ...] = ()
-
-    def some(self, at: npt.NDArray[Any]) -> "Conditions":
-        """Select tests."""
-        moves = tuple(self.moves[i] for i in np.arange(self.speed.size)[at]) if self.moves else ()
-        return self._replace(speed=self.speed[at], load=self.load[at], moves=moves)
-
-    def at(self, speed: Array) -> "Conditions":
-        """Return tests at other speeds, with load and moves of the first."""
-        load = np.full(speed.size, self.load[0])
-        return self._replace(speed=speed, load=load, moves=self.moves[:1] * speed.size)
-
-
 @dataclass(frozen=True, eq=False)
 class KnownRatios:
     """Ratios of forces at some interfaces.
 
     Parameters
     ----------
-    forward : Forward
-        Theory.
-    tests : Conditions
+    tests : SphereTests
         Tests, S in number.
     runs : Simulations
         Simulations.
@@ -100,18 +68,17 @@ class KnownRatios:
         Whether it is simulated.
     """
 
-    forward: Forward
-    tests: Conditions
+    tests: SphereTests
     runs: Simulations
     points: Array
     log_ratio: Array
     simulated: npt.NDArray[np.bool_]
 
     @classmethod
-    def none(cls, forward: Forward, tests: Conditions, runs: Simulations) -> "KnownRatios":
+    def none(cls, tests: SphereTests, runs: Simulations) -> "KnownRatios":
         """Return the ratios at no interface."""
         empty = np.empty((0, tests.speed.size))
-        return cls(forward, tests, runs, np.empty((0, 2)), empty, empty.astype(bool))
+        return cls(tests, runs, np.empty((0, 2)), empty, empty.astype(bool))
 
     def over(self, likely: Array, apart: float) -> "KnownRatios":
         """Add interfaces, until all likely ones (points) have one nearby.
@@ -134,9 +101,9 @@ class KnownRatios:
             return self
         works, gaps = np.exp(new * LENGTHS).T
         tests = self.tests
-        rigid = self.forward.pulled(works[:, None], gaps[:, None], tests.speed, tests.load)
+        rigid = tests.forward.pulled(works[:, None], gaps[:, None], tests.speed, tests.load)
         low = rigid.effective_tabor < GOOD_TABOR
-        low |= (_length(self.forward, works) / gaps < _CHEAP_TABOR)[:, None] | bool(tests.moves)
+        low |= (_length(tests.forward, works) / gaps < _CHEAP_TABOR)[:, None] | bool(tests.moves)
         log_ratio = np.full(low.shape, np.nan)
         simulated = np.zeros(low.shape, dtype=bool)
         problems: dict[tuple[int, int], Problem] = {}
@@ -165,9 +132,8 @@ class KnownRatios:
         some, none = self.tests.some(which), np.full(which.size, np.nan)
         if not which.size:
             return none, which
-        case = work, gap, some.speed, some.load
         try:
-            changed = self.forward.changed(*case, stiffness=some.stiffness, moves=some.moves)
+            changed = some.changed(Interface(work, gap))
         except InputError:  # strains too large
             return none, which
         return np.where(changed.holds, np.log(changed.ratio), np.nan), which[_beyond(changed)]
@@ -181,7 +147,7 @@ class KnownRatios:
             for test in map(int, which):
                 load, speed = float(tests.load[test]), float(tests.speed[test])
                 moves = tests.moves[test] if tests.moves else ()
-                problem = self.forward.problem(
+                problem = tests.forward.problem(
                     work, gap, load, speed, stiffness=tests.stiffness, moves=moves
                 )
                 if problem.groups().tabor <= most:
@@ -238,18 +204,17 @@ def with_simulations(
     refused : ndarray of str
         Reason why a test has no force; empty where it has one.
     """
-    series, forward, theory = search.series, search.forward, search.ratio
+    series, tests, theory = search.series, search.tests, search.ratio
     assert isinstance(theory, Yielding), "nothing is simulated yet"
-    tests = Conditions(series.speed, series.load, series.stiffness, series.moves)
     answered = np.full(series.speed.size, "")
     simulated = _beyond(changed)
     by_theory = ModelError.of_theory(series.theory_error, series.speed.size)
     material = search.spread - (series.noise + by_theory.covariance(series.speed))
-    known = KnownRatios.none(forward, tests, runs)
+    known = KnownRatios.none(tests, runs)
     error, apart, bent = np.full(series.speed.size, _UNKNOWN), _APART, 0.0
     for _ in range(_ROUNDS):
         points = search.likely(_LIKELY)
-        more = simulated | _low(forward, tests, points)
+        more = simulated | _low(tests, points)
         if not more.any():
             return search, answered
         begins = bool(np.any(more != simulated)) or not len(known.points)
@@ -260,7 +225,7 @@ def with_simulations(
             search = replace(search, spread=spread + bent**2)
             points = search.likely(_LIKELY)
             earlier = known.points
-            known = KnownRatios.none(forward, tests.some(simulated), runs).at(earlier)
+            known = KnownRatios.none(tests.some(simulated), runs).at(earlier)
         likely, count = points / LENGTHS, len(known.points)
         known = known.over(likely, apart)
         if len(known.points) == count and not begins:
@@ -273,7 +238,7 @@ def with_simulations(
         error[simulated] = known.error(likely)
         work, gap = np.exp(points[0])
         # zero of measured forces
-        bent = min(_BENT / (_length(forward, work) / gap) ** 2, _MOST_BENT)
+        bent = min(_BENT / (_length(search.forward, work) / gap) ** 2, _MOST_BENT)
         near = simulated.copy()
         near[simulated] = known.by_simulation(work, gap)
         model = _model(near, series.theory_error, error)
@@ -323,9 +288,7 @@ def _refusal(speed: float, reason: str) -> OutOfRange:
     return OutOfRange(f"at {readable(speed, 'm/s', digits=3)}: {reason}")
 
 
-def tested(
-    interfaces: Array, changed: Changed, forward: Forward, tests: Conditions, theory: float
-) -> Tested:
+def tested(interfaces: Array, changed: Changed, tests: SphereTests, theory: float) -> Tested:
     """Simulate tests at which the theory does not hold, for interfaces of a posterior.
 
     Tests at many speeds are simulated at some and interpolated between.
@@ -336,10 +299,8 @@ def tested(
         ln of work and range, the most likely first.
     changed : Changed
         Ratios by theory for the most likely.
-    forward : Forward
-        Theory.
-    tests : Conditions
-        Their conditions.
+    tests : SphereTests
+        The tests.
     theory : float
         Relative error of the theory.
 
@@ -348,7 +309,7 @@ def tested(
     OutOfRange
         If neither theory nor simulation has the force of a test.
     """
-    which = _beyond(changed) | _low(forward, tests, interfaces[::_THINNED])
+    which = _beyond(changed) | _low(tests, interfaces[::_THINNED])
     if not which.any():
         return by_theory(changed, tests.speed, theory)
     likely, some = interfaces / LENGTHS, tests.some(which)
@@ -356,7 +317,7 @@ def tested(
     if some.speed.size > _NODES:
         nodes = some.at(np.geomspace(some.speed.min(), some.speed.max(), _NODES))
     with Simulations() as runs:
-        found, apart = KnownRatios.none(forward, nodes, runs).over(likely, _APART), _APART
+        found, apart = KnownRatios.none(nodes, runs).over(likely, _APART), _APART
         for _ in range(_ROUNDS):
             if found.unanswered.any():
                 by_theory(changed, tests.speed, theory)
@@ -371,7 +332,7 @@ def tested(
             x, at = np.log(some.speed), np.log(nodes.speed)
             # held out: the most likely interface between the nodes
             middle = nodes.at(np.sqrt(nodes.speed[1:] * nodes.speed[:-1]))
-            held = KnownRatios.none(forward, middle, runs).at(likely[:1]).log_ratio[0]
+            held = KnownRatios.none(middle, runs).at(likely[:1]).log_ratio[0]
             away = held - CubicSpline(at, np.log(known[0]))(np.log(middle.speed))
             known = np.exp(CubicSpline(at, np.log(known), axis=1)(x))
             error = np.hypot(np.interp(x, at, error), np.sqrt(np.nanmean(away**2)))
@@ -388,10 +349,10 @@ def _beyond(changed: Changed) -> npt.NDArray[np.bool_]:
     return (changed.band > _BAND) | ~changed.holds
 
 
-def _low(forward: Forward, tests: Conditions, points: Array) -> npt.NDArray[np.bool_]:
+def _low(tests: SphereTests, points: Array) -> npt.NDArray[np.bool_]:
     """Whether the effective Tabor number of each test is low at one of the points, shape (S,)."""
     work, gap = np.exp(points).T
-    pulled = forward.pulled(work[:, None], gap[:, None], tests.speed, tests.load, _RADII)
+    pulled = tests.forward.pulled(work[:, None], gap[:, None], tests.speed, tests.load, _RADII)
     return np.any(pulled.effective_tabor < GOOD_TABOR, axis=0) | bool(tests.moves)
 
 
