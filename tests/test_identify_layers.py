@@ -11,6 +11,7 @@ from command_line import exit_status
 from rate_tests import LENS, RUBBER, holds, measured
 from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates
+from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
 from viscotack.theory.crack.contact.films import MOST_ZONE
 
@@ -134,3 +135,16 @@ def test_a_layer_goes_from_the_command_line_to_a_study_and_a_forecast(tmp_path, 
     assert exit_status(["forecast", str(study), "--speed", "10 um/s", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["work_of_adhesion_J_m2"] == found["work_of_adhesion_J_m2"]
+
+
+def test_a_refusal_is_kept_with_its_reason(tmp_path, monkeypatch):
+    thin, loads = layer(0.3), np.full(len(SPEEDS), 5 * PRELOAD)
+    computed = Computed()
+    case = (WORK, 2.3 * GAP, SPEEDS, loads)
+    first = Forward(RUBBER, RADIUS, body=thin, computed=computed).changed(*case)
+    assert first.holds.any() and not first.holds.all()
+    computed.write(tmp_path / "forces.npz")
+    monkeypatch.setattr(Forward, "_changed", None)
+    known = Computed.read(tmp_path / "forces.npz")
+    again = Forward(RUBBER, RADIUS, body=thin, computed=known).changed(*case)
+    assert again.refused.tolist() == first.refused.tolist()
