@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.identify import PullOff, forecast_rates, identify_rates
+from viscotack.identify import PullOff, RateSeries, forecast_rates, identify_rates
 from viscotack.lab.tack import Measured
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=5e6, tau0=1e-2, poisson_ratio=0.5)
@@ -63,12 +63,14 @@ def main(ranges=(10e-9, 250e-9), picture: Path = PICTURE):
         measured = force(speed) * (1 + 0.01 * rng.standard_normal())
         series.append(PullOff(float(speed), Measured(measured, 0.01 * measured), PRELOAD))
     fit = identify_rates(
-        series,
-        material=RUBBER,
-        radius=LENS,
-        gaps=ranges,
-        work_of_adhesion=(WORK, 0.02 * WORK),
-        growth=True,
+        RateSeries(
+            series,
+            material=RUBBER,
+            radius=LENS,
+            gaps=ranges,
+            work_of_adhesion=(WORK, 0.02 * WORK),
+            growth=True,
+        )
     )
     for sentence in fit.words:
         print(sentence)

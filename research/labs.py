@@ -34,7 +34,7 @@ import numpy as np
 from scipy.stats import chi2
 
 import viscotack as vt
-from viscotack.identify import forecast_rates, identify_rates, pull_offs
+from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.lab import MasterCurve, fit
 from viscotack.lab.fit.passport import issued
 from viscotack.lab.tack import TackRecord, evaluate
@@ -272,16 +272,18 @@ def done(seed, given):
     # four unknowns cost more the more is looked at
     around = tuple(lab["gap"] * (np.array([1 / 30, 30]) if growing else np.array([1e-3, 1e3])))
     found = identify_rates(
-        series,
-        material=passport,
-        radius=lab["radius"],
-        preload=lab["preload"],
-        gaps=around,
-        stiffness=1 / compliance,
-        compliance_uncertainty=doubt,
-        growth=growing,
-        scatter=SCATTER,
-        level=LEVEL,
+        RateSeries(
+            series,
+            material=passport,
+            radius=lab["radius"],
+            preload=lab["preload"],
+            gaps=around,
+            stiffness=1 / compliance,
+            compliance_uncertainty=doubt,
+            growth=growing,
+            scatter=SCATTER,
+            level=LEVEL,
+        )
     )
     identified = time.process_time()
     truth = {"work_of_adhesion": lab["work"], "equilibrium_gap": lab["gap"]}

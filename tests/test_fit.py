@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from reference_data import DMA
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
-from viscotack.identify import PullOff, identify_rates
+from viscotack.identify import PullOff, RateSeries, identify_rates
 from viscotack.lab import (
     fit,
     master_curve,
@@ -338,7 +338,7 @@ def test_a_liquid_is_called_one():
             assert passport.liquid
             series = [PullOff(speed, Measured(1e-3, 1e-5), preload=1e-3) for speed in (1e-6, 1e-5)]
             with pytest.raises(InputError, match="no rubbery plateau.* rate series cannot be"):
-                identify_rates(series, material=passport, radius=5e-3)
+                identify_rates(RateSeries(series, material=passport, radius=5e-3))
     t = np.geomspace(1e-2, 1e4, 40)
     flowing = CreepTest(t, 1e-6 + 1e-7 * t, "E")
     assert "this is a liquid" in fit(flowing, poisson_ratio=0.5, model="prony", draws=2).words()

@@ -51,7 +51,6 @@ def test_of_an_old_logarithm_only_work_and_growth_are_determined():
     found = fitted("old")
     assert found.law == "logarithmic-ageing"
     assert found.reference_time[0] == 0
-    assert "not determined" in " ".join(found.words)
     # the stated constants reproduce the works at the times of the tests
     law = vt.LogarithmicAgeing(equilibrium_gap=1.0, **found.parameters)
     works = law.work_of_adhesion * (1 + law.growth_after(TIMES))

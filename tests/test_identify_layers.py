@@ -1,26 +1,25 @@
 """The interface from a rate series on a layer: truth found, validity stated, the rest refused."""
 
 import json
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from rate_tests import LENS, RUBBER, holds, measured
 from viscotack.errors import InputError, OutOfRange
-from viscotack.identify import PullOff, forecast_rates, identify_rates
+from viscotack.identify import RateSeries, forecast_rates, identify_rates
+from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
-from viscotack.lab.tack import Measured
 from viscotack.theory.crack.contact.films import MOST_ZONE
 
-RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.15, 100e-9, 20e-3
 BETA = (RADIUS**2 * WORK / RUBBER.contact_modulus) ** (1 / 3)
 SPEEDS = np.geomspace(1e-6, 3e-4, 6)
 GLUED, SLIDING = vt.Bonded(poisson_ratio=0.5), vt.Frictionless()
 CASE = {"material": RUBBER, "radius": RADIUS, "preload": PRELOAD}
-RIG = Path(__file__).parents[1] / "examples/from_rig"
 
 
 def layer(thickness, base=GLUED):
@@ -31,9 +30,8 @@ def forces(body, gap=GAP, speeds=SPEEDS):
     return Forward(RUBBER, RADIUS, body=body).pulled(WORK, gap, speeds, PRELOAD).force
 
 
-def series(values, relative, speeds=SPEEDS):
-    pairs = zip(speeds, values, strict=True)
-    return [PullOff(float(v), Measured(float(P), relative * float(P))) for v, P in pairs]
+def fitted(values, relative, speeds=SPEEDS, **more):
+    return identify_rates(RateSeries(measured(values, relative, speeds), **CASE | more))
 
 
 @pytest.mark.slow
@@ -42,7 +40,7 @@ def test_a_very_thick_layer_gives_the_half_space():
     for thickness in (1e3, 1e6):
         assert forces(layer(thickness)) == pytest.approx(whole, rel=1e-3)
     fits = [
-        identify_rates(series(whole[:5], 0.01, SPEEDS[:5]), body=body, theory=0.02, **CASE)
+        fitted(whole[:5], 0.01, SPEEDS[:5], body=body, theory=0.02)
         for body in (layer(1e6), vt.HalfSpace())
     ]
     assert fits[0].work_of_adhesion == pytest.approx(fits[1].work_of_adhesion, rel=1e-3)
@@ -61,14 +59,14 @@ def test_forces_without_noise_give_back_the_interface_on_a_layer(thickness, base
     true = forces(body)
     # a half-space would explain them by another interface
     assert true[0] > 1.2 * forces(vt.HalfSpace())[0]
-    fit = identify_rates(series(true, 1e-3), body=body, theory=0.0, **CASE)
+    fit = fitted(true, 1e-3, body=body, theory=0.0)
     assert len(fit.series) == len(SPEEDS)
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.01)
     assert fit.equilibrium_gap == pytest.approx(GAP, rel=0.05)
     forecast = forecast_rates(fit, [3e-6, 1e-4])
     expected = forces(body, speeds=forecast.speed)
     assert forecast.force == pytest.approx(expected, rel=0.01)
-    assert np.all((forecast.low < expected) & (expected < forecast.high))
+    assert holds(forecast, expected)
 
 
 @pytest.mark.slow
@@ -86,7 +84,7 @@ def test_the_interval_of_a_simulated_series_on_a_layer_holds_the_truth():
         )
         run = vt.solve(problem, until="pull-off", accuracy=5e-3, estimate_error=False)
         found.append(run.pull_off_force * 1.5 * np.pi * RADIUS * WORK)
-    fit = identify_rates(series(found, 0.01, speeds), body=body, **CASE | {"preload": load})
+    fit = fitted(found, 0.01, speeds, body=body, preload=load)
     assert len(fit.series) == len(speeds)
     for name, value in (("work_of_adhesion", WORK), ("equilibrium_gap", gap)):
         ends = fit.intervals[name]
@@ -100,39 +98,53 @@ def test_speeds_at_which_the_forces_reach_through_a_layer_are_left_out():
     pulled = Forward(RUBBER, RADIUS, body=body).pulled(WORK, gap, SPEEDS, load)
     through = pulled.through > MOST_ZONE
     assert 0 < through.sum() <= len(SPEEDS) - 2
-    case = CASE | {"preload": load, "theory": 0.0}
-    fit = identify_rates(series(pulled.force, 1e-3), body=body, **case)
+    case = {"preload": load, "theory": 0.0}
+    fit = fitted(pulled.force, 1e-3, body=body, **case)
     assert [one.speed for one in fit.series] == SPEEDS[~through].tolist()
-    assert "too thin for the range of the forces" in " ".join(fit.words)
+    assert [one.speed for one, _ in fit.excluded] == SPEEDS[through].tolist()
     # ranges that reach through are not searched
     most = max(one.high for one in fit.objective.parameters if one.name == "equilibrium_gap")
     assert most < 1.5 * gap
     fast = float(SPEEDS[-1])
-    with pytest.raises(OutOfRange, match="too thin for the range"):
+    with pytest.raises(OutOfRange, match="thin"):
         forecast_rates(fit, [fast])
 
 
-def test_what_is_not_known_on_a_layer_is_refused():
-    body = layer(1.0)
-    measured = series(forces(body), 0.01)
-    for more, words in (
-        ({"stiffness": 1e4}, "compliant machine"),
-        ({"curves": True}, "whole curves"),
-        ({"growth": True}, "grows with speed"),
-    ):
-        with pytest.raises(InputError, match=f"on a layer.*{words}"):
-            identify_rates(measured, body=body, **CASE, **more)
+@pytest.mark.parametrize(
+    "more",
+    [{"stiffness": 1e4}, {"curves": True}, {"growth": True}],
+    ids=["machine", "curves", "growth"],
+)
+def test_what_is_not_known_on_a_layer_is_refused(more):
+    travelled = [
+        replace(one, travels=(one.force,) * 4) for one in measured(forces(layer(1.0)), 0.01)
+    ]
+    series = RateSeries(travelled, body=layer(1.0), **CASE, **more)
+    with pytest.raises(InputError, match="layer"):
+        identify_rates(series)
 
 
 @pytest.mark.slow
 def test_a_layer_goes_from_the_command_line_to_a_study_and_a_forecast(tmp_path, capsys):
-    files = [str(RIG / f"lens_{name}_um_s.csv") for name in ("1", "30", "1000")]
     study = tmp_path / "study.toml"
     layer_of = ["--thickness", "2 mm", "--bonded", "0.49"]
     words = ["--material", "pdms-10-1", "--radius", "5.19 mm", *layer_of, "-o", str(study)]
-    assert exit_status(["identify", "rates", *files, *words, "--json"]) == 0
+    assert exit_status(["identify", "rates", *LENS, *words, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["layer"] == {"thickness_m": 2e-3, "base": "bonded", "poisson_ratio": 0.49}
     assert exit_status(["forecast", str(study), "--speed", "10 um/s", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["work_of_adhesion_J_m2"] == found["work_of_adhesion_J_m2"]
+
+
+def test_a_refusal_is_kept_with_its_reason(tmp_path, monkeypatch):
+    thin, loads = layer(0.3), np.full(len(SPEEDS), 5 * PRELOAD)
+    computed = Computed()
+    case = (WORK, 2.3 * GAP, SPEEDS, loads)
+    first = Forward(RUBBER, RADIUS, body=thin, computed=computed).changed(*case)
+    assert first.holds.any() and not first.holds.all()
+    computed.write(tmp_path / "forces.npz")
+    monkeypatch.setattr(Forward, "_changed", None)
+    known = Computed.read(tmp_path / "forces.npz")
+    again = Forward(RUBBER, RADIUS, body=thin, computed=known).changed(*case)
+    assert again.refused.tolist() == first.refused.tolist()

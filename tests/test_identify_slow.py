@@ -40,9 +40,8 @@ def of_maugis(tabor, seed, noise=0.005, against="radius"):
     return SlowTest(force, at, against, LENS["radius"], sigma)
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_jkr_recovers_the_work_of_adhesion_from_noisy_forces_at_radii(seed):
-    fit = identify_slow(of_jkr(seed), models=["jkr", "dmt"])
+def test_jkr_recovers_the_work_of_adhesion_from_noisy_forces_at_radii():
+    fit = identify_slow(of_jkr(0), models=["jkr", "dmt"])
     assert fit.best.model == "jkr"
     assert fit.best.work_of_adhesion == pytest.approx(0.152, rel=0.02)
     assert fit.best.contact_modulus == pytest.approx(LENS["contact_modulus"], rel=0.02)
@@ -98,15 +97,13 @@ def test_a_modulus_that_the_test_contradicts_leaves_an_upper_bound(modulus, cont
 def test_a_known_material_shows_whether_the_test_was_slow(speed, slow):
     test = replace(of_jkr(1), speed=speed, preload=1.5e-3)
     fit = identify_slow(test, models=["jkr"], material=passport_of("pdms-10-1"))
-    assert bool(fit.upper_bound) != slow
-    assert "assumed at a Tabor number of 5" in " ".join(fit.words)
+    assert bool(fit.upper_bound) != slow and fit.same_pull.assumed == 5.0
 
 
 def test_a_range_that_the_data_determine_is_not_assumed():
     test = replace(of_maugis(1.5, 1), speed=1e-4, preload=1.5e-3)
     fit = identify_slow(test, models=["maugis"], material=passport_of("pdms-10-1").material)
-    said = " ".join(fit.words)
-    assert "times the slow force" in said and "assumed at" not in said
+    assert fit.same_pull.ratio > 1.05 and fit.same_pull.assumed is None
 
 
 SMALL = {"radius": 5e-3, "contact_modulus": 2e6, "work_of_adhesion": 60.3e-3}

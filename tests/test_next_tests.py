@@ -8,11 +8,11 @@ import pytest
 
 import viscotack as vt
 from picture_units import in_si
+from rate_tests import measured
 from viscotack.errors import InputError
-from viscotack.identify import PullOff, Trial, forecast_rates, identify_rates, next_tests
+from viscotack.identify import RateSeries, Trial, forecast_rates, identify_rates, next_tests
 from viscotack.identify.forward import Forward
 from viscotack.identify.ranked_tests import noise_of
-from viscotack.lab.tack import Measured
 from viscotack.materials import Passport
 from viscotack.materials.shift import WLF
 from viscotack.pictures.next_tests import draw_next_tests
@@ -32,17 +32,19 @@ SPEEDS, WANTED = np.geomspace(1e-6, 1e-4, 3), Trial(3e-2)
 FORWARD = Forward(SOLID, RADIUS)
 
 
-def measured(trial):
-    force = float(FORWARD.pulled(0.1, 50e-9, trial.speed, PRELOAD).force)
-    return PullOff(trial.speed, Measured(force, NOISE * force), PRELOAD)
+def made(speeds):
+    """Return tests of an interface of 0.1 J/m2 and 50 nm."""
+    forces = FORWARD.pulled(0.1, 50e-9, np.asarray(speeds), PRELOAD).force
+    return measured(forces, NOISE, speeds, preload=PRELOAD)
 
 
-SERIES = [measured(Trial(float(v))) for v in SPEEDS]
+def fitted(speeds):
+    return identify_rates(RateSeries(made(speeds), material=RUBBER, radius=RADIUS))
 
 
 @pytest.fixture(scope="module")
 def fit():
-    return identify_rates(SERIES, material=RUBBER, radius=RADIUS)
+    return fitted(SPEEDS)
 
 
 @pytest.fixture(scope="module")
@@ -84,8 +86,7 @@ def test_the_deviation_today_is_that_of_the_forecast(fit, found):
 @pytest.mark.slow
 def test_a_test_that_is_made_leaves_about_what_was_predicted(found):
     for one in found.ranked[1:]:
-        fit = identify_rates([*SERIES, measured(one.trial)], material=RUBBER, radius=RADIUS)
-        band = forecast_rates(fit, [WANTED.speed])
+        band = forecast_rates(fitted([*SPEEDS, one.trial.speed]), [WANTED.speed])
         after = np.log(band.high / band.low)[0] / 2 / 1.645
         assert one.left == pytest.approx(after, rel=0.25)
 
@@ -105,8 +106,8 @@ def test_a_test_beyond_the_theory_is_not_ranked(fit):
     soft = Trial(1e-3, radius=1e-9)
     found = next_tests(fit, [Trial(1e-3), soft], wanted=[WANTED])
     assert len(found.ranked) == 1
-    assert found.refused[0][0].radius == 1e-9 and "Tabor number" in found.refused[0][1]
-    with pytest.raises(vt.OutOfRange, match="Tabor number"):
+    assert [one.radius for one, _ in found.refused] == [1e-9]
+    with pytest.raises(vt.OutOfRange):
         next_tests(fit, [Trial(1e-3)], wanted=[soft])
 
 

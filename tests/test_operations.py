@@ -184,10 +184,10 @@ def test_all_doors_answer_what_takes_seconds_alike(word, folder, http):
 
 
 def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, monkeypatch):
-    def stiffness_of(series, *, stiffness, **options):
+    def stiffness_of(tests, *, stiffness, **options):
         raise InputError(f"a rig of {stiffness:g} N/m")
 
-    monkeypatch.setattr("viscotack.identify.study.identify_rates", stiffness_of)
+    monkeypatch.setattr("viscotack.identify.study.RateSeries", stiffness_of)
     (folder / "curve.jpk-force").write_bytes(tack_files.jpk(tack_files.made()))
     question = Question("identify rates", RATES | {"files": ["curve.jpk-force"]})
     found = {

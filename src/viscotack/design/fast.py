@@ -187,7 +187,7 @@ class FastTier:
         )
         speed, load = np.array([pad.speed]), np.array([pad.preload])
         given = (law.work_of_adhesion, law.equilibrium_gap, speed, load)
-        if reason := known.changed(*given).refused.get(0):
+        if reason := str(known.changed(*given).refused[0]):
             raise InputError(reason)
         force = float(known.pulled(*given).force[0])
         error = _DEVIATE * hypot(_ON_LAYER, float(known.layer_error(*given)[0]))

@@ -1,12 +1,27 @@
-"""Identify the interface from measured curves: work of adhesion and range, with intervals."""
+"""Identify the interface from measured curves: work of adhesion and range, with intervals.
+
+A fit goes from data over a model and a likelihood to a result; sentences are made from its numbers.
+
+============  ======================================================================
+data          ``pull_off``, ``repeats``, ``travel``, ``temperatures``, ``rate_series``
+model         ``forward``, ``growth``, ``simulated_tests``, ``force_ratios``, ``simulations``
+likelihood    ``likelihood``, ``covariances``, ``interpolated_forces``, ``search``
+result        ``rate_fit``, ``forecasting``, ``ranked_tests``
+sentences     ``rate_words``, ``slow_words``
+============  ======================================================================
+
+One slow test goes through ``slow_tests`` and ``contacts``, tests after several dwells through
+``contact_time``. ``study`` does all for the files of a rig, ``computed`` keeps forces for the next
+time, and ``speed_table`` has the statistics that laboratories report.
+"""
 
 from .contact_time import DwellFit, identify_dwell
 from .forecasting import RateForecast, forecast_rates, interfaces
-from .objective import Best, Interval, Objective, Parameter
+from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff, pull_offs
 from .ranked_tests import NextTests, RankedTest, Trial, next_tests
-from .rate_series import RateSeriesFit, identify_rates
-from .sampling import Posterior, posterior
+from .rate_fit import RateSeriesFit, identify_rates
+from .rate_series import RateSeries
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [
@@ -21,6 +36,7 @@ __all__ = [
     "PullOff",
     "RankedTest",
     "RateForecast",
+    "RateSeries",
     "RateSeriesFit",
     "SlowTest",
     "SlowTestFit",

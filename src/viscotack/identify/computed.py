@@ -2,7 +2,7 @@
 
 Forces by theory and simulation take most of the time of an identification. Each result is kept
 under a hash of all that it follows from and of the version, so that changed data, options or
-materials are computed again. The file contains numbers only.
+materials are computed again. The file contains numbers and reasons of refusals only.
 """
 
 import hashlib
@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.whole import NotWritten, write_whole
@@ -27,11 +27,13 @@ _NAME = re.compile(r"[0-9a-f]{32}\.[a-z_]{1,20}")
 _MOST = 5e7  # largest size of a file, unpacked [bytes]
 SUFFIX = ".computed.npz"  # of the file beside a study
 
+Arrays = Callable[[], Mapping[str, npt.NDArray[Any]]]
+
 
 class Computed:
     """Arrays by a hash of their inputs."""
 
-    def __init__(self, known: Mapping[str, Array] | None = None) -> None:
+    def __init__(self, known: Mapping[str, npt.NDArray[Any]] | None = None) -> None:
         self._known = dict(known or {})
         self._used: set[str] = set()
         self._changed = False
@@ -41,8 +43,7 @@ class Computed:
         """Read a file; a missing or damaged one is empty."""
         with suppress(OSError, ValueError, InputError, zipfile.BadZipFile, zlib.error):
             with path.open("rb") as file:
-                found = read_arrays(file, lambda name: bool(_NAME.fullmatch(name)), _MOST)
-            return cls({name: np.asarray(value, dtype=float) for name, value in found.items()})
+                return cls(read_arrays(file, lambda name: bool(_NAME.fullmatch(name)), _MOST))
         return cls()
 
     def write(self, path: Path) -> None:
@@ -56,7 +57,7 @@ class Computed:
         with suppress(NotWritten, OSError):
             write_whole(path, content.getvalue())
 
-    def of(self, what: Any, compute: Callable[[], Mapping[str, Array]]) -> dict[str, Array]:
+    def of(self, what: Any, compute: Arrays) -> dict[str, npt.NDArray[Any]]:
         """Return arrays by name, computed if they are not known.
 
         Parameters
@@ -64,7 +65,7 @@ class Computed:
         what : object
             All that the arrays follow from; its `repr` must be unique.
         compute : callable
-            Returns the arrays, finite or not.
+            Returns the arrays.
         """
         text = f"{__version__} {what!r}"
         key = hashlib.sha256(text.encode()).hexdigest()[:32]

@@ -16,7 +16,7 @@ dwell changes the force too; :func:`check_relaxed` refuses solids for which it m
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -47,11 +47,34 @@ _CERTAIN = 1e-3
 _APART, _LEFT = 2.0, 0.02
 # Dwell times of an undetermined law begin at this multiple of its reference time.
 _ABOVE = 10.0
-_SATURATING, _LOGARITHMIC = SaturatingAgeing.word, LogarithmicAgeing.word
+# Laws, the names of their amplitudes, and their growth by t/t0.
+_SHAPES: dict[Any, tuple[str, Callable[[Array], Array]]] = {
+    LogarithmicAgeing: ("sensitivity", np.log1p),
+    SaturatingAgeing: ("largest_growth", lambda u: -np.expm1(-u)),
+}
 # Difference of chi2 that distinguishes both laws.
 _DIFFERENT = 6.0
 # Smallest relative uncertainty of a force.
 _LEAST = 1e-6
+
+
+@dataclass(frozen=True)
+class AgeingFit:
+    """Law of ageing fitted to forces after several times in contact.
+
+    Attributes
+    ----------
+    kind : type
+        :class:`.LogarithmicAgeing` or :class:`.SaturatingAgeing`.
+    parameters : mapping
+        Its constants: "work_of_adhesion", "reference_time" and "sensitivity" or "largest_growth".
+    reference_time : (float, float)
+        Interval of t0 [s]; 0 or inf where the data do not limit it.
+    """
+
+    kind: Any
+    parameters: dict[str, float]
+    reference_time: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -62,41 +85,49 @@ class DwellFit:
     ----------
     times, forces : tuple of float
         Times in contact [s] and pull-off forces [N] of the tests, by time.
-    law : str or None
-        "logarithmic-ageing" or "saturating-ageing"; None without growth or where both fit.
+    radius : float
+        Radius of the sphere [m].
     work_of_adhesion : float
         Work after the geometric mean of the times [J/m^2], by JKR.
     growth_per_decade : float
         Increase of the work in a decade over the work at the geometric mean time.
     interval : (float, float)
         Interval of this increase at `level`.
-    reference_time : (float, float)
-        Interval of t0 of the law [s]; 0 or inf where the data do not limit it.
-    parameters : mapping
-        Constants of the law, for its card: "work_of_adhesion", "reference_time" and "sensitivity"
-        or "largest_growth"; empty without a law.
+    chance : float
+        Probability of such a growth, or fall, by chance.
     scatter : float
         Relative standard deviation of the forces around the line in the logarithm of the time.
     level : float
         Confidence level.
-    words : tuple of str
-        Sentences on the result.
-    radius : float
-        Radius of the sphere [m].
+    laws : tuple of AgeingFit
+        Laws that the data do not distinguish, the likelier first; empty without growth.
     """
 
     times: tuple[float, ...]
     forces: tuple[float, ...]
-    law: str | None
+    radius: float
     work_of_adhesion: float
     growth_per_decade: float
     interval: tuple[float, float]
-    reference_time: tuple[float, float]
-    parameters: dict[str, float]
+    chance: float
     scatter: float
     level: float
-    words: tuple[str, ...]
-    radius: float
+    laws: tuple[AgeingFit, ...] = ()
+
+    @property
+    def law(self) -> str | None:
+        """Word of the law; None without growth or where both fit."""
+        return self.laws[0].kind.word if len(self.laws) == 1 else None
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Constants of the law; empty without a law."""
+        return self.laws[0].parameters if len(self.laws) == 1 else {}
+
+    @property
+    def reference_time(self) -> tuple[float, float]:
+        """Interval of t0 of the law [s]; 0 or inf where the data do not limit it."""
+        return self.laws[0].reference_time if len(self.laws) == 1 else (0.0, inf)
 
     def line(self, time: Array) -> Array:
         """Return the pull-off forces [N] that are straight in the logarithm of the time [s]."""
@@ -106,10 +137,48 @@ class DwellFit:
 
     def force(self, time: Array) -> Array:
         """Return the pull-off forces [N] of the law after times in contact [s]."""
-        kind = {_LOGARITHMIC: LogarithmicAgeing, _SATURATING: SaturatingAgeing}[str(self.law)]
-        law: Any = kind(equilibrium_gap=1.0, **self.parameters)
+        law = self.laws[0].kind(equilibrium_gap=1.0, **self.parameters)
         work = law.work_of_adhesion * (1 + law.growth_after(time))
         return 1.5 * np.pi * self.radius * work
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Sentences on the result."""
+        middle = float(np.exp(np.log(self.times).mean()))
+        low, high = self.interval
+        said = (
+            f"work of adhesion {readable(self.work_of_adhesion, 'J/m2', digits=4)} after "
+            f"{readable(middle, 's')} in contact (JKR); it grows by {self.growth_per_decade:.1%} "
+            f"in a decade of time ({low:.1%} to {high:.1%}, {self.level:.0%})"
+        )
+        return said, self._of_law()
+
+    def _of_law(self) -> str:
+        if self.chance > _CHANCE:
+            return "no growth with contact time is found beyond the scatter of the tests"
+        if not self.laws:
+            return (
+                "the force falls with the dwell, which no law of ageing describes; was the solid "
+                "relaxed?"
+            )
+        if self.law is None:
+            return (
+                "logarithmic and saturating growth describe these times alike; longer or shorter "
+                "dwells would distinguish them"
+            )
+        low, high = self.reference_time
+        until = "any time" if high == inf else readable(high, "s", digits=2)
+        if low == 0.0:
+            return (
+                f"{self.law}: the reference time is below {until} and not determined, nor are work "
+                "and sensitivity of a new contact; the stated constants describe times above "
+                f"{readable(self.times[0], 's', digits=2)}"
+            )
+        return (
+            f"{self.law} with a reference time of "
+            f"{readable(self.parameters['reference_time'], 's')} "
+            f"({readable(low, 's', digits=2)} to {until})"
+        )
 
 
 def tests_by_dwell(cycles: Sequence[Cycle]) -> tuple[Array, Array, float]:
@@ -178,37 +247,19 @@ def identify_dwell(
     wide = float(scipy.stats.t.ppf((1 + level) / 2, left)) * error
     decade = float(np.log(10))
     interval = decade * (slope - wide), decade * (slope + wide)
-    work = float(line[0]) / (1.5 * np.pi * radius)
     chance = 2 * float(scipy.stats.t.sf(abs(slope) / error, left))
-    words = [
-        f"work of adhesion {readable(work, 'J/m2', digits=4)} after {readable(middle, 's')} in "
-        f"contact (JKR); it grows by {decade * slope:.1%} in a decade of time "
-        f"({interval[0]:.1%} to {interval[1]:.1%}, {level:.0%})"
-    ]
-    if chance > _CHANCE or slope <= 0:
-        words.append(
-            "no growth with contact time is found beyond the scatter of the tests"
-            if chance > _CHANCE
-            else "the force falls with the dwell, which no law of ageing describes; was the solid "
-            "relaxed?"
-        )
-        law, ends, constants = None, (0.0, inf), {}
-    else:
-        law, ends, constants, more = _law(t, F, max(uncertainty, _LEAST), radius, level)
-        words += more
+    grows = chance <= _CHANCE and slope > 0
     return DwellFit(
-        tuple(t.tolist()),
-        tuple(F.tolist()),
-        law,
-        work,
-        decade * slope,
-        interval,
-        ends,
-        constants,
-        noise,
-        level,
-        tuple(words),
-        radius,
+        times=tuple(t.tolist()),
+        forces=tuple(F.tolist()),
+        radius=radius,
+        work_of_adhesion=float(line[0]) / (1.5 * np.pi * radius),
+        growth_per_decade=decade * slope,
+        interval=interval,
+        chance=chance,
+        scatter=noise,
+        level=level,
+        laws=_laws(t, F, max(uncertainty, _LEAST), radius, level) if grows else (),
     )
 
 
@@ -289,57 +340,40 @@ def _fitted(x: Array, F: Array) -> tuple[Array, float]:
     return found, float(np.sum((rows @ found - 1) ** 2))
 
 
-def _law(
+def _laws(
     t: Array, F: Array, uncertainty: float, radius: float, level: float
-) -> tuple[str | None, tuple[float, float], dict[str, float], list[str]]:
-    """Return the likelier law, the interval of its time, its constants and sentences."""
+) -> tuple[AgeingFit, ...]:
+    """Return the laws that the data do not distinguish, the likelier first."""
     decades = np.log10(t[0]) - _BEYOND, np.log10(t[-1]) + _BEYOND
     t0 = np.logspace(*decades, int(_PER_DECADE * (decades[1] - decades[0])))
-    shapes = {_LOGARITHMIC: lambda u: np.log1p(u), _SATURATING: lambda u: -np.expm1(-u)}
-    fits = {word: [_fitted(shape(t / x), F) for x in t0] for word, shape in shapes.items()}
+    fits = {kind: [_fitted(shape(t / x), F) for x in t0] for kind, (_, shape) in _SHAPES.items()}
     # only laws that grow from a positive work
     misfits = {
-        word: np.array([miss if a[0] > 0 and a[1] > 0 else inf for a, miss in rows])
-        for word, rows in fits.items()
+        kind: np.array([miss if a[0] > 0 and a[1] > 0 else inf for a, miss in rows])
+        for kind, rows in fits.items()
     }
     least = min(float(each.min()) for each in misfits.values())
-    variance = max(least / max(t.size - 3, 1), uncertainty**2)
-    misfits = {word: each / variance for word, each in misfits.items()}
-    best = {word: float(each.min()) for word, each in misfits.items()}
-    word = min(best, key=lambda each: best[each])
-    other = next(each for each in best if each != word)
-    limit = float(scipy.stats.t.ppf((1 + level) / 2, max(t.size - 3, 1))) ** 2
-    near = np.flatnonzero(misfits[word] - best[word] <= limit)
-    # the ends lie between these points and the next ones
-    low = 0.0 if near[0] == 0 else float(t0[near[0] - 1])
-    high = inf if near[-1] == t0.size - 1 else float(t0[near[-1] + 1])
-    at = int(np.argmin(misfits[word]))
-    if word == _LOGARITHMIC and low == 0.0:
-        # any small t0 describes these times; one that is a tenth of the first is reported
-        at = int(np.argmin(np.abs(np.log(t0 * _ABOVE / t[0]))))
-    a, _ = fits[word][at]
-    constants = {
-        "work_of_adhesion": float(a[0]) / (1.5 * np.pi * radius),
-        "reference_time": float(t0[at]),
-        {_LOGARITHMIC: "sensitivity", _SATURATING: "largest_growth"}[word]: float(a[1] / a[0]),
-    }
-    words = []
-    if best[other] - best[word] < _DIFFERENT:
-        words.append(
-            "logarithmic and saturating growth describe these times alike; longer or shorter "
-            "dwells would distinguish them"
-        )
-        return None, (0.0, inf), {}, words
-    if low == 0.0:
-        words.append(
-            f"{word}: the reference time is below {readable(high, 's', digits=2)} and not "
-            "determined, nor are work and sensitivity of a new contact; the stated constants "
-            f"describe times above {readable(float(t[0]), 's', digits=2)}"
-        )
-    else:
-        words.append(
-            f"{word} with a reference time of {readable(constants['reference_time'], 's')} "
-            f"({readable(low, 's', digits=2)} to "
-            f"{'any time' if high == inf else readable(high, 's', digits=2)})"
-        )
-    return word, (low, high), constants, words
+    freedom = max(t.size - 3, 1)
+    variance = max(least / freedom, uncertainty**2)
+    limit = float(scipy.stats.t.ppf((1 + level) / 2, freedom)) ** 2
+    found = []
+    for kind in sorted(misfits, key=lambda each: misfits[each].min()):
+        misfit = misfits[kind] / variance
+        if misfit.min() - least / variance >= _DIFFERENT:
+            continue
+        near = np.flatnonzero(misfit - misfit.min() <= limit)
+        # the ends lie between these points and the next ones
+        low = 0.0 if near[0] == 0 else float(t0[near[0] - 1])
+        high = inf if near[-1] == t0.size - 1 else float(t0[near[-1] + 1])
+        at = int(np.argmin(misfit))
+        if kind is LogarithmicAgeing and low == 0.0:
+            # any small t0 describes these times; one that is a tenth of the first is reported
+            at = int(np.argmin(np.abs(np.log(t0 * _ABOVE / t[0]))))
+        a, _ = fits[kind][at]
+        constants = {
+            "work_of_adhesion": float(a[0]) / (1.5 * np.pi * radius),
+            "reference_time": float(t0[at]),
+            _SHAPES[kind][0]: float(a[1] / a[0]),
+        }
+        found.append(AgeingFit(kind, constants, (low, high)))
+    return tuple(found)

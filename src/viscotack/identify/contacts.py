@@ -14,6 +14,8 @@ from scipy.interpolate import CubicSpline
 from viscotack.arrays import Array
 from viscotack.theory import dmt, jkr, maugis, transition
 
+from .likelihood import Parameter
+
 Values = Mapping[str, float]
 
 _POINTS = 1200
@@ -140,4 +142,10 @@ MODELS: dict[str, ElasticModel] = {
     "dmt": ElasticModel("dmt", None, _dmt_by_radius, _dmt_by_depth),
     "maugis": ElasticModel("maugis", "maugis_parameter", _maugis_by_radius, _maugis_by_depth),
     "carpick": ElasticModel("carpick", "transition", _carpick_by_radius, None),
+}
+
+# Unknowns of the range of attraction, with the values searched.
+RANGES = {
+    "maugis_parameter": Parameter("maugis_parameter", 0.02, 60.0, 1.0),
+    "transition": Parameter("transition", 1e-3, 0.979, 0.6, logarithmic=False),
 }

@@ -13,9 +13,9 @@ continues it; where the fit does not describe the tests, the band is widened to 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from statistics import NormalDist
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,26 +23,18 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Layer
-from viscotack.materials import Passport
-from viscotack.materials.conversion import slowed
-from viscotack.materials.passport_uncertainty import allowed
 from viscotack.protocol import Move
 from viscotack.units import readable
 
-from .covariances import (
-    ModelError,
-    covariance,
-    log_forces,
-    temperature_effect,
-    trend_covariance,
-)
-from .forward import Forward, law_of
+from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
+from .force_ratios import Mixed
+from .forward import law_of
+from .likelihood import Posterior
 from .pull_off import SAME, History
-from .rate_series import RateSeriesFit
-from .sampling import Posterior, posterior
+from .rate_fit import RateSeriesFit
+from .rate_words import forecast_words, simulation_words
 from .search import LEAST_TABOR
-from .smooth_ratio import Mixed
-from .tiers import Conditions, by_theory, tested
+from .simulated_tests import by_theory, tested
 
 _MOST = 200  # largest number of speeds
 _SURELY = 2.0  # standard deviations of a measured force
@@ -136,87 +128,82 @@ def forecast_rates(
         If an argument is invalid.
     """
     v = np.atleast_1d(np.asarray(speed, dtype=float))
+    given, (work, gap, law) = fit.given, fit.interface
     level = fit.level if level is None else level
-    loads = np.array([one.preload for one in fit.series], dtype=float)
-    load = float(loads.mean()) if preload is None else preload
-    spring = fit.stiffness if stiffness is None else stiffness
+    load = float(given.load.mean()) if preload is None else preload
+    spring = given.stiffness if stiffness is None else stiffness
     _check(v, load, level, spring, dwell, approach_speed)
+    spring = None if spring == np.inf else spring
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
-    _check_growth(fit, passport)
-    known = fit.forward.beside(passport.material)
-    w, gap = fit.work_of_adhesion, fit.equilibrium_gap
-    law = None if fit.growth is None else fit.growth.law
-    middle = known.pulled(w, gap, v, load, growth=law)
+    if law is not None and passport.temperature != fit.passport.temperature:
+        raise InputError(
+            "the temperature dependence of a speed-dependent interface is unknown: forecast at "
+            f"the temperature of the series, {fit.passport.temperature:g} K, or measure a series "
+            f"at {passport.temperature:g} K"
+        )
+    known, loaded = fit.forward.beside(passport.material), np.full(v.size, load)
+    middle = known.pulled(work, gap, v, load, growth=law)
     pressed: tuple[tuple[Move, ...], ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
-    spring = None if spring == np.inf else spring
-    loaded = np.full(v.size, load)
-    changed = known.changed(w, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)
-    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
+    tests = SphereTests(known, passport, v, loaded, spring, pressed)
+    changed = tests.changed(fit.interface)
+    chain = fit.sampled(seed)
     draws = chain.thinned(_DRAWS)
     theory = fit.theory if theory is None else theory
     if law is not None or isinstance(known.body, Layer):
-        _refuse(v, middle.effective_tabor)
-        found = by_theory(changed, theory)
+        _refuse_low_tabor(v, middle.effective_tabor)
+        found = by_theory(changed, v, theory)
     else:
-        interfaces = np.log(np.vstack([(w, gap), draws]))
-        found = tested(interfaces, changed, known, Conditions(v, loaded, spring, pressed), theory)
-    for i, why in found.refused.items():
-        raise OutOfRange(f"at {readable(v[i], 'm/s', digits=3)}: {why}")
-
-    asked = [Tests(known, passport, v, loaded)]
-    moved, left = conditioned(fit, asked, draws, theory, found.model, spring is not None)
-    root = _root(left)
+        likely = np.log(np.vstack([(work, gap), draws]))
+        found = tested(likely, changed, tests, theory)
+    moved, left = conditioned(fit, [tests], draws, theory, found.model)
     rng = np.random.default_rng(seed)
-    noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
+    noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
     sample = (np.exp(moved + noise) * found.ratio).reshape(-1, v.size)
-    slower, uncertain = _slower(fit, v, load, passport, spring, dwell)
+    comparable = passport.temperature == fit.passport.temperature and dwell is None
+    slower, uncertain = _slower(fit, v, load, comparable and spring == given.stiffness)
     part = (1 - level) / 2
     # only where noise does not explain the larger force, the band rises, too
     surely = slower * (1 - _SURELY * uncertain) > np.median(sample, axis=0)
     floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
     sample = np.where(surely, np.maximum(sample, floor), sample)
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
-    if fit.misfit:
+    if not fit.describes_tests:
         # no band excludes the tests that the model does not describe
         model = middle.force * np.median(np.atleast_2d(found.ratio), axis=0)
         least, most = model * _departure(fit, v, part)
         low, high = np.minimum(low, least), np.maximum(high, most)
-    raised = slower > median
+    raised = v[slower > median]
     median, high = np.maximum(median, slower), np.maximum(high, slower)
     one = _of_one(fit, sample, rng, part)
     return RateForecast(
-        v,
-        median,
-        low,
-        high,
-        None if one is None else np.minimum(one[0], low),
-        None if one is None else np.maximum(one[1], high),
-        level,
-        load,
-        passport.temperature,
-        dwell,
-        chain,
-        tuple(
-            [
-                *_words(fit, v, middle.crack_speed, chain),
-                *found.words,
-                *_raised_words(v[raised]),
-            ]
+        speed=v,
+        force=median,
+        low=low,
+        high=high,
+        low_of_one=None if one is None else np.minimum(one[0], low),
+        high_of_one=None if one is None else np.maximum(one[1], high),
+        level=level,
+        preload=load,
+        temperature=passport.temperature,
+        dwell=dwell,
+        posterior=chain,
+        words=(
+            *forecast_words(fit, v, middle.crack_speed, chain, raised),
+            *simulation_words(v, found.model.simulation, found.simulations),
         ),
     )
 
 
 def _departure(fit: RateSeriesFit, speed: Array, part: float) -> Array:
     """Return limits of measured over fitted force, interpolated by speed, shape (2, n)."""
-    order = np.argsort([one.speed for one in fit.series])
-    at, force, noise = np.array(
-        [(one.speed, one.force.value, one.force.uncertainty) for one in fit.series]
-    )[order].T
+    order = np.argsort(fit.given.speed)
+    force = fit.given.force[order]
+    noise = np.array([one.force.uncertainty for one in fit.series])[order]
     off = np.log(force / np.array(fit.forces)[order])
     reach = NormalDist().inv_cdf(1 - part) * noise / force
-    wanted, at = np.log(speed), np.log(at)
+    wanted, at = np.log(speed), np.log(fit.given.speed[order])
     return np.exp([np.interp(wanted, at, off + sign * reach) for sign in (-1, 1)])
 
 
@@ -224,7 +211,7 @@ def _of_one(
     fit: RateSeriesFit, sample: Array, rng: np.random.Generator, part: float
 ) -> Array | None:
     """Return the limits of single tests [N], shape (2, n), from means; None without a scatter."""
-    scatter = max(fit.between_tests, *(one.between_tests for one in fit.series))
+    scatter = max(fit.given.scatter, *(one.between_tests for one in fit.series))
     if not scatter:
         return None
     each = sample * np.exp(scatter * rng.standard_normal(sample.shape))
@@ -233,42 +220,20 @@ def _of_one(
 
 def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, ...]:
     """Return traction laws of interfaces sampled from the posterior of a series."""
-    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
-    draws = chain.thinned(count)
     growth = fit.growth
     laws = []
-    for w, gap, *more in draws.tolist():
+    for w, gap, *more in fit.sampled(seed).thinned(count).tolist():
         grows = None if growth is None else growth.opening.growth(gap, *more)
         laws.append(law_of(w, gap, grows))
     return tuple(laws)
 
 
-class Tests(NamedTuple):
-    """Tests of one sphere at one temperature whose forces are predicted.
-
-    Attributes
-    ----------
-    forward : Forward
-        Forward model of the sphere and the material.
-    passport : Passport
-        The material at the temperature of the tests.
-    speed, load : ndarray, shape (n,)
-        Retraction speed [m/s] and preload [N].
-    """
-
-    forward: Forward
-    passport: Passport
-    speed: Array
-    load: Array
-
-
 def conditioned(
     fit: RateSeriesFit,
-    asked: Sequence[Tests],
+    asked: Sequence[SphereTests],
     draws: Array,
     theory: float,
     model: ModelError,
-    springy: bool,
 ) -> tuple[Array, Array]:
     """Return ln of the forces of tests for sampled interfaces, given the series, and a covariance.
 
@@ -276,7 +241,7 @@ def conditioned(
     ----------
     fit : RateSeriesFit
         Fit of the series.
-    asked : sequence of Tests
+    asked : sequence of SphereTests
         The n tests.
     draws : ndarray, shape (K, parameters)
         Sampled interfaces.
@@ -284,8 +249,6 @@ def conditioned(
         Relative standard error of the forward model at the measured speeds.
     model : ModelError
         Errors of the forces of the tests.
-    springy : bool
-        Whether the compliance of the machine counts at the tests.
 
     Returns
     -------
@@ -295,28 +258,33 @@ def conditioned(
         Covariance about it, by the errors of theory, material, temperature and machine that the
         series leaves open.
     """
-    measured = np.array([one.speed for one in fit.series])
-    loads = np.array([one.preload for one in fit.series], dtype=float)
-    m = measured.size
-    own = Tests(fit.forward, fit.passport, measured, loads)
-    spread = _together(fit, (own, *asked), _model(fit, theory).joined(model), springy)
+    given, m = fit.given, len(fit.series)
+    own = fit.found.search.tests
+    speed = np.concatenate([own.speed, *(x.speed for x in asked)])
+    simulation = fit.found.search.model.simulation
+    measured = ModelError(np.where(simulation > 0, 0.0, theory), simulation)
+    springy = np.concatenate([np.full(x.speed.size, x.stiffness is not None) for x in asked])
+    softer = _softer(fit, speed[m:], springy)
+    trend = np.zeros((speed.size, speed.size))
+    if fit.trend:
+        trend = trend_covariance(speed, own.speed, fit.between_speeds)
+    tests, error = [own, *asked], measured.joined(model)
+    spread = joint_covariance(given, tests, fit.interface, error, softer, trend)
     # covariance of the fit: noise, theory and material of the measured forces
     gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
     left = spread[m:, m:] - gain @ spread[:m, m:]
-    works, gaps = draws[:, :1], draws[:, 1:2]
-    laws = None
+    works, gaps, laws = draws[:, :1], draws[:, 1:2], None
     if fit.growth is not None:
         laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
-    forecast: Array = np.concatenate(
-        [np.log(x.forward.pulled(works, gaps, x.speed, x.load, growth=laws).force) for x in asked],
-        axis=1,
+    at, *others = (
+        x.forward.pulled(works, gaps, x.speed, x.load, growth=laws).force for x in (own, *asked)
     )
-    at = fit.forward.pulled(works, gaps, measured, loads, growth=laws).force
     ratio = fit.yielding
-    if isinstance(fit.ratio, Mixed):
-        ratio = fit.ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
-    force = np.array([one.force.value for one in fit.series])
-    return forecast + np.log(force / (at * ratio)) @ gain.T, left
+    if isinstance(fit.found.search.ratio, Mixed):
+        values = {"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]}
+        ratio = fit.found.search.ratio(values)
+    forecast: Array = np.log(np.concatenate(others, axis=1))
+    return forecast + np.log(given.force / (at * ratio)) @ gain.T, left
 
 
 def _check(
@@ -345,51 +313,24 @@ def _check(
 
 
 def _slower(
-    fit: RateSeriesFit,
-    speed: Array,
-    preload: float,
-    passport: Passport,
-    stiffness: float | None,
-    dwell: float | None,
+    fit: RateSeriesFit, speed: Array, preload: float, comparable: bool
 ) -> tuple[Array, Array]:
     """Return the largest force measured at a slower speed, and its relative uncertainty.
 
     Pull-off forces of a linear solid grow with the speed and do not fall with the preload of a
     relaxed contact. Zero where no such force was measured under the same conditions.
     """
-    same = passport.temperature == fit.passport.temperature and dwell is None
     slower, uncertain = np.zeros(speed.size), np.zeros(speed.size)
-    if not same or stiffness != fit.stiffness:
-        return slower, uncertain
-    for one in (*fit.series, *fit.excluded):
+    for one in (*fit.series, *(one for one, _ in fit.excluded)) if comparable else ():
         if one.preload is None or one.preload > (1 + SAME) * preload:
             continue
         at = (speed > (1 + SAME) * one.speed) & (one.force.value > slower)
-        parts = one.force.uncertainty / one.force.value, fit.between_tests, fit.between_speeds
+        parts = one.force.uncertainty / one.force.value, fit.given.scatter, fit.between_speeds
         slower[at], uncertain[at] = one.force.value, np.linalg.norm(parts)
     return slower, uncertain
 
 
-def _raised_words(speed: Array) -> list[str]:
-    if not speed.size:
-        return []
-    at = readable(float(speed.min()), "m/s", digits=3, to=float(speed.max()))
-    return [
-        f"at {at} the model predicts less than was measured at a slower speed; there the forecast "
-        "is the measured force"
-    ]
-
-
-def _check_growth(fit: RateSeriesFit, passport: Passport) -> None:
-    if fit.growth is not None and passport.temperature != fit.passport.temperature:
-        raise InputError(
-            "the temperature dependence of a speed-dependent interface is unknown: forecast at "
-            f"the temperature of the series, {fit.passport.temperature:g} K, or measure a series "
-            f"at {passport.temperature:g} K"
-        )
-
-
-def _refuse(speed: Array, effective: Array) -> None:
+def _refuse_low_tabor(speed: Array, effective: Array) -> None:
     bad = effective < LEAST_TABOR
     if np.any(bad):
         raise OutOfRange(
@@ -398,91 +339,19 @@ def _refuse(speed: Array, effective: Array) -> None:
         )
 
 
-def _model(fit: RateSeriesFit, theory: float) -> ModelError:
-    """Return the errors of the measured forces, for this error of the theory."""
-    simulation = fit.model_error.simulation
-    return ModelError(np.where(simulation > 0, 0.0, theory), simulation)
+def _softer(fit: RateSeriesFit, wanted: Array, springy: npt.NDArray[np.bool_]) -> Array:
+    """Return the error of ln(force) by the compliance of the machine, at both sets of speeds.
 
-
-def _together(
-    fit: RateSeriesFit, tests: Sequence[Tests], model: ModelError, springy: bool
-) -> Array:
-    """Return the joint covariance of model, material and machine over all tests.
-
-    Where the forces depart from the model by a power of the speed, that is in it too. The first are
-    those of the series; the machine counts at the others if it is `springy` there.
+    It counts at the wanted speeds where the machine is springy.
     """
-    speed = np.concatenate([x.speed for x in tests])
-    m = tests[0].speed.size
-    w, gap = fit.work_of_adhesion, fit.equilibrium_gap
-    more = [x.forward.layer_error(w, gap, x.speed, x.load) for x in tests]
-    spread = replace(model, theory=model.theory + np.concatenate(more)).covariance(speed)
-    law = None if fit.growth is None else fit.growth.law
-    # one thermometer and one machine for all tests
-    shifts = [replace(fit.uncertain, passport=x.passport).shift for x in tests]
-    warmer = np.concatenate(
-        [
-            temperature_effect(x.forward, error, w, gap, x.speed, x.load, law)
-            for x, error in zip(tests, shifts, strict=True)
-        ]
-    )
-    warmer[:m] *= fit.uncertain.shifts(fit.series)
-    softer = _softer(fit, speed[:m], speed[m:], springy)
-    spread = spread + np.outer(warmer, warmer) + np.outer(softer, softer)
-    if fit.trend:
-        spread = spread + trend_covariance(speed, speed[:m], fit.between_speeds)
-    solids = allowed(fit.passport)
-    if not solids:
-        return spread
-    rows = []
-    for x in tests:
-        known = x.passport is fit.passport or x.passport.allowed
-        moved = allowed(x.passport) if known else _slowed(fit.passport, x.passport, solids)
-        rows.append(log_forces(x.forward, moved, w, gap, x.speed, x.load, law))
-    return spread + covariance(np.concatenate(rows, axis=1))
-
-
-def _softer(fit: RateSeriesFit, measured: Array, wanted: Array, springy: bool) -> Array:
-    """Return the error of ln(force) by the compliance of the machine, at both sets of speeds."""
-    yielding = fit.ratio.others if isinstance(fit.ratio, Mixed) else fit.ratio
-    error, order = fit.uncertain.compliance * yielding.log_ratio, np.argsort(measured)
+    ratio, measured = fit.found.search.ratio, fit.given.speed
+    yielding = ratio.others if isinstance(ratio, Mixed) else ratio
+    error, order = fit.given.compliance_error * yielding.log_ratio, np.argsort(measured)
     beyond = np.interp(np.log(wanted), np.log(measured[order]), error[order])
     return np.concatenate([error, beyond * springy])
-
-
-def _slowed(first: Passport, second: Passport, solids: Sequence[object]) -> Sequence[object]:
-    """Return solids sampled from a passport's intervals at another temperature."""
-    if second.temperature == first.temperature or second.temperature is None:
-        return solids
-    factor = first.shift_factor(second.temperature)
-    return [slowed(solid, factor) for solid in solids]
 
 
 def _root(covariance: Array) -> Array:
     """Return a square root of a covariance that may be singular."""
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
     return vectors * np.sqrt(np.maximum(values, 0.0))
-
-
-def _words(fit: RateSeriesFit, speed: Array, crack: Array, chain: Posterior) -> list[str]:
-    said = []
-    measured = [one.speed for one in fit.series]
-    if speed.min() < 0.5 * min(measured) or speed.max() > 2 * max(measured):
-        said.append(
-            "measured speeds range from "
-            f"{readable(min(measured), 'm/s', digits=3, to=max(measured))}; beyond them the "
-            "prediction depends on the material and the theory"
-        )
-    said.append(
-        f"the crack speed at pull-off is {readable(crack.min(), 'm/s', digits=2, to=crack.max())}"
-    )
-    if len(fit.solutions) > 1:
-        said.append(f"the band covers the {len(fit.solutions)} interfaces that fit the forces")
-    if not chain.converged:
-        said.append(
-            "too few independent samples of the posterior: the correlation time is "
-            f"{chain.correlation_time:.0f} steps"
-        )
-    if not allowed(fit.passport):
-        said.append("the band does not include the uncertainty of the material, which is unknown")
-    return said

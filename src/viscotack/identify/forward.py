@@ -5,8 +5,7 @@ Lennard-Jones forces. For an interface whose strength grows with the opening spe
 (:class:`Growth`), the crack energies are interpolated from a lattice of cracks.
 """
 
-import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -37,7 +36,7 @@ from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import GentSchultz, LennardJones
 from viscotack.units import readable
 
-from .computed import Computed, packaged
+from .computed import Arrays, Computed, packaged
 from .travel import travels_of
 
 _APART = 20.0  # start of an approach, in ranges of attraction
@@ -116,16 +115,37 @@ class Changed(NamedTuple):
     Attributes
     ----------
     ratio : ndarray, shape (S,)
-        Pull-off force over that of a relaxed contact and a rigid machine; 1 for refused speeds.
-    refused : dict
-        Index of a speed -> reason why the theory does not apply.
+        Pull-off force over that of a relaxed contact and a rigid machine; 1 where refused.
     band : ndarray, shape (S,)
         Relative half width of the theory's 90 % interval; 0 where it is not known.
+    refused : ndarray of str, shape (S,)
+        Reason why the theory does not hold for a test; empty where it holds.
     """
 
     ratio: Array
-    refused: dict[int, str]
     band: Array
+    refused: npt.NDArray[np.str_]
+
+    @property
+    def holds(self) -> npt.NDArray[np.bool_]:
+        """Whether the theory holds for each test."""
+        return self.refused == ""
+
+
+class Interface(NamedTuple):
+    """Lennard-Jones interface, which may grow with speed.
+
+    Attributes
+    ----------
+    work, gap : float
+        Work of adhesion [J/m2] and range of attraction h0 [m].
+    growth : Growth or None
+        Growth with the opening speed.
+    """
+
+    work: float
+    gap: float
+    growth: Growth | None = None
 
 
 def law_of(work: float, gap: float, growth: Growth | None = None) -> Any:
@@ -248,65 +268,50 @@ class Forward:
             Growth of the interface.
         """
         self.check(stiffness=stiffness, moves=moves, growth=growth is not None)
-
-        def compute() -> dict[str, Array]:
-            found = self._changed(work, gap, speed, preload, stiffness, moves, growth)
-            refused = np.frombuffer(json.dumps(found.refused).encode(), dtype=np.uint8)
-            return {"ratio": found.ratio, "band": found.band, "refused": refused.astype(float)}
-
         case = ("changed", *_numbers(work, gap, speed, preload), stiffness, moves)
-        known = self._known(case, growth, compute)
-        refused = json.loads(bytes(known["refused"].astype(np.uint8)))
-        # changed in place by those who ask
-        return Changed(
-            known["ratio"].copy(), {int(i): why for i, why in refused.items()}, known["band"].copy()
-        )
+        given = Interface(work, gap, growth), speed, preload, stiffness, moves
+        return Changed(**self._known(case, growth, lambda: self._changed(*given)._asdict()))
 
     def _known(
-        self, case: tuple[Any, ...], growth: Any, compute: Callable[[], Mapping[str, Array]]
-    ) -> Mapping[str, Array]:
+        self, case: tuple[Any, ...], growth: Growth | None, compute: Arrays
+    ) -> Mapping[str, npt.NDArray[Any]]:
         """Return arrays that were computed for a case earlier, or compute them."""
         store = self.computed
         if store is None or growth is not None or not packaged(self.material):
             return compute()
-        return store.of((*self._stated, self.radius, self.body, *case), compute)
+        return store.of((*self._materials, self.radius, self.body, *case), compute)
 
     @property
-    def _stated(self) -> tuple[Any, ...]:
-        """What states the cracks."""
+    def _materials(self) -> tuple[Any, ...]:
+        """Materials from which the cracks follow."""
         return (self.material,)
 
     def _changed(
         self,
-        work: float,
-        gap: float,
+        interface: Interface,
         speed: Array,
         preload: Array,
         stiffness: float | None,
         moves: Sequence[tuple[Move, ...]],
-        growth: Growth | None,
-    ) -> "Changed":
-        loads = np.broadcast_to(preload, speed.shape)
+    ) -> Changed:
+        work, gap, growth = interface
+        loads, none = np.broadcast_to(preload, speed.shape), np.zeros(speed.size)
         if isinstance(self.body, Layer):
-            refused = _outside_layer(self.pulled(work, gap, speed, loads))
-            return Changed(np.ones(speed.size), refused, np.zeros(speed.size))
+            return Changed(none + 1, none, _outside_layer(self.pulled(work, gap, speed, loads)))
         problems = [
             self.problem(work, gap, float(load), float(v), growth, stiffness=stiffness, moves=some)
             for v, load, some in zip(speed, loads, moves or [()] * speed.size, strict=True)
         ]
-        if not moves and stiffness is None:
-            # no effect; retractions from rest are computed together
-            rested = _rested(problems)
-            return Changed(np.ones(speed.size), _refused(rested, speed), _bands(rested))
-        answers = [_pressed(problem) for problem in problems]
-        refused = _refused(answers, speed)
+        at_rest = not moves and stiffness is None
+        answers = _at_rest(problems) if at_rest else [_pressed(problem) for problem in problems]
+        rows = [_force_band_reason(*row) for row in zip(answers, speed, strict=True)]
+        force, band, refused = (np.array(column) for column in zip(*rows, strict=True))
+        if at_rest:
+            return Changed(none + 1, band, refused)
         rigid = self.pulled(work, gap, speed, preload, growth=growth).force
         unit = 1.5 * np.pi * self.radius * work
-        ratio = np.ones(speed.size)
-        for i, answer in enumerate(answers):
-            if i not in refused:
-                ratio[i] = answer.pull_off_force * unit / rigid[i]  # type: ignore
-        return Changed(ratio, refused, _bands(answers))
+        ratio = np.where(refused == "", force * unit / rigid, 1.0)
+        return Changed(ratio, band, refused)
 
     def layer_error(self, work: float, gap: float, speed: Array, preload: Array) -> Array:
         """Return the part of the theory's relative error by which it grows on thin layers."""
@@ -348,25 +353,21 @@ class Forward:
             Growth of the interfaces.
         """
         given = (work, gap, speed, preload, *(growth or ()))
-        numbers = ("pulled", *_numbers(*given), radii)
-        known = self._known(numbers, growth, lambda: self._all_pulled(given, radii, growth))
-        return Pulled(**known)
 
-    def _all_pulled(
-        self, given: Sequence[npt.ArrayLike], radii: int, growth: Growth | None
-    ) -> dict[str, Array]:
-        """Return the fields of pull-offs by name."""
-        cases = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
-        shape, flat = cases[0].shape, [x.ravel() for x in cases]
-        # with one edge law per case, process in batches to limit memory
-        count = flat[0].size if growth is None else _AT_ONCE
-        parts = [
-            self._pulled([x[i : i + count] for x in flat], radii)
-            for i in range(0, flat[0].size, count)
-        ]
-        joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-        columns = (one.reshape((*shape, *one.shape[1:])) for one in joined)
-        return dict(zip(Pulled._fields, columns, strict=True))
+        def compute() -> Mapping[str, Array]:
+            cases = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
+            shape, flat = cases[0].shape, [x.ravel() for x in cases]
+            # with one edge law per case, process in batches to limit memory
+            count = flat[0].size if growth is None else _AT_ONCE
+            parts = [
+                self._pulled([x[i : i + count] for x in flat], radii)
+                for i in range(0, flat[0].size, count)
+            ]
+            joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+            columns = (one.reshape((*shape, *one.shape[1:])) for one in joined)
+            return dict(zip(Pulled._fields, columns, strict=True))
+
+        return Pulled(**self._known(("pulled", *_numbers(*given), radii), growth, compute))
 
     def curve(
         self, work: float, gap: float, speed: float, preload: float, growth: Growth | None = None
@@ -442,25 +443,21 @@ def _numbers(*given: npt.ArrayLike) -> tuple[list[Any], ...]:
     return tuple(np.asarray(x, dtype=float).tolist() for x in given)
 
 
-def _outside_layer(pulled: Pulled) -> dict[int, str]:
-    """Map the index of each speed at which the theory does not hold on a layer to the reason."""
+def _outside_layer(pulled: Pulled) -> npt.NDArray[np.str_]:
+    """Return the reason why the theory does not hold on a layer at each speed, or ""."""
     start = pulled.contact_radius / pulled.edge_radius
     zones = (pulled.contact_radius - pulled.edge_radius) / pulled.zone
-    found = {}
     rows = zip(pulled.effective_tabor, start, pulled.through, zones, strict=True)
-    for i, (energy, row) in enumerate(zip(pulled.energy, rows, strict=True)):
-        why = outside(*map(float, row))
-        if energy > 1 / LEAST_RATIO:
-            why = (
-                f"the edge takes {energy:.3g} works of adhesion; compared with simulations on "
-                f"layers up to {1 / LEAST_RATIO:.3g}"
-            )
-        if why:
-            found[i] = why
-    return found
+    reasons = [outside(*map(float, row)) or "" for row in rows]
+    for i in np.flatnonzero(pulled.energy > 1 / LEAST_RATIO):
+        reasons[i] = (
+            f"the edge takes {pulled.energy[i]:.3g} works of adhesion; compared with simulations "
+            f"on layers up to {1 / LEAST_RATIO:.3g}"
+        )
+    return np.array(reasons)
 
 
-def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
+def _at_rest(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
     """Return the crack contact of each retraction from rest, or its error."""
     try:
         return crack_contacts([problem.groups() for problem in problems])
@@ -476,22 +473,14 @@ def _pressed(problem: Problem) -> CrackContact | InputError:
         return error
 
 
-def _bands(answers: Sequence[CrackContact | InputError]) -> Array:
-    """Return the band of each test, 0 without an answer."""
-    return np.array([one.band if isinstance(one, CrackContact) else 0.0 for one in answers])
-
-
-def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict[int, str]:
-    """Map the index of each test without a pull-off to the reason."""
-    refused = {}
-    for i, answer in enumerate(answers):
-        if isinstance(answer, InputError):
-            refused[i] = str(answer)
-        elif answer.pull_off_force is None:
-            refused[i] = (
-                f"there is no pull-off at {readable(speed[i], 'm/s', digits=3)}; simulate it"
-            )
-    return refused
+def _force_band_reason(answer: CrackContact | InputError, speed: float) -> tuple[float, float, str]:
+    """Return the pull-off force of an answer, its band, and why there is none."""
+    if isinstance(answer, InputError):
+        return np.nan, 0.0, str(answer)
+    if answer.pull_off_force is None:
+        at = readable(speed, "m/s", digits=3)
+        return np.nan, answer.band, f"there is no pull-off at {at}; simulate it"
+    return answer.pull_off_force, answer.band, ""
 
 
 def _ranged(found: Curves, effective: Array) -> tuple[Array, Array]:
@@ -508,8 +497,8 @@ class Neighbour(Forward):
     known: Forward = field(kw_only=True)
 
     @property
-    def _stated(self) -> tuple[Any, ...]:
-        return (self.material, *self.known._stated)
+    def _materials(self) -> tuple[Any, ...]:
+        return (self.material, *self.known._materials)
 
     @property
     def zone_length(self) -> float:

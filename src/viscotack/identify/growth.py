@@ -22,10 +22,9 @@ from scipy.stats import chi2
 from viscotack.arrays import Array
 from viscotack.theory.crack.contact import GrowingCracks
 from viscotack.traction.growing import reference_speed
-from viscotack.units import readable
 
 from .forward import Forward, Growth, Pulled
-from .objective import Parameter
+from .likelihood import Parameter
 
 STRENGTHENING, EXPONENT = "strengthening", "exponent"
 # The largest strengthening searched; exponents searched, and those of the lattice.
@@ -37,8 +36,6 @@ _LATTICE = (0.2, 0.4, 0.6, 0.8)
 _LEAST, _MORE, _FASTER = 0.03, 1.5, 3.0
 # Growth that is negligible.
 _LEAST_TOLD = 1e-3
-# Accepted probability that a series without growth is reported to need it.
-_CHANCE = 0.01
 
 
 @dataclass(frozen=True)
@@ -97,64 +94,49 @@ class FoundGrowth:
 
     Parameters
     ----------
+    gap : float
+        Fitted range of attraction [m].
     strengthening : float
         Strength over that at rest, at `opening_speed`.
     exponent : float
         n of the Gent-Schultz law [-].
-    opening_speed : float
-        Opening speed of the gap under an edge in the middle of the series [m/s].
-    reference_speed : float
-        v0 of the law [m/s]; infinite without growth.
     better_by : float
         Reduction of the misfit compared with the best interface without growth, which has two
         parameters fewer.
-    chance : float
-        Probability of such a reduction for an interface without growth.
     shares : tuple of Share
         Contributions of bulk and interface at the speeds of the series.
     opening : Opening
         Opening speed at which the strengthening is defined, for any range.
     """
 
+    gap: float
     strengthening: float
     exponent: float
-    opening_speed: float
-    reference_speed: float
     better_by: float
-    chance: float
     shares: tuple[Share, ...]
     opening: Opening
 
     @property
-    def law(self) -> Growth:
-        """Reference speed and exponent."""
-        return Growth(self.reference_speed, self.exponent)
+    def opening_speed(self) -> float:
+        """Opening speed of the gap under an edge in the middle of the series [m/s]."""
+        return float(self.opening.speed(self.gap))
 
     @property
-    def values(self) -> dict[str, float]:
-        """The parameters by name."""
-        return {STRENGTHENING: self.strengthening, EXPONENT: self.exponent}
+    def law(self) -> Growth:
+        """Reference speed and exponent."""
+        return self.opening.growth(self.gap, self.strengthening, self.exponent)
 
-    def words(self) -> list[str]:
-        """Return sentences on the growth of the interface."""
-        sure = self.chance < _CHANCE
-        said = [
-            f"{'the interface grows with speed' if sure else 'growth is not needed'}: without it "
-            f"the misfit is {self.better_by:.1f} larger, with a probability of {self.chance:.1%} "
-            "by chance"
-        ]
-        if np.isfinite(self.reference_speed):
-            said.append(
-                f"Gent-Schultz: reference speed {readable(self.reference_speed, 'm/s', digits=3)} "
-                f"of the gap, exponent {self.exponent:.2f}"
-            )
-        for one in sorted({self.shares[0], self.shares[-1]}, key=lambda share: share.speed):
-            said.append(
-                f"at {readable(one.speed, 'm/s', digits=3)} the edge dissipates "
-                f"{one.energy:.3g} works of adhesion: "
-                f"a factor {one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
-            )
-        return said
+    @property
+    def reference_speed(self) -> float:
+        """v0 of the law [m/s]; infinite without growth."""
+        return float(self.law.reference_speed)
+
+    @property
+    def chance(self) -> float:
+        """Probability of such a reduction of the misfit for an interface without growth."""
+        # the noise is known, so the difference of misfits is chi-squared; without growth the
+        # exponent is free and growth is not negative, which makes chance even less likely
+        return float(chi2.sf(self.better_by, 2))
 
 
 def growing(forward: Forward, opening: Opening, gaps: tuple[float, float]) -> Forward:
@@ -178,24 +160,10 @@ def growth_parameters() -> tuple[Parameter, Parameter]:
     )
 
 
-def found_growth(
-    values: Mapping[str, float], opening: Opening, better_by: float, speed: Array, pulled: Pulled
-) -> FoundGrowth:
-    """Return the fitted growth with its significance."""
+def shares_of(speed: Array, pulled: Pulled) -> tuple[Share, ...]:
+    """Return the contributions of bulk and interface to pull-offs at speeds."""
     rows = zip(speed, pulled.crack_speed, pulled.energy, pulled.interface, strict=True)
-    shares = tuple(
+    return tuple(
         Share(float(v), float(edge), float(energy), float(energy / work), float(work))
         for v, edge, energy, work in rows
-    )
-    return FoundGrowth(
-        strengthening=values[STRENGTHENING],
-        exponent=values[EXPONENT],
-        opening_speed=float(opening.speed(values["equilibrium_gap"])),
-        reference_speed=float(opening.of(values).reference_speed),
-        better_by=max(better_by, 0.0),
-        # the noise is known, so the difference of misfits is chi-squared; without growth the
-        # exponent is free and growth is not negative, which makes chance even less likely
-        chance=float(chi2.sf(max(better_by, 0.0), 2)),
-        shares=shares,
-        opening=opening,
     )

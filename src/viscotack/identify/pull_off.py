@@ -87,6 +87,11 @@ class PullOff:
         """True retraction speed [m/s]."""
         return self.speed / self.shift
 
+    @property
+    def at(self) -> str:
+        """Speed, shifted, in words."""
+        return readable(self.speed, "m/s", digits=3)
+
     def conditions(self, digits: int = 4) -> str:
         """Return temperature, if known, and true speed in words."""
         at = readable(self.true_speed, "m/s", digits=digits)

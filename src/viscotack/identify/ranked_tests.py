@@ -23,12 +23,11 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.units import readable
 
-from .covariances import ModelError
-from .forecasting import Tests, conditioned
+from .covariances import ModelError, SphereTests
+from .forecasting import conditioned
 from .forward import Forward
 from .pull_off import History
-from .rate_series import RateSeriesFit
-from .sampling import posterior
+from .rate_fit import RateSeriesFit
 from .search import LEAST_TABOR
 
 # Number of sampled interfaces, step of logarithms for slopes, and most candidates.
@@ -222,7 +221,7 @@ def next_tests(
 def noise_of(fit: RateSeriesFit) -> float:
     """Return the relative noise of a test of a series: median over its speeds."""
     rows = [
-        (x.force.uncertainty / x.force.value, fit.between_tests, fit.between_speeds)
+        (x.force.uncertainty / x.force.value, fit.given.scatter, fit.between_speeds)
         for x in fit.series
     ]
     return float(np.median([np.linalg.norm(row) for row in rows]))
@@ -243,10 +242,9 @@ def trial_words(trial: Trial) -> str:
 
 def _stated(fit: RateSeriesFit, trial: Trial) -> Trial:
     """Return a test with preload and radius."""
-    load = float(np.mean(np.array([one.preload for one in fit.series], dtype=float)))
     return replace(
         trial,
-        preload=load if trial.preload is None else trial.preload,
+        preload=float(fit.given.load.mean()) if trial.preload is None else trial.preload,
         radius=fit.forward.radius if trial.radius is None else trial.radius,
     )
 
@@ -258,12 +256,11 @@ def _forward(fit: RateSeriesFit, radius: float) -> Forward:
 
 def _valid(fit: RateSeriesFit, trial: Trial) -> str:
     """Return why the theory does not hold for a test, or ""."""
-    known = _forward(fit, trial.radius or 0.0)
-    law = None if fit.growth is None else fit.growth.law
+    known, (work, gap, law) = _forward(fit, trial.radius or 0.0), fit.interface
     one, load = np.array([trial.speed]), np.array([trial.preload])
     try:
         known.check(moves=_moves(trial))
-        found = known.pulled(fit.work_of_adhesion, fit.equilibrium_gap, one, load, growth=law)
+        found = known.pulled(work, gap, one, load, growth=law)
     except InputError as error:
         return str(error)
     effective = float(found.effective_tabor[0])
@@ -285,8 +282,7 @@ def _joint(
     fit: RateSeriesFit, tests: Sequence[Trial], about_interface: bool, seed: int
 ) -> tuple[Array, Array]:
     """Return mean and joint covariance of ln of the forces, and of work and range if wanted."""
-    chain = posterior(fit.objective, fit.best, others=fit.solutions[1:], seed=seed)
-    draws = chain.thinned(_DRAWS)
+    draws = fit.sampled(seed).thinned(_DRAWS)
     order, groups = [], []
     for radius in dict.fromkeys(each.radius or 0.0 for each in tests):
         numbers = [i for i, each in enumerate(tests) if each.radius == radius]
@@ -294,12 +290,11 @@ def _joint(
         speed, load = (
             np.array([getattr(x, name) for x in some], float) for name in ("speed", "preload")
         )
-        groups.append(Tests(_forward(fit, radius), fit.passport, speed, load))
+        spring = fit.given.stiffness
+        groups.append(SphereTests(_forward(fit, radius), fit.passport, speed, load, spring))
         order += numbers
-    none = np.zeros(len(tests))
-    model = ModelError(none + fit.theory, none)
-    springy = fit.stiffness is not None
-    moved, left = conditioned(fit, groups, draws, fit.theory, model, springy)
+    model = ModelError.of_theory(fit.theory, len(tests))
+    moved, left = conditioned(fit, groups, draws, fit.theory, model)
     back = np.argsort(order)
     moved, left = moved[:, back], left[np.ix_(back, back)]
     for i, each in enumerate(tests):
@@ -316,16 +311,15 @@ def _history_effect(fit: RateSeriesFit, trial: Trial, draws: Array) -> Array:
 
     It is linear in ln of work and range about the most likely interface.
     """
-    known, moves = _forward(fit, trial.radius or 0.0), _moves(trial)
-    middle = np.log([fit.work_of_adhesion, fit.equilibrium_gap])
-    law = None if fit.growth is None else fit.growth.law
+    known, law = _forward(fit, trial.radius or 0.0), fit.interface.growth
+    middle = np.log(fit.interface[:2])
+    rest: dict[str, Any] = {"stiffness": fit.given.stiffness, "moves": _moves(trial), "growth": law}
 
     def ratio(at: Array) -> float:
-        w, gap = np.exp(at).tolist()
-        speed, load = np.array([trial.speed]), np.array([trial.preload])
-        found = known.changed(w, gap, speed, load, stiffness=fit.stiffness, moves=moves, growth=law)
-        if found.refused:
-            raise OutOfRange(f"{trial_words(trial)}: {found.refused[0]}")
+        work, gap = np.exp(at).tolist()
+        found = known.changed(work, gap, np.array([trial.speed]), np.array([trial.preload]), **rest)
+        if why := str(found.refused[0]):
+            raise OutOfRange(f"{trial_words(trial)}: {why}")
         return float(np.log(found.ratio[0]))
 
     own = ratio(middle)

@@ -4,9 +4,9 @@ Without growth one table covers all unknowns. With growth a coarse table locates
 interfaces, and a fine table covers only these.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,14 +16,13 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import LEAST_TABOR
 
-from .covariances import TREND, ModelError, trend_covariance
-from .forward import Forward
+from .covariances import TREND, ModelError, SphereTests, trend_covariance
+from .force_ratios import Mixed, Yielding
+from .forward import Forward, Interface
 from .growth import Opening, growing, growth_parameters
 from .interpolated_forces import Table
-from .machine_compliance import Yielding
-from .objective import Best, Interval, Objective, Parameter
-from .pull_off import PullOff
-from .smooth_ratio import Mixed
+from .likelihood import Best, Interval, Objective, Parameter
+from .rate_series import RateSeries
 
 _WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth
 # Steps of work, range, strengthening and exponent of the coarse table, in search
@@ -35,53 +34,32 @@ _BETWEEN, _CLOSE = (1e-3, 1.0), 0.05  # searched scatters between speeds, relati
 # Smallest number of speeds that show a trend, and -2 ln(likelihood) by which it must be better.
 _TREND_SPEEDS, _PREFERRED = 3, 2.0
 _FEWEST = 5  # smallest number of values of an unknown
+# Parts of the range at which a search without growth starts.
+_STARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
+# With growth: number of starts, and their distance over the span of the table.
+_SEPARATE, _SHARE = 4, 0.2
 # Refinement of the coarse table for the search, and misfits above the minimum that are kept
 # at first, and where an interval needs more.
 _DENSE, _KEPT = 3, (30.0, 150.0)
-# Refinement of the table without growth for a list of likely interfaces.
-_LIKELY = 4
-
-
-class Data:
-    """Measured pull-offs as arrays, with their uncertainties."""
-
-    def __init__(
-        self,
-        series: Sequence[PullOff],
-        work: tuple[float, float] | None,
-        curves: bool,
-        scatter: float,
-        theory: float,
-    ) -> None:
-        self.series, self.curves, self.theory = series, curves, theory
-        self.prior = None if work is None else (work[0], work[1] / work[0])
-        self.speed = np.array([one.speed for one in series])
-        self.load = np.array([one.preload for one in series], dtype=float)
-        self.force = np.array([one.force.value for one in series])
-        noise = np.array([one.force.uncertainty for one in series]) / self.force
-        self.own = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2)
-        self.model = ModelError(np.full(self.speed.size, theory), np.zeros(self.speed.size))
-        self.spread = self.own + self.model.covariance(self.speed)
-
-    def some(self, count: int) -> npt.NDArray[np.intp]:
-        """Select evenly a number of pull-offs from the slowest to the fastest."""
-        order, size = np.argsort(self.speed, kind="stable"), self.speed.size
-        return order[np.unique(np.linspace(0, size - 1, min(count, size)).round().astype(int))]
+# Refinement of the table without growth for a list of likely interfaces, and its longest length.
+_LIKELY, _MOST_LIKELY = 4, 300
 
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """A table of pull-offs and the data it is compared with.
+    """A table of pull-offs and the series it is compared with.
 
     Parameters
     ----------
-    data : Data
+    series : RateSeries
         Measured pull-offs.
+    forward : Forward
+        Forward model, with cracks that grow if growth is fitted.
     table : Table
         Forces of relaxed contacts with a rigid machine, by theory.
     spread : ndarray, shape (S, S)
         Covariance of the relative forces.
-    yielding : Yielding or Mixed
+    ratio : Yielding or Mixed
         Ratios of the forces to those of the table.
     model : ModelError
         Error of the forces, included in the covariance.
@@ -91,13 +69,35 @@ class Search:
         Pull-offs in the table; by default all.
     """
 
-    data: Data
+    series: RateSeries
+    forward: Forward
     table: Table
     spread: Array
-    yielding: Yielding | Mixed
+    ratio: Yielding | Mixed
     model: ModelError
     opening: Opening | None = None
     some: npt.NDArray[np.intp] | None = None
+
+    @classmethod
+    def begun(cls, forward: Forward, series: RateSeries, least: float = LEAST_TABOR) -> "Search":
+        """Return a search without growth or machine, down to an effective Tabor number."""
+        works, ranges = _works(forward, series, 1.0, _WORKS), np.geomspace(*series.gaps, _GAPS)
+        # ranges valid for the largest work of adhesion; smaller ones are checked after the fit
+        at = forward.pulled(works[-1], ranges[:, None], series.speed, series.load).effective_tabor
+        holds = np.all(at >= least, axis=-1)
+        count = int(np.argmin(holds)) if not holds.all() else holds.size
+        if count < _FEWEST:
+            raise InputError(
+                f"the theory of a crack holds for none of the searched ranges ({series.gaps[0]:.3g}"
+                f" to {series.gaps[1]:.3g} m), because the cohesive zone is as large as the "
+                "contact; search smaller ranges, or simulate"
+            )
+        axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
+        table = Table(forward, series.speed, series.load, axes, travels=series.curves)
+        model = ModelError.of_theory(series.theory_error, series.speed.size)
+        spread = series.noise + model.covariance(series.speed)
+        rigid = Yielding.of_a_rigid_machine(series.speed.size)
+        return cls(series, forward, table, spread, rigid, model)
 
     @property
     def white(self) -> Array:
@@ -105,29 +105,12 @@ class Search:
         at = slice(None) if self.some is None else np.ix_(self.some, self.some)
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])), dtype=np.float64)
 
-    def scattered(self, between: float, trend: bool) -> "Search":
-        """Return this search with a relative scatter between speeds added to its covariance.
-
-        With a trend, most of its variance is an error that follows a power of the speed.
-        """
-        speed = self.data.speed
-        more = between**2 * np.eye(speed.size)
-        if trend:
-            more = (1 - TREND) * more + trend_covariance(speed, speed, between)
-        return replace(self, spread=self.spread + more)
-
-    def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
-        """Return relative residuals of the forces, corrected for the machine's stiffness."""
-        some = slice(None) if self.some is None else self.some
-        return forces * self.yielding(values)[..., some] / self.data.force[some] - 1
-
     @property
     def objective(self) -> Objective:
         """Objective function over the parameters of the table."""
         table, white = self.table, self.white
-        shapes = None
-        if self.data.curves and self.some is None:
-            shapes = _Shapes(self.data.series, table, self.data.theory)
+        whole = self.series.curves and self.some is None
+        shapes = _Shapes(self.series, table) if whole else None
 
         def residuals(values: Mapping[str, float]) -> Array:
             rest = white @ self._relative(table(values), values)
@@ -138,30 +121,48 @@ class Search:
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """The unknowns, bounded by the ends of the table."""
-        axes = self.table.axes
-        found = [
-            _between("work_of_adhesion", axes["work_of_adhesion"], self.data.prior),
-            _between("equilibrium_gap", axes["equilibrium_gap"], None),
-        ]
-        if self.opening is not None:
-            for one in growth_parameters():
-                low, high = float(axes[one.name][0]), float(axes[one.name][-1])
-                middle = one.outer((one.inner(low) + one.inner(high)) / 2)
-                found.append(replace(one, low=low, high=high, start=middle))
+        ends = {name: (float(x[0]), float(x[-1])) for name, x in self.table.axes.items()}
+
+        def positive(name: str, prior: tuple[float, float] | None = None) -> Parameter:
+            low, high = ends[name]
+            return Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior)
+
+        found = [positive("work_of_adhesion", self.series.prior), positive("equilibrium_gap")]
+        for one in () if self.opening is None else growth_parameters():
+            low, high = ends[one.name]
+            middle = one.outer((one.inner(low) + one.inner(high)) / 2)
+            found.append(replace(one, low=low, high=high, start=middle))
         return tuple(found)
+
+    @property
+    def tests(self) -> SphereTests:
+        """The measured tests."""
+        one = self.series
+        return SphereTests(
+            self.forward, one.passport, one.speed, one.load, one.stiffness, one.moves
+        )
+
+    def interface(self, best: Best) -> Interface:
+        """Return the interface of some parameters."""
+        growth = None if self.opening is None else self.opening.of(best.values)
+        return Interface(best.values["work_of_adhesion"], best.values["equilibrium_gap"], growth)
+
+    def forces(self, best: Best) -> Array:
+        """Return the pull-off forces of some parameters [N], shape (S,)."""
+        return self.table(best.values) * self.ratio(best.values)
 
     def best(self) -> Best:
         """Return the best fit from several starts."""
         objective = self.objective
         if self.opening is None:
-            return _best(objective)
-        points, misfits = self.scanned(1)
-        names = list(self.table.axes)
-        starts = [
-            dict(zip(names, _outer(self.parameters, points[i]), strict=True))
-            for i in _apart(points, misfits)
-        ]
-        found = [objective.best(near=Best(start, 0.0, 0)) for start in starts]
+            (gap,) = (one for one in self.parameters if one.name == "equilibrium_gap")
+            low, high = gap.inner(gap.low), gap.inner(gap.high)
+            held = ({"equilibrium_gap": gap.outer(low + x * (high - low))} for x in _STARTS)
+            starts = [objective.best(one) for one in held]
+        else:
+            points, misfits = self.scanned(1)
+            starts = [Best(self._values(x), 0.0, 0) for x in _separate(points, misfits)]
+        found = [objective.best(near=start) for start in starts]
         return min(found, key=lambda best: best.misfit)
 
     def intervals(self, best: Best, level: float) -> dict[str, Interval]:
@@ -169,91 +170,85 @@ class Search:
         objective = self.objective
         return {one.name: objective.interval(one.name, best, level) for one in self.parameters}
 
-    def likely(self, above: float, most: int = 300) -> Array:
+    def likely(self, above: float) -> Array:
         """Return interfaces with a misfit up to `above` the least, as ln of work and range.
 
-        The most likely is first, and there are `most` at most.
+        The most likely is first, and their number is limited.
         """
         points, misfits = self.scanned(_LIKELY)
         order = np.argsort(misfits)
         near = order[: np.count_nonzero(misfits <= misfits[order[0]] + above)]
-        return points[near[np.unique(np.linspace(0, near.size - 1, most).astype(int))]]
+        return points[near[np.unique(np.linspace(0, near.size - 1, _MOST_LIKELY).astype(int))]]
 
     def scanned(self, times: int) -> tuple[Array, Array]:
         """Return points of a refined lattice, in search coordinates, and their misfits."""
         points = self.table.dense(times)
-        values = {
-            one.name: one.outer_of(x) for one, x in zip(self.parameters, points.T, strict=True)
-        }
-        rest = self._relative(self.table.forces(points), values) @ self.white.T
+        rest = self._relative(self.table.forces(points), self._values(points.T)) @ self.white.T
         misfits = np.sum(rest**2, axis=1)
-        if self.data.prior is not None:
-            value, relative = self.data.prior
+        if self.series.prior is not None:
+            value, relative = self.series.prior
             misfits += ((points[:, 0] - np.log(value)) / relative) ** 2
         return points, misfits
 
+    def _values(self, inner: Array) -> dict[str, Any]:
+        """Return the parameters by name from search coordinates."""
+        rows = zip(self.parameters, inner, strict=True)
+        return {one.name: one.outer_of(x) for one, x in rows}
 
-def plain_table(
-    forward: Forward, data: Data, gaps: tuple[float, float], least: float = LEAST_TABOR
-) -> Table:
-    """Return the table of interfaces without growth, down to an effective Tabor number."""
-    works, ranges = _works(forward, data, 1.0, _WORKS), np.geomspace(*gaps, _GAPS)
-    # ranges valid for the largest work of adhesion; smaller ones are checked after the fit
-    at = forward.pulled(works[-1], ranges[:, None], data.speed, data.load).effective_tabor
-    holds = np.all(at >= least, axis=-1)
-    count = int(np.argmin(holds)) if not holds.all() else holds.size
-    if count < _FEWEST:
-        raise InputError(
-            f"the theory of a crack holds for none of the searched ranges ({gaps[0]:.3g} to "
-            f"{gaps[1]:.3g} m), because the cohesive zone is as large as the contact; search "
-            "smaller ranges, or simulate"
-        )
-    axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
-    return Table(forward, data.speed, data.load, axes, travels=data.curves)
+    def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
+        """Return relative residuals of forces by theory, corrected to those of the tests."""
+        some = slice(None) if self.some is None else self.some
+        return forces * self.ratio(values)[..., some] / self.series.force[some] - 1
 
 
-def _works(forward: Forward, data: Data, grown: float, per_decade: float) -> Array:
+def _works(forward: Forward, series: RateSeries, grown: float, per_decade: float) -> Array:
     """Return the works of adhesion of a table, for a largest growth factor."""
     # the energy of an opening edge is 1 to 1/k works of adhesion
-    most = 1.2 * float(data.force.min()) / (1.5 * np.pi * forward.radius)
+    most = 1.2 * float(series.force.min()) / (1.5 * np.pi * forward.radius)
     span = 2.0 * grown / forward.material.modulus_ratio
     return np.geomspace(most / span, most, 3 + round(per_decade * float(np.log10(span))))
 
 
-def pulled_with_growth(forward: Forward, plain: Search, best: Best) -> tuple[Forward, Opening]:
-    """Return the forward model with growth, and the opening speed of its strengthening."""
-    data, ranges = plain.data, plain.table.axes["equilibrium_gap"]
-    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+def opening_near(plain: Search, best: Best) -> Opening:
+    """Return the opening speed at which the strengthening of a series is defined."""
+    series, (w, gap, _) = plain.series, plain.interface(best)
     # the crack speed hardly depends on the interface, because the drive sets it
-    edge = forward.pulled(w, gap, data.speed, data.load).crack_speed
-    middle = float(np.exp(np.mean(np.log(np.maximum(edge, data.speed)))))
-    opening = Opening(middle * w / forward.material.contact_modulus)
-    return growing(forward, opening, (float(ranges[0]), float(ranges[-1]))), opening
+    edge = plain.forward.pulled(w, gap, series.speed, series.load).crack_speed
+    middle = float(np.exp(np.mean(np.log(np.maximum(edge, series.speed)))))
+    return Opening(middle * w / plain.forward.material.contact_modulus)
+
+
+def grown(plain: Search, opening: Opening) -> Forward:
+    """Return the forward model of a search with growth."""
+    ranges = plain.table.axes["equilibrium_gap"]
+    return growing(plain.forward, opening, (float(ranges[0]), float(ranges[-1])))
 
 
 def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
-    """Return a coarse search over all unknowns."""
-    data, ranges = plain.data, plain.table.axes["equilibrium_gap"]
-    some = data.some(_COARSE_SPEEDS)
+    """Return a coarse search over all unknowns, with evenly chosen pull-offs."""
+    series, ranges = plain.series, plain.table.axes["equilibrium_gap"]
+    order, size = np.argsort(series.speed, kind="stable"), series.speed.size
+    chosen = np.linspace(0, size - 1, min(_COARSE_SPEEDS, size)).round().astype(int)
+    some = order[np.unique(chosen)]
     works, gaps, *steps = _COARSE
     growths = growth_parameters()
     ends = np.log(ranges[[0, -1]])
     axes = {
-        "work_of_adhesion": _works(forward, data, growths[0].high, np.log(10) / works),
+        "work_of_adhesion": _works(forward, series, growths[0].high, np.log(10) / works),
         "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
     }
     for one, step in zip(growths, steps, strict=True):
         axes[one.name] = one.outer_of(_spaced(one.inner(one.low), one.inner(one.high), step))
-    table = Table(
-        forward, data.speed[some], data.load[some], axes, opening=opening, radii=_COARSE_RADII
-    )
-    return replace(plain, table=table, opening=opening, some=some)
+    case = series.speed[some], series.load[some], axes
+    table = Table(forward, *case, opening=opening, radii=_COARSE_RADII)
+    return replace(plain, forward=forward, table=table, opening=opening, some=some)
 
 
-class Settled(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Settled:
     """A search with the scatter between speeds that its residuals need.
 
-    Attributes
+    Parameters
     ----------
     search : Search
         Search with that scatter in its covariance.
@@ -270,8 +265,13 @@ class Settled(NamedTuple):
     search: Search
     best: Best
     scatter: float
-    between: float
-    trend: bool
+    between: float = 0.0
+    trend: bool = False
+
+    @property
+    def surprise(self) -> float:
+        """-2 ln(likelihood) at the best fit, up to a constant."""
+        return self.best.misfit + float(np.linalg.slogdet(self.search.spread)[1])
 
 
 def settled(search: Search) -> Settled:
@@ -285,43 +285,45 @@ def settled(search: Search) -> Settled:
     best = search.best()
     rest = search.objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
-    plain = _widened(search, best, scatter, trend=False)
-    if not plain.between or np.unique(search.data.speed).size < _TREND_SPEEDS:
+    first = Settled(search, best, scatter)
+    plain = _widened(first, trend=False)
+    if not plain.between or np.unique(search.series.speed).size < _TREND_SPEEDS:
         return plain
-    trend = _widened(search, best, scatter, trend=True)
-    return trend if _surprise(trend) + _PREFERRED < _surprise(plain) else plain
+    trend = _widened(first, trend=True)
+    return trend if trend.surprise + _PREFERRED < plain.surprise else plain
 
 
-def _widened(search: Search, best: Best, scatter: float, *, trend: bool) -> Settled:
+def _widened(first: Settled, *, trend: bool) -> Settled:
     """Return a search with the scatter that its residuals need, with or without a trend."""
-    count = search.data.speed.size
-    freedom = count + (search.data.prior is not None) - len(best.values)
-    if not search.data.curves:
+    search, best, speed = first.search, first.best, first.search.series.speed
+    freedom = speed.size + (search.series.prior is not None) - len(best.values)
+    if not search.series.curves:
         # forces alone at two speeds leave none, but a range at its bound may not fit them
         freedom = max(freedom, 1)
 
+    def with_scatter(between: float) -> Search:
+        more = between**2 * np.eye(speed.size)
+        if trend:
+            more = (1 - TREND) * more + trend_covariance(speed, speed, between)
+        return replace(search, spread=search.spread + more)
+
     def excess(log_scatter: float) -> float:
-        wider = search.scattered(float(np.exp(log_scatter)), trend).objective
-        forces = wider.residuals(wider.best(near=best).values)[:count]
+        wider = with_scatter(float(np.exp(log_scatter))).objective
+        forces = wider.residuals(wider.best(near=best).values)[: speed.size]
         return float(forces @ forces) - freedom
 
     low, high = (float(np.log(x)) for x in _BETWEEN)
     if freedom <= 0 or excess(low) <= 0:
-        return Settled(search, best, scatter, 0.0, False)
+        return first
     root = high if excess(high) >= 0 else root_scalar(excess, bracket=(low, high), xtol=_CLOSE).root
     between = float(np.exp(root))
-    wider = search.scattered(between, trend)
-    return Settled(wider, wider.best(), scatter, between, trend)
+    wider = with_scatter(between)
+    return Settled(wider, wider.best(), first.scatter, between, trend)
 
 
-def _surprise(found: Settled) -> float:
-    """Return -2 ln(likelihood) of a search at its best fit, up to a constant."""
-    return found.best.misfit + float(np.linalg.slogdet(found.search.spread)[1])
-
-
-def closely(forward: Forward, coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]:
+def closely(coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]:
     """Return a fine search near the likely interfaces, settled, and the intervals."""
-    data, widest = coarse.data, {one.name: one for one in coarse.parameters}
+    series, widest = coarse.series, {one.name: one for one in coarse.parameters}
     points, misfits = coarse.scanned(_DENSE)
     least = misfits.min()
     for kept in _KEPT:
@@ -332,15 +334,8 @@ def closely(forward: Forward, coarse: Search, level: float) -> tuple[Settled, di
             low = max(near[:, i].min() - step, one.inner(one.low))
             high = min(near[:, i].max() + step, one.inner(one.high))
             axes[name] = one.outer_of(_spaced(low, high, apart))
-        table = Table(
-            forward,
-            data.speed,
-            data.load,
-            axes,
-            opening=coarse.opening,
-            travels=data.curves,
-            radii=_FINE_RADII,
-        )
+        case = coarse.forward, series.speed, series.load, axes
+        table = Table(*case, opening=coarse.opening, travels=series.curves, radii=_FINE_RADII)
         found = settled(replace(coarse, table=table, some=None))
         intervals = found.search.intervals(found.best, level)
         if not any(_cut(intervals[name], axes[name], widest[name]) for name in axes):
@@ -359,40 +354,31 @@ def _spaced(low: float, high: float, apart: float) -> Array:
     return np.linspace(low, high, max(_FEWEST, 1 + int(np.ceil((high - low) / apart - 1e-9))))
 
 
-def _apart(points: Array, misfits: Array, count: int = 4, share: float = 0.2) -> list[int]:
+def _separate(points: Array, misfits: Array) -> Array:
     """Return the most likely points that are separate from each other."""
     span = np.ptp(points, axis=0)
     found: list[int] = []
     for i in np.argsort(misfits)[:2000]:
-        if all(np.max(np.abs(points[i] - points[j]) / span) > share for j in found):
+        if all(np.max(np.abs(points[i] - points[j]) / span) > _SHARE for j in found):
             found.append(int(i))
-        if len(found) == count:
+        if len(found) == _SEPARATE:
             break
-    return found
-
-
-def _outer(parameters: Sequence[Parameter], point: Array) -> list[float]:
-    return [one.outer(float(x)) for one, x in zip(parameters, point, strict=True)]
-
-
-def _between(name: str, values: Array, prior: tuple[float, float] | None) -> Parameter:
-    low, high = float(values[0]), float(values[-1])
-    return Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior)
+    return points[found]
 
 
 class _Shapes:
     """Residuals of travels, normalised by their uncertainty."""
 
-    def __init__(self, series: Sequence[PullOff], model: Table, theory: float):
+    def __init__(self, series: RateSeries, model: Table):
         self._model = model
         self._log, self._white = [], []
-        for one in series:
-            assert one.travels is not None, "checked by the caller"
+        # the theory's error is fully correlated within a curve, at half its size
+        error = series.theory_error**2 / 2
+        for one in series.tests:
+            assert one.travels is not None, "checked by the series"
             value = np.array([x.value for x in one.travels])
             noise = np.array([x.uncertainty for x in one.travels]) / value
-            # the theory's error is fully correlated within a curve, at half its size
-            own = noise**2 + theory**2 / 2
-            spread = np.diag(own) + np.full((value.size, value.size), theory**2 / 2)
+            spread = np.diag(noise**2 + error) + np.full((value.size, value.size), error)
             self._log.append(np.log(value))
             self._white.append(np.linalg.inv(np.linalg.cholesky(spread)))
 
@@ -400,14 +386,3 @@ class _Shapes:
         found = np.log(self._model.travels(values))
         rows = zip(self._white, found, self._log, strict=True)
         return np.concatenate([white @ (one - measured) for white, one, measured in rows])
-
-
-def _best(objective: Objective) -> Best:
-    """Return the best fit from several starts along the range."""
-    (gap,) = (one for one in objective.parameters if one.name == "equilibrium_gap")
-    low, high = gap.inner(gap.low), gap.inner(gap.high)
-    found = []
-    for part in (0.1, 0.3, 0.5, 0.7, 0.9):
-        held = objective.best({"equilibrium_gap": gap.outer(low + part * (high - low))})
-        found.append(objective.best(near=held))
-    return min(found, key=lambda best: best.misfit)

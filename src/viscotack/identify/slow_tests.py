@@ -13,8 +13,8 @@ a known material, a force by :func:`viscotack.advise` above that of the slowest 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -30,23 +30,21 @@ from viscotack.problem import Problem
 from viscotack.protocol import AtForce, Retraction
 from viscotack.theory import maugis, transition
 from viscotack.traction import LennardJones
-from viscotack.units import readable, readable_interval
+from viscotack.units import readable
 
-from .contacts import MODELS, ElasticModel
-from .objective import Best, Interval, Objective, Parameter
-from .temperatures import assumed_temperature
+from .contacts import MODELS, RANGES, ElasticModel
+from .likelihood import Best, Interval, Objective, Parameter
+from .slow_words import DIFFERENT, slow_words, upper_bound_words
 
-_FEWEST = 12  # smallest number of points
-_MOST = 300
-_DIFFERENT = 6.0  # difference of the criterion: strong evidence
+_FEWEST, _MOST = 12, 300  # numbers of points
+_QUIET = 1e-6  # smallest noise over the pull-off force
 _HOPELESS = 20.0  # difference of the criterion above which no intervals are computed
 _LOUD = 2.0  # residuals over the noise above which no elastic law holds
 _APART = 3.0  # deviations of the fitted from the given modulus above which they contradict
 _SLOW = 1.05  # force over the slow force up to which a test is slow
 _SHORT = 5.0  # Tabor number of the comparison where the data determine none
 _SAME = 0.02  # relative difference up to which the works of two models are one answer
-_LAMBDA = (0.02, 60.0)  # searched Maugis parameters
-_TRANSITION = (1e-3, 0.979)
+_STARTS = (0.15, 0.4, 0.65, 0.9)  # parts of a range at which a search begins
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,26 +90,18 @@ class SlowTest:
         if self.against not in ("radius", "depth"):
             raise InputError(f"against must be 'radius' or 'depth', got {self.against!r}")
         if self.force.shape != self.at.shape or self.force.ndim != 1:
-            raise InputError(
-                "force and at must be one-dimensional arrays of the same length, got shapes "
-                f"{self.force.shape} and {self.at.shape}"
-            )
+            raise InputError("force and at must be one-dimensional arrays of the same length")
         if self.force.size < _FEWEST:
             raise InputError(f"a fit needs at least {_FEWEST} points, got {self.force.size}")
         if not np.all(np.isfinite(self.force) & np.isfinite(self.at)):
             raise InputError("forces and radii or depths must be finite")
-        if not (0 < self.radius < np.inf and 0 < self.force_noise < np.inf):
-            raise InputError(
-                f"radius and force_noise must be positive, got {self.radius} m and "
-                f"{self.force_noise} N"
-            )
+        for name in ("radius", "force_noise"):
+            if not 0 < getattr(self, name) < np.inf:
+                raise InputError(f"{name} must be positive, got {getattr(self, name)}")
         if self.against == "radius" and np.any(self.at <= 0):
             raise InputError(f"contact radii must be positive, got {readable(self.at.min(), 'm')}")
         if not self.force.min() < 0:
-            raise InputError(
-                "no force is tensile, so adhesion cannot be determined; check the sign "
-                "(compression positive)"
-            )
+            raise InputError("no force is tensile; check the sign (compression positive)")
 
 
 def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTest:
@@ -128,11 +118,9 @@ def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTe
     at = cycle.depth if against == "depth" or size is None else size
     points = points[np.isfinite(at[points]) & ((against == "depth") | (at[points] > 0))]
     if points.size < _FEWEST:
-        raise InputError(
-            f"a fit needs at least {_FEWEST} points up to the pull-off, got {points.size}"
-        )
+        raise InputError(f"a fit needs at least {_FEWEST} points up to the pull-off")
     chosen = points[np.unique(np.linspace(0, points.size - 1, _MOST, dtype=int))]
-    noise = max(cycle.noise, 1e-6 * cycle.pull_off_force.value)
+    noise = max(cycle.noise, _QUIET * cycle.pull_off_force.value)
     return SlowTest(
         cycle.force[chosen],
         at[chosen],
@@ -153,30 +141,66 @@ class ModelFit:
     ----------
     model : str
         "jkr", "dmt", "maugis" or "carpick".
-    work_of_adhesion, contact_modulus : float
-        Fitted values [J/m2] and [Pa].
-    tabor : float or None
-        Tabor number of a Lennard-Jones contact with the same work and strength; None for the
-        limits JKR and DMT.
+    values : mapping
+        All fitted values, by the names of the model.
     intervals : dict of str to Interval
-        Profile likelihood intervals of the same quantities; empty if another model is far more
-        likely.
+        Profile likelihood intervals of "work_of_adhesion", "contact_modulus" and, where a range is
+        fitted, "tabor"; empty if another model is far more likely.
     scatter : float
         Standard deviation of the residuals [N].
     criterion : float
         Bayesian information criterion; smaller is better.
-    values : mapping
-        All fitted values, by the names of the model.
     """
 
     model: str
-    work_of_adhesion: float
-    contact_modulus: float
-    tabor: float | None
+    values: Mapping[str, float]
     intervals: dict[str, Interval]
     scatter: float
     criterion: float
-    values: Mapping[str, float]
+
+    @property
+    def work_of_adhesion(self) -> float:
+        """Work of adhesion [J/m2]."""
+        return self.values["work_of_adhesion"]
+
+    @property
+    def contact_modulus(self) -> float:
+        """Contact modulus E0* [Pa]."""
+        return self.values["contact_modulus"]
+
+    @property
+    def tabor(self) -> float | None:
+        """Tabor number of a Lennard-Jones contact with the same work and strength, if fitted."""
+        name = MODELS[self.model].range_parameter
+        return None if name is None else _tabor(name, self.values[name])
+
+
+@dataclass(frozen=True)
+class SamePull:
+    """The pull of a slow test, on the viscoelastic solid.
+
+    Parameters
+    ----------
+    work, gap : float
+        Interface [J/m2] and [m], the fitted one that amplifies least.
+    assumed : float or None
+        Tabor number that is assumed because the data determine none.
+    ratio : float or None
+        Its force over that of the slowest retraction; None if unknown.
+    error : str
+        Reason why no method has this force.
+    """
+
+    work: float
+    gap: float
+    assumed: float | None
+    ratio: float | None = None
+    error: str = ""
+
+    @property
+    def fast(self) -> bool:
+        """Whether the edge dissipates, so that the test was not slow."""
+        return self.ratio is not None and self.ratio > _SLOW
 
 
 @dataclass(frozen=True)
@@ -189,29 +213,25 @@ class SlowTestFit:
         Fitted test.
     fits : tuple of ModelFit
         Fits, best first.
-    alike : tuple of ModelFit
-        Those that the data do not distinguish from the best, which is first.
     level : float
         Confidence level of the intervals.
-    evidence : str
-        Criterion by which the model was chosen.
-    work_of_adhesion : Interval
-        Interval that covers all models that the data do not distinguish [J/m2]; without a lower
-        end if the test is not slow.
-    upper_bound : tuple of str
-        Reasons why the work is an upper bound; empty for a slow test.
-    words : tuple of str
-        Sentences on the result and on what the data do not determine.
+    residual : float
+        Scatter of the best model over the noise.
+    modulus : (float, float) or None
+        Given contact modulus and its standard uncertainty [Pa].
+    material : Passport, Material or None
+        Solid of the test.
+    same_pull : SamePull or None
+        This pull on that solid, if speed and preload are known.
     """
 
     test: SlowTest
     fits: tuple[ModelFit, ...]
-    alike: tuple[ModelFit, ...]
     level: float
-    evidence: str
-    work_of_adhesion: Interval
-    upper_bound: tuple[str, ...]
-    words: tuple[str, ...]
+    residual: float
+    modulus: tuple[float, float] | None = None
+    material: Passport | Material | None = None
+    same_pull: SamePull | None = None
 
     @property
     def best(self) -> ModelFit:
@@ -219,9 +239,71 @@ class SlowTestFit:
         return self.fits[0]
 
     @property
+    def alike(self) -> tuple[ModelFit, ...]:
+        """Fits that the data do not distinguish from the best, which is first."""
+        most = self.best.criterion + DIFFERENT
+        return tuple(fit for fit in self.fits if fit.criterion < most)
+
+    @property
+    def evidence(self) -> str:
+        """Criterion by which the model was chosen."""
+        return "Bayesian information criterion, chi2 + k ln n, with the scatter of the best model"
+
+    @property
     def undetermined(self) -> bool:
         """Whether models that the data do not distinguish give different works of adhesion."""
-        return _differ(self.alike)
+        works = [fit.work_of_adhesion for fit in self.alike]
+        return max(works) > (1 + _SAME) * min(works)
+
+    @property
+    def inelastic(self) -> bool:
+        """Whether residuals above the noise show that no elastic law fits."""
+        return self.residual > _LOUD
+
+    @property
+    def modulus_apart(self) -> float:
+        """Distance of the fitted modulus from the given one, in standard deviations."""
+        if self.modulus is None:
+            return 0.0
+        given, uncertainty = self.modulus
+        return float(abs(np.log(self.best.contact_modulus / given)) * given / uncertainty)
+
+    @property
+    def contradicts_modulus(self) -> bool:
+        """Whether the fitted modulus contradicts the given one."""
+        return self.modulus_apart > _APART
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the work is an upper bound, because the test was not slow."""
+        pull = self.same_pull
+        return self.inelastic or self.contradicts_modulus or (pull is not None and pull.fast)
+
+    @property
+    def upper_bound(self) -> tuple[str, ...]:
+        """Reasons why the work is an upper bound; empty for a slow test."""
+        return tuple(upper_bound_words(self))
+
+    @property
+    def work_of_adhesion(self) -> Interval:
+        """Interval over models that the data do not distinguish [J/m2].
+
+        Without a lower end if the test is not slow.
+        """
+        ends = [fit.intervals["work_of_adhesion"] for fit in self.alike]
+        high = max(end.high for end in ends)
+        if self.bounded:
+            # of all elastic laws JKR needs the largest work for a force
+            of_jkr = -float(self.test.force.min()) / (1.5 * np.pi * self.test.radius)
+            return Interval(0.0, max(high, of_jkr), False, True)
+        low = min(end.low for end in ends)
+        closed = (all(end.closed_below for end in ends), all(end.closed_above for end in ends))
+        return Interval(low, high, *closed)
+
+    @cached_property
+    def words(self) -> tuple[str, ...]:
+        """Sentences on the result and on what the data do not determine."""
+        return tuple(slow_words(self))
 
 
 def identify_slow(
@@ -277,115 +359,71 @@ def identify_slow(
             "contact_modulus must be a value [Pa] and a smaller uncertainty [Pa], got "
             f"{contact_modulus!r}"
         )
-    chosen = [_known(name) for name in dict.fromkeys(models)]
+    for name in models:
+        if name not in MODELS:
+            raise InputError(f"models must be among {', '.join(MODELS)}; got {name!r}")
+    chosen = [MODELS[name] for name in dict.fromkeys(models)]
     chosen = [model for model in chosen if test.against == "radius" or model.by_depth is not None]
     if not chosen:
         raise InputError("Carpick's equation has no depth; fit another model, or contact radii")
-    solid, of_solid, remarks = _at_temperature(material, test.temperature)
-    contact_modulus = contact_modulus or of_solid
+    solid, of_solid = _at_temperature(material, test.temperature)
+    modulus = contact_modulus or of_solid
     sigma = _sigma(test)
-    first = [_objective(model, test, sigma, contact_modulus) for model in chosen]
-    bests = [_found(objective) for objective in first]
+    bests = [_found(_objective(model, test, sigma, modulus)) for model in chosen]
     # the scatter of the best model replaces the noise if it is larger
-    least = min(bests, key=lambda best: best.misfit)
-    size = max(np.sqrt(least.misfit / max(test.force.size - 3, 1)), 1e-6)
+    least = min(best.misfit for best in bests)
+    size = float(max(np.sqrt(least / max(test.force.size - 3, 1)), 1e-6))
+    rows = []
+    for model, near in zip(chosen, bests, strict=True):
+        objective = _objective(model, test, size * sigma, modulus)
+        best = objective.best(near=near)
+        criterion = best.misfit + len(objective.parameters) * float(np.log(test.force.size))
+        rows.append((criterion, model, objective, best))
+    rows.sort(key=lambda row: row[0])
     fits = []
-    for model, best in zip(chosen, bests, strict=True):
-        objective = _objective(model, test, size * sigma, contact_modulus)
-        refined = objective.best(near=best)
-        fits.append((_criterion(refined, objective, test), model, objective, refined))
-    fits.sort(key=lambda fit: fit[0])
-    fits = [
-        _model_fit(*rest, criterion, test, level, size)
-        if criterion < fits[0][0] + _HOPELESS
-        else _model_fit(*rest, criterion, test, None, size)
-        for criterion, *rest in fits
-    ]
-    alike = [fit for fit in fits if fit.criterion - fits[0].criterion < _DIFFERENT]
-    reasons = [*_of_residuals(size), *_of_modulus(fits[0], contact_modulus)]
-    # a test that is not slow has a wrong range
-    too_fast, unchecked = _of_material([] if reasons else fits, alike, test, solid)
-    reasons += too_fast
-    work = _work(alike, test, bool(reasons))
-    return SlowTestFit(
-        test,
-        tuple(fits),
-        tuple(alike),
-        level,
-        "Bayesian information criterion, chi2 + k ln n, with the scatter of the best model",
-        work,
-        tuple(reasons),
-        (*_words(test, fits, alike, work, reasons, level), *unchecked, *remarks),
-    )
+    for criterion, model, objective, best in rows:
+        likely = criterion < rows[0][0] + _HOPELESS
+        intervals = _intervals(model, objective, best, level) if likely else {}
+        rest = objective.residuals(best.values)
+        scatter = float(np.sqrt(np.mean(rest**2))) * size * test.force_noise
+        fits.append(ModelFit(model.name, best.values, intervals, scatter, criterion))
+    found = SlowTestFit(test, tuple(fits), level, size, modulus, material)
+    return replace(found, same_pull=_same_pull(found, solid))
 
 
 def _at_temperature(
     given: Passport | Material | None, temperature: float | None
-) -> tuple[Material | None, tuple[float, float] | None, list[str]]:
-    """Return a material at a temperature, its E0* with uncertainty if known, and a remark."""
+) -> tuple[Material | None, tuple[float, float] | None]:
+    """Return a material at a temperature, and its E0* with uncertainty if known."""
     if not isinstance(given, Passport):
-        return given, None, []
+        return given, None
     given.refuse_liquid("no test is slow, because the solid does not relax")
-    remarks = assumed_temperature(given, () if temperature is None else (temperature,))
     if temperature is not None and given.temperature is not None:
         given = given.moved_to(temperature)
     rubbery = [float(solid.rubbery_modulus) for solid in allowed(given)]
     spread = float(np.std(rubbery)) if len(rubbery) > 1 else 0.0
     plane = 1 - given.material.poisson_ratio**2
-    modulus = (given.material.rubbery_modulus / plane, spread / plane) if spread else None
-    return given.material, modulus, remarks
+    known = (given.material.rubbery_modulus / plane, spread / plane) if spread else None
+    return given.material, known
 
 
-def _of_residuals(size: float) -> list[str]:
-    if size <= _LOUD:
-        return []
-    return [
-        f"residuals are {size:.2g} times the noise: no elastic law fits. If the test was not "
-        "slow, energy dissipated at a viscoelastic edge appears as a longer range; use a slower "
-        "test, or `viscotack identify rates`"
-    ]
-
-
-def _of_modulus(best: ModelFit, given: tuple[float, float] | None) -> list[str]:
-    """Return a reason if the fitted modulus contradicts the given one."""
-    if given is None:
-        return []
-    deviations = abs(np.log(best.contact_modulus / given[0])) * given[0] / given[1]
-    if deviations <= _APART:
-        return []
-    return [
-        f"the fitted E0* {readable(best.contact_modulus, 'Pa')} is {deviations:.2g} standard "
-        f"deviations from the given {readable(given[0], 'Pa')} +- {readable(given[1], 'Pa')}: "
-        "the contact was not that of the relaxed solid, or the given modulus or the compliance of "
-        "the rig is wrong"
-    ]
-
-
-def _of_material(
-    fits: list[ModelFit], alike: list[ModelFit], test: SlowTest, solid: Material | None
-) -> tuple[list[str], list[str]]:
-    """Return a reason if the material gives more than the slow force, and a remark if unknown.
+def _same_pull(fit: SlowTestFit, solid: Material | None) -> SamePull | None:
+    """Compute the force of the same pull on the viscoelastic solid.
 
     The interface is the fitted one with the largest range that the fits allow, which amplifies
-    least.
+    least. A test that is not slow has a wrong range.
     """
-    if solid is None:
-        return [], []
-    if test.speed is None or test.preload is None:
-        return [], ["without speed and preload the material cannot show whether the test was slow"]
-    work, tabor = max(fit.work_of_adhesion for fit in alike), None
-    ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
-    if ranged is not None and ranged in alike:
+    test, alike = fit.test, fit.alike
+    if solid is None or test.speed is None or test.preload is None:
+        return None
+    work, tabor = max(one.work_of_adhesion for one in alike), None
+    ranged = next((one for one in fit.fits if "tabor" in one.intervals), None)
+    if not fit.bounded and ranged is not None and ranged in alike:
         ends = ranged.intervals["tabor"]
         if ends.told or (ends.closed_below and ends.low > _SHORT):
             tabor = ends.low
     gap = (test.radius * work**2 / solid.contact_modulus**2) ** (1 / 3) / (tabor or _SHORT)
-    said = (
-        f"at {readable(test.speed, 'm/s')}, {readable(work, 'J/m2')} and a range of "
-        f"{readable(gap, 'm', digits=2)}"
-    )
-    if tabor is None:
-        said += f", assumed at a Tabor number of {_SHORT:g} because the data do not determine it"
+    found = SamePull(work, gap, _SHORT if tabor is None else None)
     try:
         pull = Problem(
             material=solid,
@@ -393,44 +431,9 @@ def _of_material(
             traction=LennardJones(work_of_adhesion=work, equilibrium_gap=gap),
             protocol=Retraction(start=AtForce(test.preload), speed=test.speed),
         )
-        ratio = advise(pull).amplification
+        return replace(found, ratio=advise(pull).amplification)
     except InputError as error:
-        return [], [f"whether the test was slow is not checked {said}: {error}"]
-    if ratio is None:
-        return [], [f"whether the test was slow is not known {said}: simulate this pull"]
-    if ratio <= _SLOW:
-        return [], [
-            f"the material gives {ratio:.4g} times the slow force {said}: the test was slow"
-        ]
-    return [
-        f"the material gives {ratio:.3g} times the slow force {said}, a slow test at most "
-        f"{_SLOW:g}: the test was not slow. Use a slower test, or `viscotack identify rates`"
-    ], []
-
-
-def _differ(alike: Sequence[ModelFit]) -> bool:
-    works = [fit.work_of_adhesion for fit in alike]
-    return max(works) > (1 + _SAME) * min(works)
-
-
-def _work(alike: list[ModelFit], test: SlowTest, bounded: bool) -> Interval:
-    """Return the interval of the work of adhesion over models that the data do not distinguish."""
-    ends = [fit.intervals["work_of_adhesion"] for fit in alike]
-    high = max(end.high for end in ends)
-    if bounded:
-        # of all elastic laws JKR needs the largest work for a force
-        of_jkr = -float(test.force.min()) / (1.5 * np.pi * test.radius)
-        return Interval(0.0, max(high, of_jkr), False, True)
-    low = min(end.low for end in ends)
-    return Interval(
-        low, high, all(end.closed_below for end in ends), all(end.closed_above for end in ends)
-    )
-
-
-def _known(name: str) -> ElasticModel:
-    if name not in MODELS:
-        raise InputError(f"models must be among {', '.join(MODELS)}; got {name!r}")
-    return MODELS[name]
+        return replace(found, error=str(error))
 
 
 def _sigma(test: SlowTest) -> Array:
@@ -451,14 +454,16 @@ def _objective(
         Parameter("work_of_adhesion", 1e-3 * w, 1e3 * w, w),
         Parameter("contact_modulus", 1e-3 * E, 1e3 * E, E, prior=prior),
     ]
-    if model.range_parameter == "maugis_parameter":
-        parameters.append(Parameter("maugis_parameter", *_LAMBDA, 1.0))
-    if model.range_parameter == "transition":
-        parameters.append(Parameter("transition", *_TRANSITION, 0.6, logarithmic=False))
+    if model.range_parameter is not None:
+        parameters.append(RANGES[model.range_parameter])
     if test.against == "depth":
         scale = float(np.ptp(test.at)) + (test.radius * w**2 / E**2) ** (1 / 3)
         parameters.append(Parameter("zero", -scale, scale, 0.01 * scale, logarithmic=False))
-    return Objective(partial(_residuals, model, test, sigma), tuple(parameters))
+
+    def residuals(values: Mapping[str, float]) -> Array:
+        return (_force(model, test, values) - test.force) / sigma
+
+    return Objective(residuals, tuple(parameters))
 
 
 def fitted_force(fit: ModelFit, test: SlowTest) -> Array:
@@ -471,12 +476,6 @@ def _force(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> 
         return model.by_radius(test.at, values, test.radius)
     assert model.by_depth is not None, "models without a depth were rejected"
     return model.by_depth(test.at - values["zero"], values, test.radius)
-
-
-def _residuals(
-    model: ElasticModel, test: SlowTest, sigma: Array, values: Mapping[str, float]
-) -> Array:
-    return (_force(model, test, values) - test.force) / sigma
 
 
 def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
@@ -497,131 +496,29 @@ def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
 
 def _found(objective: Objective) -> Best:
     """Return the best fit from several starts: the range has several local minima."""
-    starts = [objective.best()]
+    found = [objective.best()]
     for parameter in objective.parameters:
-        if parameter.name in ("maugis_parameter", "transition"):
+        if parameter.name in RANGES:
             low, high = parameter.inner(parameter.low), parameter.inner(parameter.high)
-            for part in (0.15, 0.4, 0.65, 0.9):
+            for part in _STARTS:
                 held = {parameter.name: parameter.outer(low + part * (high - low))}
-                starts.append(objective.best(near=objective.best(held)))
-    return min(starts, key=lambda best: best.misfit)
+                found.append(objective.best(near=objective.best(held)))
+    return min(found, key=lambda best: best.misfit)
 
 
-def _criterion(best: Best, objective: Objective, test: SlowTest) -> float:
-    return best.misfit + len(objective.parameters) * float(np.log(test.force.size))
-
-
-def _model_fit(
-    model: ElasticModel,
-    objective: Objective,
-    best: Best,
-    criterion: float,
-    test: SlowTest,
-    level: float | None,
-    size: float,
-) -> ModelFit:
-    """Return the fit of a model; without a level no intervals are computed."""
-    intervals = {}
-    if level is not None:
-        names = ["work_of_adhesion", "contact_modulus"]
-        intervals = {name: objective.interval(name, best, level) for name in names}
-    tabor = None
+def _intervals(
+    model: ElasticModel, objective: Objective, best: Best, level: float
+) -> dict[str, Interval]:
+    names = ("work_of_adhesion", "contact_modulus")
+    found = {name: objective.interval(name, best, level) for name in names}
     if (name := model.range_parameter) is not None:
-        tabor = _tabor(name, best.values[name])
-        if level is not None:
-            ends = objective.interval(name, best, level)
-            intervals["tabor"] = Interval(
-                _tabor(name, ends.low), _tabor(name, ends.high), ends.closed_below,
-                ends.closed_above,
-            )  # fmt: skip
-    rest = objective.residuals(best.values)
-    return ModelFit(
-        model.name,
-        best.values["work_of_adhesion"],
-        best.values["contact_modulus"],
-        tabor,
-        intervals,
-        float(np.sqrt(np.mean(rest**2))) * size * test.force_noise,
-        criterion,
-        best.values,
-    )
+        ends = objective.interval(name, best, level)
+        low, high = _tabor(name, ends.low), _tabor(name, ends.high)
+        found["tabor"] = replace(ends, low=low, high=high, split=False)
+    return found
 
 
 def _tabor(name: str, value: float) -> float:
     """Return the Tabor number of a Lennard-Jones contact of the same work and strength."""
     lam = value if name == "maugis_parameter" else float(transition.maugis_parameter(value))
     return lam / float(maugis.parameter_from_tabor(1.0))
-
-
-def _words(
-    test: SlowTest,
-    fits: list[ModelFit],
-    alike: list[ModelFit],
-    work: Interval,
-    reasons: list[str],
-    level: float,
-) -> list[str]:
-    names = [fit.model.upper() for fit in alike]
-    if reasons:
-        said = [
-            f"the work of adhesion is at most {readable(work.high, 'J/m2')} ({level:.0%}), an "
-            "upper bound: an elastic fit does not determine it from this test",
-            *reasons,
-        ]
-    elif _differ(alike):
-        by_each = [
-            f"{_with_interval(fit.work_of_adhesion, fit.intervals['work_of_adhesion'], level)} by "
-            f"{fit.model.upper()}"
-            for fit in alike
-        ]
-        apart = alike[1].criterion - alike[0].criterion
-        said = [
-            f"the work of adhesion is undetermined between models: {' or '.join(by_each)} "
-            f"(criteria {apart:.1f} apart, {_DIFFERENT:g} would be evidence); contact radii from a "
-            "camera, or E0* with its uncertainty, distinguish them"
-        ]
-    else:
-        said = [
-            f"work of adhesion {_with_interval(alike[0].work_of_adhesion, work, level)} by "
-            f"{' and '.join(names)}"
-        ]
-    if len(names) > 1 and (reasons or not _differ(alike)):
-        said.append(
-            f"the data do not distinguish {names[0]} from {' and '.join(names[1:])} "
-            f"(criteria within {_DIFFERENT:g})"
-        )
-    ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
-    if ranged is not None and not reasons:
-        said.append(_of_range(ranged, names, level))
-    if test.against == "depth":
-        said.append(
-            "the zero of depth was also fitted; without a camera the range is poorly determined"
-        )
-    return said
-
-
-def _with_interval(value: float, ends: Interval, level: float) -> str:
-    both = readable_interval(ends.low, ends.high, "J/m2")
-    return f"{readable(value, 'J/m2')} ({both}, {level:.0%})"
-
-
-def _of_range(fit: ModelFit, alike: list[str], level: float) -> str:
-    """Describe the range; `alike` are the models that the data do not distinguish."""
-    ends = fit.intervals["tabor"]
-    name = fit.model.upper()
-    if ends.told:
-        return (
-            f"Tabor number {fit.tabor:.3g} ({ends.low:.3g} to {ends.high:.3g}, {level:.0%}) by "
-            f"{name}"
-        )
-    if ends.closed_below and "DMT" not in alike:
-        return (
-            f"the Tabor number is above {ends.low:.3g} ({level:.0%}, {name}); these data give no "
-            "upper bound, hence no range of attraction: JKR is sufficient"
-        )
-    if ends.closed_above and "JKR" not in alike:
-        return (
-            f"the Tabor number is below {ends.high:.3g} ({level:.0%}, {name}); these data give no "
-            "lower bound: DMT is sufficient"
-        )
-    return f"these data do not determine the range of attraction ({name})"

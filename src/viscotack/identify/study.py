@@ -15,7 +15,8 @@ from viscotack.materials.passport import Passport
 from .computed import Computed
 from .contact_time import check_dwells
 from .pull_off import pull_offs
-from .rate_series import RateSeriesFit, identify_rates
+from .rate_fit import RateSeriesFit, identify_rates
+from .rate_series import RateSeries
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,20 +130,22 @@ def answer(study: Study, kept: Path | None = None) -> Answer:
     computed = Computed() if kept is None else Computed.read(kept)
     compliance = study.evaluation.get("compliance") or max(machine)
     fit = identify_rates(
-        series,
-        material=solid,
-        radius=study.radius,
-        body=study.body,
-        preload=study.preload,
-        work_of_adhesion=study.work_of_adhesion,
-        stiffness=1 / compliance if compliance > 0 else None,
-        compliance_uncertainty=_relative(study.evaluation, compliance),
-        temperature_uncertainty=study.temperature_uncertainty,
-        curves=study.curves,
-        growth=study.growth,
-        history=study.history,
-        scatter=study.scatter,
-        level=study.level,
+        RateSeries(
+            series,
+            material=solid,
+            radius=study.radius,
+            body=study.body,
+            preload=study.preload,
+            work_of_adhesion=study.work_of_adhesion,
+            stiffness=1 / compliance if compliance > 0 else None,
+            compliance_uncertainty=_relative(study.evaluation, compliance),
+            temperature_uncertainty=study.temperature_uncertainty,
+            curves=study.curves,
+            growth=study.growth,
+            history=study.history,
+            scatter=study.scatter,
+            level=study.level,
+        ),
         computed=computed,
     )
     if kept is not None:

@@ -1,10 +1,11 @@
-"""Objective function of a fit: a measured curve, a model and a prior.
+"""Likelihood and posterior of a fit: measured points, a model and a prior.
 
 Least squares, profile likelihood and sampling use the same object, and therefore the same
-likelihood. Curve and model are independent of each other.
+likelihood. Points and model are independent of each other. The posterior is sampled by emcee: for
+two to four parameters, a likelihood in microseconds and no gradients its walkers need no tuning.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,7 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
+from viscotack.errors import InputError, install_command
 
 Residuals = Callable[[Mapping[str, float]], Array]
 
@@ -20,6 +21,11 @@ Residuals = Callable[[Mapping[str, float]], Array]
 # parts.
 _PLACES = np.union1d(np.geomspace(2e-3, 1.0, 9), np.linspace(0.2, 1.0, 9))
 _BEYOND = 1e-9
+_SAME = 0.05  # relative difference of equal solutions
+_TRIALS = 32  # values of a parameter between the ends of its interval
+_WALKERS, _STEPS, _BEGIN = 16, 600, 100
+_AROUND = 1e-3  # fraction of the distance between the bounds over which the walkers start
+_INDEPENDENT = 200.0  # number of independent samples needed for a band
 
 
 @dataclass(frozen=True)
@@ -193,6 +199,38 @@ class Objective:
                 inside, near = half, found
         return (inside + outside) / 2, True, split
 
+    def solutions(
+        self, best: Best, intervals: Mapping[str, Interval], level: float
+    ) -> tuple[Best, ...]:
+        """Return the best fit and, where intervals are split, the others inside them.
+
+        Each is a local minimum of the misfit; the most likely is first.
+        """
+        limit = best.misfit + float(chi2.ppf(level, 1))
+        found = [best]
+        for parameter in self.parameters:
+            if intervals[parameter.name].split:
+                for one in self._others(parameter, best, intervals[parameter.name], limit):
+                    if not any(_equal(one, other) for other in found):
+                        found.append(one)
+        return tuple(sorted(found, key=lambda one: one.misfit))
+
+    def _others(self, parameter: Parameter, best: Best, ends: Interval, limit: float) -> list[Best]:
+        """Return the best fit of each likely range of a parameter without the best of all."""
+        near = best
+        ranges: list[list[Best]] = [[]]
+        middle = parameter.inner(best.values[parameter.name])
+        trials = np.linspace(parameter.inner(ends.low), parameter.inner(ends.high), _TRIALS)
+        for x in np.sort(np.append(trials, middle)):
+            held = {parameter.name: parameter.outer(x)}
+            near = best if x == middle else self.best(held, near)
+            if near.misfit <= limit:
+                ranges[-1].append(near)
+            elif ranges[-1]:
+                ranges.append([])
+        likely = (min(one, key=lambda fit: fit.misfit) for one in ranges if one and best not in one)
+        return [self.best(near=one) for one in likely]
+
     def _rest(self, inner: Array, free: tuple[Parameter, ...], held: Mapping[str, float]) -> Array:
         values = {p.name: p.outer(x) for p, x in zip(free, inner, strict=True)} | dict(held)
         priors = [
@@ -201,3 +239,131 @@ class Objective:
             if p.prior is not None
         ]
         return np.concatenate([self.residuals(values), priors])
+
+
+def _equal(one: Best, other: Best) -> bool:
+    return bool(np.allclose(list(one.values.values()), list(other.values.values()), rtol=_SAME))
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior:
+    """Samples of the posterior distribution of the parameters.
+
+    Parameters
+    ----------
+    parameters : tuple of Parameter
+        In the order of the columns.
+    values : ndarray, shape (N, parameters)
+        Samples, in the unit of each parameter.
+    correlation_time : float
+        Steps between independent samples.
+    converged : bool
+        Whether there are at least 200 independent samples.
+    """
+
+    parameters: tuple[Parameter, ...]
+    values: Array
+    correlation_time: float
+    converged: bool
+
+    def of(self, name: str) -> Array:
+        """Return the samples of one parameter."""
+        names = [one.name for one in self.parameters]
+        return self.values[:, names.index(name)]
+
+    def thinned(self, count: int) -> Array:
+        """Select evenly a number of samples, shape (count, parameters)."""
+        if not 0 < count <= len(self.values):
+            raise InputError(f"count must be at most the {len(self.values)} samples, got {count}")
+        return self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
+
+
+def posterior(
+    objective: Objective,
+    best: Best,
+    *,
+    others: Sequence[Best] = (),
+    steps: int = _STEPS,
+    seed: int = 0,
+) -> Posterior:
+    """Sample the parameters from the posterior density of an objective.
+
+    Without a given prior, it is uniform between the bounds, in the logarithm of positive
+    parameters.
+
+    Parameters
+    ----------
+    objective : Objective
+        Objective of a fit.
+    best : Best
+        Most likely parameters, near which the walkers start.
+    others : sequence of Best
+        Separate solutions. Walkers do not cross the unlikely range between solutions, so each has
+        its own walkers, and their shares are the evidence of each solution, with the covariance of
+        its samples (Laplace's approximation).
+    steps : int
+        Steps of each of the 16 walkers, after 100 discarded steps.
+    seed : int
+        Seed of the random numbers.
+
+    Raises
+    ------
+    ValueError
+        If emcee is not installed (``pip install 'viscotack[lab]'``).
+
+    References
+    ----------
+    Foreman-Mackey et al., emcee: the MCMC hammer (2013), doi:10.1086/670067.
+    """
+    starts = (best, *others)
+    chains = [_sampled(objective, one, steps, seed + i) for i, one in enumerate(starts)]
+    evidence = np.array(
+        [
+            -start.misfit / 2 + _volume(inner)
+            for start, (inner, _) in zip(starts, chains, strict=True)
+        ]
+    )
+    shares = np.exp(evidence - evidence.max())
+    counts = np.round(shares / shares.sum() * chains[0][0].shape[0]).astype(int)
+    rng = np.random.default_rng(seed)
+    inner = np.concatenate(
+        [
+            chain if count == len(chain) else rng.choice(chain, count)
+            for (chain, _), count in zip(chains, counts, strict=True)
+        ]
+    )
+    parameters = objective.parameters
+    values = [p.outer_of(x) for p, x in zip(parameters, inner.T, strict=True)]
+    time = max(time for _, time in chains)
+    enough = steps * _WALKERS > _INDEPENDENT * time
+    return Posterior(parameters, np.stack(values, axis=1), time, enough)
+
+
+def _volume(inner: Array) -> float:
+    """Return the logarithm of the volume of a cloud of samples, up to a constant."""
+    return float(np.linalg.slogdet(np.atleast_2d(np.cov(inner.T)))[1]) / 2
+
+
+def _sampled(objective: Objective, best: Best, steps: int, seed: int) -> tuple[Array, float]:
+    """Return samples around one solution in search coordinates, and the correlation time."""
+    try:
+        import emcee
+    except ImportError as error:
+        raise InputError(
+            f"sampling needs emcee; install it with: {install_command('lab')}"
+        ) from error
+
+    parameters = objective.parameters
+    low = np.array([p.inner(p.low) for p in parameters])
+    high = np.array([p.inner(p.high) for p in parameters])
+    middle = np.array([p.inner(best.values[p.name]) for p in parameters])
+    rng = np.random.default_rng(seed)
+    begin = middle + _AROUND * (high - low) * rng.standard_normal((_WALKERS, middle.size))
+    margin = 1e-6 * (high - low)
+    sampler = emcee.EnsembleSampler(_WALKERS, middle.size, objective.log_density)
+    sampler.random_state = np.random.RandomState(seed).get_state()
+    state = sampler.run_mcmc(np.clip(begin, low + margin, high - margin), _BEGIN)
+    sampler.reset()
+    sampler.run_mcmc(state, steps)
+    time = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
+    return np.asarray(sampler.get_chain(flat=True)), time

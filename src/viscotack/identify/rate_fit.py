@@ -1,0 +1,344 @@
+r"""Identify the interface from a rate series: pull-off forces at several speeds, and a material.
+
+The forward model is the contact whose edge is a steady crack (:mod:`.forward`), and simulation
+where that does not hold (:mod:`.simulated_tests`). Pull-off forces are computed on a grid of works
+of adhesion and ranges and interpolated in logarithms (:mod:`.interpolated_forces`), so that the
+search (:mod:`.search`) and its intervals are fast. Noise of the forces, error of the forward model
+and uncertainty of material, temperature and machine (:mod:`.covariances`) form one covariance of
+the relative forces.
+
+An interface that grows with speed (:mod:`.growth`) has two additional unknowns.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError, OutOfRange
+from viscotack.geometry import Layer
+from viscotack.materials import Passport
+from viscotack.theory.crack.contact.films import MOST_ZONE
+from viscotack.units import readable
+
+from .computed import Computed
+from .covariances import joint_covariance, shift_covariance
+from .force_ratios import Mixed, yielding_near
+from .forward import Changed, Forward, Interface
+from .growth import FoundGrowth, shares_of
+from .likelihood import Best, Interval, Objective, Posterior, posterior
+from .pull_off import PullOff
+from .rate_series import RateSeries
+from .rate_words import fit_words, misfit_words
+from .search import LEAST_TABOR, Search, Settled, closely, grown, opening_near, settled, widely
+from .simulated_tests import with_simulations
+from .simulations import Simulations
+
+_LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
+_OVER = 1.2  # overshoot of the limit on a layer that is left
+_ROUNDS = 6  # largest number of rounds in which speeds are excluded
+SIMULATED_TABOR = 0.2  # effective: smallest of a table for tests that can be simulated
+
+
+@dataclass(frozen=True, eq=False)
+class RateSeriesFit:
+    """Interface fitted to a rate series.
+
+    Parameters
+    ----------
+    found : Settled
+        The search with the covariance of the forces, its best fit, and the scatter of the forces.
+    solutions : tuple of Best
+        Separate interfaces that fit the forces, the most likely first; mostly one.
+    intervals : dict of str to Interval
+        Profile likelihood intervals of "work_of_adhesion" and "equilibrium_gap", with growth also
+        of "strengthening" and "exponent".
+    growth : FoundGrowth or None
+        Growth of the interface with speed, if fitted.
+    excluded : tuple of (PullOff, str)
+        Tests for which neither theory nor simulation has an answer, with the reason.
+    simulations : int
+        Number of simulations.
+    """
+
+    found: Settled
+    solutions: tuple[Best, ...]
+    intervals: dict[str, Interval]
+    growth: FoundGrowth | None
+    excluded: tuple[tuple[PullOff, str], ...]
+    simulations: int
+
+    @property
+    def given(self) -> RateSeries:
+        """The fitted tests, with material, machine and assumptions."""
+        return self.found.search.series
+
+    @property
+    def series(self) -> tuple[PullOff, ...]:
+        """The fitted tests."""
+        return tuple(self.given.tests)
+
+    @property
+    def passport(self) -> Passport:
+        """Passport of the material."""
+        return self.given.passport
+
+    @property
+    def forward(self) -> Forward:
+        """Forward model of the material."""
+        return self.found.search.forward
+
+    @property
+    def best(self) -> Best:
+        """The most likely parameters."""
+        return self.found.best
+
+    @property
+    def interface(self) -> Interface:
+        """The most likely interface."""
+        return self.found.search.interface(self.best)
+
+    @property
+    def work_of_adhesion(self) -> float:
+        """Most likely work of adhesion [J/m2]."""
+        return self.best.values["work_of_adhesion"]
+
+    @property
+    def equilibrium_gap(self) -> float:
+        """Most likely range h0 [m], for Lennard-Jones forces."""
+        return self.best.values["equilibrium_gap"]
+
+    @property
+    def tabor(self) -> float:
+        """Tabor number of this interface with the material."""
+        work, gap, _ = self.interface
+        return self.forward.problem(work, gap, float(self.given.load[0])).groups().tabor
+
+    @cached_property
+    def forces(self) -> tuple[float, ...]:
+        """Pull-off forces of the most likely interface at the measured speeds [N]."""
+        return tuple(self.found.search.forces(self.best).tolist())
+
+    @property
+    def yielding(self) -> Array:
+        """Ratio of these forces to those of a rigid machine by theory, shape (S,)."""
+        return self.found.search.ratio(self.best.values)
+
+    @property
+    def covariance(self) -> Array:
+        """Covariance of the relative forces: noise, theory, material and machine."""
+        return self.found.search.spread
+
+    @property
+    def objective(self) -> Objective:
+        """Objective function, for profiles and sampling."""
+        return self.found.search.objective
+
+    def sampled(self, seed: int = 0) -> Posterior:
+        """Sample interfaces from the posterior, of all solutions."""
+        return posterior(self.objective, self.best, others=self.solutions[1:], seed=seed)
+
+    @property
+    def scatter(self) -> float:
+        """Root mean square of residuals over their uncertainty, without `between_speeds`."""
+        return self.found.scatter
+
+    @property
+    def between_speeds(self) -> float:
+        """Relative scatter from speed to speed beyond that of repeated tests and theory."""
+        return self.found.between
+
+    @property
+    def trend(self) -> bool:
+        """Whether most of the variance of that scatter follows a power of the speed."""
+        return self.found.trend
+
+    @property
+    def theory(self) -> float:
+        """Relative standard uncertainty of the forward model, in the covariance."""
+        return self.given.theory_error
+
+    @property
+    def level(self) -> float:
+        """Confidence level of the intervals."""
+        return self.given.level
+
+    @property
+    def describes_tests(self) -> bool:
+        """Whether residuals are as large as noise and theory let them be."""
+        return self.scatter <= _LOUD
+
+    @property
+    def misfit(self) -> str:
+        """Sentence on tests that the fit does not describe; empty if it describes them."""
+        return "" if self.describes_tests else misfit_words(self)
+
+    @cached_property
+    def words(self) -> tuple[str, ...]:
+        """Sentences on the result and on what the data do not determine."""
+        return (*([self.misfit] if self.misfit else []), *fit_words(self))
+
+
+def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> RateSeriesFit:
+    """Fit work of adhesion and range of attraction to pull-off forces at several speeds.
+
+    Parameters
+    ----------
+    series : RateSeries
+        The tests, with material, machine and assumptions.
+    computed : Computed, optional
+        Forces of an earlier identification, to which new ones are added.
+
+    Raises
+    ------
+    OutOfRange
+        If the most likely interface is outside the range of theory and simulation.
+    ValueError
+        If the theory holds for none of the searched ranges.
+
+    Notes
+    -----
+    The bulk is linear, and the interface rate-independent unless `growth` is set. Forces that rise
+    more steeply than any range allows give large residuals. Takes 1 to 20 s, mostly for the cracks
+    of the material, and up to a minute where tests are simulated; with growth 1 to 2 minutes,
+    mostly for the lattice.
+    """
+    forward = Forward(series.passport.material, series.radius, body=series.body, computed=computed)
+    forward.check(stiffness=series.stiffness, curves=series.curves, growth=series.growth)
+    with Simulations(computed) as runs:
+        plain, search, excluded = _located(forward, series, runs)
+    if series.growth:
+        found, intervals = closely(search, series.level)
+    else:
+        found = settled(search)
+        intervals = found.search.intervals(found.best, series.level)
+    several = found.search.objective.solutions(found.best, intervals, series.level)
+    if several[0].misfit < found.best.misfit:
+        found = replace(found, best=several[0])
+        intervals = found.search.intervals(found.best, series.level)
+    _check_place(found.search, found.best)
+    growth = _growth(found, plain)
+    return RateSeriesFit(found, several, intervals, growth, excluded, runs.count)
+
+
+def _located(
+    forward: Forward, series: RateSeries, runs: Simulations
+) -> tuple[Search, Search, tuple[tuple[PullOff, str], ...]]:
+    """Return a search without growth, and one over all unknowns near the likely interfaces.
+
+    Tests for which neither theory nor simulation holds there are excluded, and returned with the
+    reason.
+    """
+    opening, excluded = None, []
+    simulable = not (series.growth or series.curves or isinstance(series.body, Layer))
+    least = SIMULATED_TABOR if simulable else LEAST_TABOR
+    for _ in range(_ROUNDS):
+        search = plain = Search.begun(forward, series, least)
+        best = plain.best()
+        if series.growth:
+            if opening is None:
+                opening = opening_near(plain, best)
+                forward = grown(plain, opening)
+                # the lattice does not include the larger ranges that slower speeds alone would
+                # allow
+                most = float(plain.table.axes["equilibrium_gap"][-1])
+                series = replace(series, gaps=(series.gaps[0], most))
+            search = widely(forward, plain, opening)
+            best = search.best()
+        known, changed, depends = _with_errors(search, best)
+        if depends:
+            # repeat for this machine, because the interface was that of a rigid one
+            known, changed, _ = _with_errors(search, known.best())
+        refused = changed.refused
+        if simulable:
+            known, refused = with_simulations(known, changed, runs)
+        if np.all(refused == ""):
+            most = _largest_gap(known)
+            if most is None:
+                return plain, known, tuple(sorted(excluded, key=lambda one: one[0].speed))
+            series = replace(series, gaps=(series.gaps[0], most))
+            continue
+        rows = list(zip(series.tests, refused.tolist(), strict=True))
+        excluded += [(one, why) for one, why in rows if why]
+        left = [one for one, why in rows if not why]
+        if len({one.speed for one in left}) < (1 if series.curves else 2):
+            one, why = max(excluded, key=lambda row: row[0].speed)
+            raise OutOfRange(f"the theory holds for too few of the speeds; at {one.at}: {why}")
+        series = replace(series, tests=left)
+    raise OutOfRange(
+        f"the theory does not hold for {len(excluded)} of the tests, nor for more after their "
+        "exclusion; omit the fastest"
+    )
+
+
+def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
+    """Return a search with the machine, and uncertainties of material, temperature and machine.
+
+    Also return the ratios of the forces at the interface, and whether they depend on it.
+    """
+    series, interface = search.series, search.interface(best)
+    ratio, changed = yielding_near(series, search.forward, interface)
+    own = search.tests
+    softer = series.compliance_error * ratio.log_ratio
+    noise = series.noise + shift_covariance(series, own, interface)
+    spread = joint_covariance(series, [own], interface, search.model, softer, noise)
+    return replace(search, spread=spread, ratio=ratio), changed, bool(ratio.slopes.any())
+
+
+def _largest_gap(search: Search) -> float | None:
+    """Return the largest range whose forces do not reach through the layer; None if all do not.
+
+    The work of adhesion is the likely one of each range.
+    """
+    if not isinstance(search.series.body, Layer):
+        return None
+    gaps, series = search.table.axes["equilibrium_gap"], search.series
+    likely = [search.objective.best({"equilibrium_gap": float(gap)}) for gap in gaps]
+    works = np.array([one.values["work_of_adhesion"] for one in likely])
+    pulled = search.forward.pulled(works[:, None], gaps[:, None], series.speed, series.load)
+    through = pulled.through.max(axis=-1)
+    if through[-1] <= _OVER * MOST_ZONE:
+        return None
+    over = int(np.argmax(through > MOST_ZONE))
+    ends = slice(max(over - 1, 0), over + 1)
+    return float(np.exp(np.interp(np.log(MOST_ZONE), np.log(through[ends]), np.log(gaps[ends]))))
+
+
+def _check_place(search: Search, best: Best) -> None:
+    """Raise an error if the theory does not hold for the fitted interface.
+
+    Conditions whose forces are simulated need no theory.
+    """
+    series, gap = search.series, search.interface(best).gap
+    simulated = search.ratio.mixed if isinstance(search.ratio, Mixed) else ()
+    if not len(simulated) and search.table.effective(best.values) < LEAST_TABOR:
+        raise InputError(
+            f"the most likely range, {readable(gap, 'm', digits=3)}, has a cohesive zone as large "
+            "as the contact, so the theory does not hold: simulate"
+        )
+    # speeds were excluded for a nearby interface; check the fastest one again for this interface
+    fastest = int(np.argmax(series.speed))
+    if fastest in simulated:
+        return
+    relaxed = search.tests._replace(moves=()).some(np.array([fastest]))
+    if why := str(relaxed.changed(search.interface(best)).refused[0]):
+        raise OutOfRange(f"at {series.tests[fastest].at}: {why}")
+
+
+def _growth(found: Settled, plain: Search) -> FoundGrowth | None:
+    """Return the growth of the interface, compared with the best one without growth."""
+    search, best = found.search, found.best
+    if search.opening is None:
+        return None
+    series, (work, gap, law) = search.series, search.interface(best)
+    pulled = search.forward.pulled(work, gap, series.speed, series.load, growth=law)
+    without = replace(search, table=plain.table, opening=None).best()
+    return FoundGrowth(
+        gap=gap,
+        strengthening=best.values["strengthening"],
+        exponent=best.values["exponent"],
+        better_by=max(without.misfit - best.misfit, 0.0),
+        shares=shares_of(series.speed, pulled),
+        opening=search.opening,
+    )

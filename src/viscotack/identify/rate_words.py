@@ -1,0 +1,274 @@
+"""Sentences on a fitted rate series and on its forecast, made from their numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.arrays import Array
+from viscotack.geometry import Layer
+from viscotack.materials.passport_uncertainty import allowed
+from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
+from viscotack.units import readable, readable_interval
+
+from .growth import FoundGrowth
+from .likelihood import Interval, Posterior
+from .temperatures import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
+
+if TYPE_CHECKING:
+    from .rate_fit import RateSeriesFit
+
+_NAMED = 4  # largest number of tests, or of speeds, that are named one by one
+_LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
+_CHANCE = 0.01  # accepted probability that a series without growth is reported to need it
+_LABELS = {
+    "work_of_adhesion": ("work of adhesion", "J/m2"),
+    "equilibrium_gap": ("range of attraction h0", "m"),
+    "strengthening": ("strengthening", ""),
+    "exponent": ("exponent of growth", ""),
+}
+
+
+def fit_words(fit: RateSeriesFit) -> list[str]:
+    """Return sentences on a fit that describes its tests, or not."""
+    said = []
+    for name, ends in fit.intervals.items():
+        label, unit = _LABELS[name]
+        if name == "strengthening" and fit.growth is not None:
+            label += f" at an opening speed of {_speed(fit.growth.opening_speed)}"
+        said += _of_one(label, unit, fit.best.values[name], ends, fit.level)
+    if fit.growth is not None:
+        said += _of_growth(fit.growth)
+    if not allowed(fit.passport):
+        said.append("the material is assumed exact, because its uncertainty is unknown")
+    return [
+        *said,
+        *_of_scatter(fit),
+        *_of_solutions(fit),
+        *_of_layer(fit),
+        *simulation_words(fit.given.speed, fit.found.search.model.simulation, fit.simulations),
+        *_of_relaxation(fit),
+        *_of_shifts(fit),
+        *_of_temperature(fit),
+        *_of_excluded(fit),
+        *(remark for one in fit.series for remark in one.remarks),
+    ]
+
+
+def misfit_words(fit: RateSeriesFit) -> str:
+    """Return a sentence on tests that the fit does not describe."""
+    off = fit.given.force / np.array(fit.forces) - 1
+    worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
+    tests = ", ".join(f"{fit.series[i].at} {off[i]:+.0%}" for i in worst)
+    if fit.given.growth:
+        cure = "even an interface that grows; the material may be wrong, or nonlinear"
+    elif isinstance(fit.given.body, Layer):
+        cure = "; the material or the thickness may be wrong"
+    else:
+        cure = "; --growth fits an interface that grows with speed, or the material may be wrong"
+    if not fit.trend:
+        cure += ", or tests at one speed scatter by as much, which --scatter states"
+    return (
+        f"the fit does not describe these tests: measured over fitted forces are off by {tests}, "
+        f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory. No work of "
+        f"adhesion and range of a linear solid explain them{cure}"
+    )
+
+
+def forecast_words(
+    fit: RateSeriesFit, speed: Array, crack_speed: Array, chain: Posterior, raised: Array
+) -> list[str]:
+    """Return sentences on a forecast; `raised` are the speeds at which a measured force is it."""
+    said, measured = [], fit.given.speed
+    if speed.min() < 0.5 * measured.min() or speed.max() > 2 * measured.max():
+        said.append(
+            f"measured speeds range from {_speed(measured.min(), measured.max())}; beyond them the "
+            "prediction depends on the material and the theory"
+        )
+    edge = readable(crack_speed.min(), "m/s", digits=2, to=crack_speed.max())
+    said.append(f"the crack speed at pull-off is {edge}")
+    if len(fit.solutions) > 1:
+        said.append(f"the band covers the {len(fit.solutions)} interfaces that fit the forces")
+    if not chain.converged:
+        said.append(
+            "too few independent samples of the posterior: the correlation time is "
+            f"{chain.correlation_time:.0f} steps"
+        )
+    if not allowed(fit.passport):
+        said.append("the band does not include the uncertainty of the material, which is unknown")
+    if raised.size:
+        said.append(
+            f"at {_speed(raised.min(), raised.max())} the model predicts less than was measured at "
+            "a slower speed; there the forecast is the measured force"
+        )
+    return said
+
+
+def simulation_words(speed: Array, error: Array, count: int) -> list[str]:
+    """Return a sentence on the tests whose forces are simulated, with their errors above 0."""
+    speeds = np.sort(speed[error > 0])
+    if not speeds.size:
+        return []
+    at = ", ".join(_speed(one) for one in speeds)
+    if speeds.size > _NAMED:
+        at = f"{speeds.size} speeds, {_speed(speeds[0], speeds[-1])}"
+    return [
+        f"forces by simulation at {at}, where the theory does not hold: {count} simulations, "
+        f"error of the interpolated force {error.max():.1%}"
+    ]
+
+
+def _speed(value: float, to: float | None = None) -> str:
+    return readable(float(value), "m/s", digits=3, to=None if to is None else float(to))
+
+
+def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> list[str]:
+    """Return a sentence on one parameter."""
+    if ends.told:
+        both = readable_interval(ends.low, ends.high, unit)
+        said = [f"{label} {readable(value, unit, digits=3)} ({both}, {level:.0%})"]
+    elif ends.closed_below:
+        low = readable(ends.low, unit, digits=3)
+        said = [f"{label} above {low} ({level:.0%}); not identifiable above"]
+    elif ends.closed_above:
+        high = readable(ends.high, unit, digits=3)
+        said = [f"{label} below {high} ({level:.0%}); not identifiable below"]
+    else:
+        said = [f"{label}: not identifiable from these speeds"]
+    if ends.split:
+        said.append(
+            f"the interval of the {label} consists of separate ranges that fit these forces"
+        )
+    return said
+
+
+def _of_growth(found: FoundGrowth) -> list[str]:
+    sure = found.chance < _CHANCE
+    said = [
+        f"{'the interface grows with speed' if sure else 'growth is not needed'}: without it "
+        f"the misfit is {found.better_by:.1f} larger, with a probability of {found.chance:.1%} "
+        "by chance"
+    ]
+    if np.isfinite(found.reference_speed):
+        said.append(
+            f"Gent-Schultz: reference speed {_speed(found.reference_speed)} of the gap, exponent "
+            f"{found.exponent:.2f}"
+        )
+    for one in sorted({found.shares[0], found.shares[-1]}, key=lambda share: share.speed):
+        said.append(
+            f"at {_speed(one.speed)} the edge dissipates {one.energy:.3g} works of adhesion: "
+            f"a factor {one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
+        )
+    return said
+
+
+def _of_scatter(fit: RateSeriesFit) -> list[str]:
+    if not fit.between_speeds:
+        return []
+    if fit.trend:
+        return [
+            f"forces depart from the model by {fit.between_speeds:.1%} beyond repeated tests and "
+            "theory, with a power of the speed; intervals and bands include such a trend, which a "
+            "forecast continues beyond the measured speeds"
+        ]
+    return [
+        f"forces scatter by {fit.between_speeds:.1%} from speed to speed beyond repeated tests and "
+        "theory; the intervals include this"
+    ]
+
+
+def _of_solutions(fit: RateSeriesFit) -> list[str]:
+    if len(fit.solutions) < 2:
+        return []
+    described = [
+        f"{readable(one.values['work_of_adhesion'], 'J/m2', digits=3)} with "
+        f"{readable(one.values['equilibrium_gap'], 'm', digits=3)} "
+        f"(likelihood {np.exp((fit.solutions[0].misfit - one.misfit) / 2):.2g})"
+        for one in fit.solutions
+    ]
+    return [
+        f"{len(described)} interfaces fit these forces: {', '.join(described)}; `viscotack "
+        "next-test` ranks tests that distinguish them"
+    ]
+
+
+def _of_layer(fit: RateSeriesFit) -> list[str]:
+    """Return a sentence on the layer and the error of the theory on it."""
+    body, given, solid = fit.given.body, fit.given, fit.forward.material
+    if not isinstance(body, Layer):
+        return []
+    pulled = fit.forward.pulled(*fit.interface[:2], given.speed, given.load)
+    radius, error = pulled.edge_radius, fit.theory + ERROR_BY_ZONE * pulled.through
+    nu = body.poisson_ratio
+    base = "sliding on its base" if nu is None else f"bonded, Poisson ratio {nu:.3g}"
+    return [
+        f"the sample is a layer of {readable(body.thickness, 'm', digits=3)}, {base}; "
+        f"contact radii at pull-off {readable(radius.min(), 'm', digits=2, to=radius.max())}, "
+        f"error of the theory {error.min():.1%} to {error.max():.1%}; contact modulus "
+        f"{readable(solid.contact_modulus, 'Pa', digits=3)} with the Poisson ratio "
+        f"{solid.poisson_ratio:.3g} of the material"
+    ]
+
+
+def _of_relaxation(fit: RateSeriesFit) -> list[str]:
+    """Return a caution if contacts had not relaxed in their dwell."""
+    rows = [(x.history.dwell, x.speed) for x in fit.series if x.history and x.history.dwell > 0]
+    if fit.given.history or not rows:
+        return []
+    (dwell, speed), material = min(rows), fit.forward.material
+    left = float(material.relaxation(dwell)) / material.rubbery_modulus - 1
+    if left < _LEFT:
+        return []
+    return [
+        f"the contacts are taken as relaxed, but after a dwell of {readable(dwell, 's', digits=2)} "
+        f"at {_speed(speed)} the modulus is {left:.0%} above the relaxed one; with --history the "
+        "forces include approach and dwell"
+    ]
+
+
+def _of_shifts(fit: RateSeriesFit) -> list[str]:
+    """Return a remark on the temperatures of tests that differ from the material's."""
+    passport, tests = fit.passport, fit.series
+    known = [one.temperature for one in tests if one.temperature is not None]
+    if not known:
+        return assumed_temperature(passport, known)
+    at, low, high = celsius(passport.temperature), min(known), max(known)
+    if why := unshiftable(passport, fit.given.growth):
+        if not apart(tests, passport):
+            return []
+        return [f"tests were made at {celsius(low, high)}, but {why}: it is used as at {at}"]
+    reference = passport.temperature or 0.0
+    if max(abs(low - reference), abs(high - reference)) <= DIFFERENT:
+        return []
+    factors = [one.shift for one in tests]
+    return [
+        f"tests at {celsius(low, high)} are taken at the speeds a_T v at {at}, with a_T from "
+        f"{min(factors):.3g} to {max(factors):.3g}, and with the same interface at all temperatures"
+    ]
+
+
+def _of_temperature(fit: RateSeriesFit) -> list[str]:
+    """Return a sentence on the uncertainty of the temperature."""
+    given, passport = fit.given, fit.passport
+    if not given.temperature_error or passport.temperature is None:
+        return []
+    if passport.shift is None:
+        return [
+            "the uncertainty of the temperature of the tests is not in the intervals, because the "
+            "passport has no shift of times with temperature"
+        ]
+    known = "assumed" if given.temperature_uncertainty is None else "stated"
+    return [
+        f"the temperature of the tests has a standard uncertainty of {given.temperature_error:.2g} "
+        f"K ({known}), by which the times of the material change by {given.time_error:.1%}; it is "
+        "in the intervals"
+    ]
+
+
+def _of_excluded(fit: RateSeriesFit) -> list[str]:
+    if not fit.excluded:
+        return []
+    speeds = ", ".join(dict.fromkeys(one.at for one, _ in fit.excluded))
+    why = fit.excluded[-1][1]
+    return [f"excluded, because the theory does not hold there: {speeds} ({why})"]
