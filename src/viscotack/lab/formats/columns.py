@@ -5,14 +5,15 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
+from typing import SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.arrays import KINDS
 from viscotack.lab.options import FileOptions, Options
+from viscotack.lab.sweeps import KINDS
 
 from .file import LabFile
 from .headings import (
@@ -37,6 +38,7 @@ from .headings import (
 from .numbers import (
     CLOCK,
     decimal_mark,
+    doubtful_temperature,
     half_digit,
     number,
     plain_numbers,
@@ -44,7 +46,6 @@ from .numbers import (
     without_fillers,
 )
 from .tables import Table
-from .unit_checks import doubtful_temperature
 
 # the option that sets the unit of a column without one, and examples of units
 _FLAGS = {
@@ -134,10 +135,10 @@ class Columns:
         return tuple(self._found)
 
     @property
-    def names(self) -> set[str]:
-        """Columns chosen by the caller that the table has."""
+    def lost(self) -> set[str]:
+        """Columns chosen by the caller that the table lacks."""
         found = self._chosen_by_caller()
-        return {column.name for what, column in self.options.chosen.items() if what in found}
+        return {column.name for what, column in self.options.chosen.items() if what not in found}
 
     @property
     def columns_in_use(self) -> set[int]:
@@ -147,11 +148,10 @@ class Columns:
     def __contains__(self, quantity: str) -> bool:
         return quantity in self._found
 
-    def error(self, what: str, row: int | None = None) -> InputError:
+    def error(self, what: str, row: SupportsIndex | None = None) -> InputError:
         """Return an error that names the line of a row, by default of the first row."""
         rows = self.table.rows
-        line = rows[row][0] if row is not None else rows[0][0] if rows else None
-        return self.file.error(what, line)
+        return self.file.error(what, rows[0 if row is None else row][0] if rows else None)
 
     def name(self, quantity: str) -> str:
         """Return the heading of a quantity as written in the file."""
@@ -166,9 +166,7 @@ class Columns:
         if heading.base is not None:
             self.notes.append(f'"{self.name(quantity)}": the logarithm is undone')
             for row in np.flatnonzero(np.abs(values) > _LARGEST_POWER):
-                raise self.error(
-                    f'{values[row]:g} in "{self.name(quantity)}" is no logarithm', int(row)
-                )
+                raise self.error(f'{values[row]:g} in "{self.name(quantity)}" is no logarithm', row)
             values = heading.base**values
         if needed:
             self.keep &= ~np.isnan(values)
@@ -201,8 +199,7 @@ class Columns:
 
     def _is_clock(self, index: int) -> bool:
         """Return whether a column has clock times: hh:mm:ss, or mm:ss where its unit says so."""
-        cells = (cells[index].strip() for _, cells in self.table.rows)
-        first = next(filter(None, cells), "")
+        first = next(filter(None, (row[index].strip() for _, row in self.table.rows)), "")
         unit = unit_within(self.table.headings[index]) or self.table.units[index]
         return bool(CLOCK.fullmatch(first)) or (":" in first and is_clock_unit(unit))
 
@@ -284,7 +281,7 @@ class Columns:
             for name in targeted:
                 if not same_unit(self._unit(name), unit):
                     raise self.error(
-                        f'the file states {bare(self._unit(name))} for "{self.name(name)}", but '
+                        f'"{self.name(name)}" is in {bare(self._unit(name))}, but '
                         f"{_FLAGS[target].split()[0]} is {unit}"
                     )
 
@@ -304,12 +301,9 @@ class Columns:
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
         unit = self._unit("temperature")
         unit = (self.options.temperature_unit or "") if no_unit(unit) else unit
-        if no_unit(unit):
-            raise self.error(
-                f'column "{self.name("temperature")}": no unit; set {_FLAGS["K"]}, or write it '
-                "into the file"
-            )
         try:
+            if no_unit(unit):
+                raise InputError(f"no unit; set {_FLAGS['K']}")
             factor, offset = kelvin(unit)
         except ValueError as error:
             raise self.located("temperature", error) from None
@@ -358,8 +352,7 @@ class Columns:
             apart = self._apart(quantity, first, other)
             if len(kinds) > 1:
                 raise self.error(
-                    f'two columns of one quantity: "{names[0]}" and "{names[1]}"; set --kind E or '
-                    "--kind G"
+                    f'"{names[0]}" and "{names[1]}" are one quantity; set --kind E or --kind G'
                 )
             if not np.any(apart > 1):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
@@ -454,32 +447,28 @@ class MaterialColumns(Columns):
         names = [name for name in ("angular_frequency", "frequency") if name in self]
         if len(names) == 2 and self.lacking("frequency"):
             names.pop()  # redundant, and its unit is ambiguous
-        found = {name: self._angular(name) for name in names}
-        if len(found) == 2:
-            both = found["angular_frequency"], found["frequency"]
+        omega, *others = map(self._angular, names)
+        for other in others:
             with np.errstate(divide="ignore", invalid="ignore"):
                 # half a digit of each, in rad/s
                 digits = [
-                    self.resolution(name) * np.abs(found[name] / self.numbers(name))
-                    for name in names
+                    self.resolution(name) * np.abs(values / self.numbers(name))
+                    for name, values in zip(names, (omega, other), strict=True)
                 ]
-            apart = np.abs(both[0] - both[1])
-            for row in np.flatnonzero(apart > 0.01 * np.abs(both[0]) + digits[0] + digits[1]):
+            own, alien = (f'"{self.name(name)}"' for name in names)
+            apart, near = np.abs(omega - other), 0.01 * np.abs(omega)
+            for row in np.flatnonzero(apart > near + digits[0] + digits[1]):
                 raise self.error(
-                    f'"{self.name("angular_frequency")}" is {both[0][row]:g} rad/s but '
-                    f'"{self.name("frequency")}" gives {both[1][row]:g} rad/s',
-                    int(row),
+                    f"{own} is {omega[row]:g} rad/s but {alien} gives {other[row]:g} rad/s", row
                 )
-            if np.any(apart > 0.01 * np.abs(both[0])):
-                coarse = int(np.nanmedian(digits[0]) < np.nanmedian(digits[1]))
-                found.pop(names[coarse])
+            if np.any(apart > near):
+                if not np.nanmedian(digits[0]) < np.nanmedian(digits[1]):
+                    omega, own, alien = other, alien, own
                 self.notes.append(
-                    f'"{self.name(names[1 - coarse])}" is used; it agrees with '
-                    f'"{self.name(names[coarse])}" within the digits written'
+                    f"{own} is used; it agrees with {alien} within the digits written"
                 )
-        omega = next(iter(found.values()))
         for row in np.flatnonzero(omega <= 0):
-            raise self.error(f"a frequency must be positive, got {omega[row]:g} rad/s", int(row))
+            raise self.error(f"a frequency must be positive, got {omega[row]:g} rad/s", row)
         return omega
 
     def _angular(self, name: str) -> Array:
@@ -489,17 +478,13 @@ class MaterialColumns(Columns):
             self.notes.append(f'"{self.name(name)}" has no unit; rad/s assumed')
             return self.numbers(name)
         try:
-            if said is None:
-                factor = radians_per_second(unit, angular=angular)
-            else:
-                factor = own = radians_per_second(said, angular="rad" in said)
-                if not no_unit(unit):
-                    with suppress(ValueError):  # an ambiguous unit is decided by the caller
-                        own = radians_per_second(unit, angular=angular)
+            factor = radians_per_second(said or unit, angular="rad" in said if said else angular)
+            if said and not no_unit(unit):
+                own = factor
+                with suppress(ValueError):  # an ambiguous unit is decided by the caller
+                    own = radians_per_second(unit, angular=angular)
                 if not math.isclose(own, factor):
-                    raise InputError(
-                        f"the file states {bare(unit)}, but --frequency-unit is {said}"
-                    )
+                    raise InputError(f"the unit is {bare(unit)}, but --frequency-unit is {said}")
         except ValueError as error:
             raise self.located(name, error) from None
         return self.numbers(name) * factor

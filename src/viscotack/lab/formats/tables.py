@@ -117,8 +117,7 @@ def tabulated(
         cells = tuple(map(str.strip, cells))
         if len(cells) < width or (any(cells[width:]) and not file.is_workbook):
             raise file.error(
-                f"{len(cells)} cells under {width} headings; a cell is missing or extra, "
-                "or the file is truncated",
+                f"{len(cells)} cells under {width} headings; the file may be truncated",
                 line,
             )
         if any(cells[:width]) or not file.is_workbook:
@@ -158,12 +157,9 @@ def under(rows: Sequence[Row]) -> tuple[Sequence[str] | None, list[Row]]:
     above = [row for _, row in filled[: min(next(number, _ABOVE), _ABOVE)]]
     if not above:
         return None, filled
-    at = max(range(len(above)), key=lambda i: _units_in(above[i]))
+    units = [sum(not no_unit(cell) and is_unit(cell) for cell in row) for row in above]
+    at = units.index(max(units))
     return above[at], filled[at + 1 :]
-
-
-def _units_in(row: Sequence[str]) -> int:
-    return sum(not no_unit(cell) and is_unit(cell) for cell in row)
 
 
 def pieces(table: Table, words: Vocabulary) -> list[Table]:
