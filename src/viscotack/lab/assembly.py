@@ -11,11 +11,11 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .diagnosis import cause, form_of, has_sweep, test_of
-from .formats.columns import MaterialColumns
+from .diagnosis import cause, form_of, test_of
+from .formats.columns import MaterialColumns, refuse_pooled
 from .formats.file import LabFile
 from .formats.numbers import doubtful_modulus
-from .formats.tables import Table, refuse_pooled
+from .formats.tables import Table
 from .grouping import GAP, grouped, levels
 from .joining import numbered_on
 from .options import Options
@@ -34,7 +34,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
         columns = MaterialColumns(file, table, given)
-        if not table.rows or not has_sweep(columns):
+        if not table.rows or not form_of(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
         part = _part(columns)
@@ -49,8 +49,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
         raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
         raise no_such_test(file, tables, given, "dma")
-    used = [columns.columns_in_use for columns in read]
-    refuse_pooled(file, [columns.table for columns in read], used, [c.states for c in read])
+    refuse_pooled(read)
     if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
     source = source_of(file, format, notes)
@@ -393,8 +392,8 @@ def _rows(
         refuse_stiffer_than_diamond(columns, values)
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
     kelvins = np.nan_to_num(np.round(temperature))
-    states = list(zip(kelvins, np.round(time, 9), strict=True))
-    refuse_pooled(file, [columns.table], [columns.columns_in_use], [states])
+    columns.states = list(zip(kelvins, np.round(time, 9), strict=True))
+    refuse_pooled([columns])
     keep = kept(columns, time, values)
     return time[keep], values[keep], temperature[keep], kind, columns
 

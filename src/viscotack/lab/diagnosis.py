@@ -29,7 +29,7 @@ def test_of(columns: MaterialColumns) -> str | None:
 
     If both stress and strain are present, the one held constant identifies the test.
     """
-    if has_sweep(columns):
+    if form_of(columns):
         return "dma"
     if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
         return "shifts"
@@ -89,14 +89,10 @@ def _sweeps(columns: MaterialColumns) -> bool:
     return any(x.size and np.ptp(x) > _SWEPT * np.max(np.abs(x)) for x in known)
 
 
-def has_sweep(columns: MaterialColumns) -> bool:
-    """Return whether the columns hold a frequency and two numbers that give a complex modulus."""
-    swept = "frequency" in columns or "angular_frequency" in columns
-    return swept and form_of(columns) is not None
-
-
 def form_of(columns: MaterialColumns) -> tuple[str, str] | None:
-    """Return the two columns from which a complex modulus follows, or None."""
+    """Return the two columns from which a complex modulus over frequency follows, or None."""
+    if "frequency" not in columns and "angular_frequency" not in columns:
+        return None
     return next((form for form in _FORMS if all(name in columns for name in form)), None)
 
 

@@ -359,7 +359,8 @@ def _selected(
         listed = ", ".join(map(repr, others))
         notes.append(f"{which}, {listed} are not; --table chooses a sheet")
     elif len(read) > 1:
-        notes.append(which)
+        names = dict.fromkeys(table.sheet for table in chosen)
+        notes.append(f"{which}: {', '.join(map(repr, names))}")
     if alike:
         notes.append(
             f"{len(alike) + 1} sheets hold sweeps, and only {first!r} is read, because their "

@@ -75,7 +75,13 @@ class _Moduli:
 
     def chosen(self, points: npt.ArrayLike) -> Self:
         """Select points, by indices or by a mask of shape (N,)."""
-        return chosen(self, points)
+        columns = {
+            name: values[np.asarray(points)]
+            for name, values in vars(self).items()
+            if isinstance(values, np.ndarray)
+        }
+        this: Any = self
+        return replace(this, **columns)
 
     def in_tension(self, poisson_ratio: float) -> Self:
         """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
@@ -149,13 +155,6 @@ class FrequencySweeps(_Moduli):
         if not found.size:
             raise InputError(f"no sweep {sweep}; available: {list(self.ids)}")
         return self.chosen(found[np.argsort(self.angular_frequency[found], kind="stable")])
-
-    def without(self, *sweeps: int) -> "FrequencySweeps":
-        """Return a copy without some sweeps, for example without flagged ones."""
-        unknown = set(sweeps) - set(self.ids)
-        if unknown:
-            raise InputError(f"no sweep {min(unknown)}; available: {list(self.ids)}")
-        return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -420,16 +419,6 @@ def sort_along(instance: Any, along: Array) -> None:
     for name, values in vars(instance).items():
         if isinstance(values, np.ndarray):
             store(instance, name, values[order])
-
-
-def chosen(instance: Any, points: npt.ArrayLike) -> Any:
-    """Return a copy with the selected points."""
-    columns = {
-        name: values[np.asarray(points)]
-        for name, values in vars(instance).items()
-        if isinstance(values, np.ndarray)
-    }
-    return replace(instance, **columns)
 
 
 def in_tension(instance: Any, poisson_ratio: float, *names: str, power: int = 1) -> Any:

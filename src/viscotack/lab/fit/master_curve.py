@@ -298,14 +298,8 @@ def superposed(
             curve(T, -np.log10(test.time[::-1]), sign * np.log10(getattr(test, column)[::-1]))
             for T, test in zip(temperature, ordered, strict=True)
         ]
-        shift = shifts_between(
-            temperature,
-            curves,
-            reference_temperature=reference_temperature,
-            by="both",
-            vertical=vertical,
-            temperature_uncertainty=temperature_uncertainty,
-        )
+        more = "both", vertical, temperature_uncertainty
+        shift = shifts_between(temperature, curves, reference_temperature, *more)
         how = f"shifts from the overlap of the tests, {_moving(vertical)}"
     else:
         how = _named(shift)

@@ -32,7 +32,7 @@ from viscotack.materials.interconversion import reciprocal
 
 from .errors import errors
 from .observed import Observed
-from .report import Fitted, Interval, information_criterion, scatter, unit_of
+from .report import Fitted, Interval, information_criterion, scatter
 
 _POOR = 0.25  # half-width of the interval of ln(constant) above which the profile is computed
 
@@ -325,18 +325,16 @@ def fit_constants(
         )
     material = search.solid(best.x)
     found = dict(zip(search.free, np.exp(ends), strict=True))
-    intervals = tuple(
-        Interval(name, value, *map(float, found[name]), unit=unit_of(name))
-        if name in found
-        else Interval(name, value, value, value, unit=unit_of(name), known=True)
-        for name in search.names
-        for value in [float(getattr(material, name))]
-    )
+    intervals = []
+    for name in search.names:
+        value = float(getattr(material, name))
+        low, high = map(float, found.get(name, (value, value)))
+        intervals.append(Interval(name, value, low, high, known=name not in found))
     sample = _draws(search, best.x, known_errors.covariance(influences), ends, draws, seed)
     criterion = information_criterion(residuals, len(search.free))
     return Fitted(
         material=material,
-        intervals=intervals,
+        intervals=tuple(intervals),
         scatter=spread,
         constants=len(search.free),
         criterion=criterion,

@@ -172,7 +172,8 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
         raise InputError(f"arms must be between 1 and {4 * _MOST}, got {arms}")
     compared: list[tuple[str, float]] = []
     if arms is None:
-        grids = _grids(data)
+        counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
+        grids = [_grid(data, n) for n in counts if n + 3 < data.values.size]
         if not grids:
             raise InputError(
                 f"{data.values.size} numbers are too few to choose the number of arms; give arms"
@@ -191,11 +192,14 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
     constants = int(np.count_nonzero(weights))
     spread = scatter(residuals, constants)
     intervals = tuple(
-        Interval(name, float(getattr(material, name)), np.nan, np.nan, unit="Pa") for name in NAMES
+        Interval(name, float(getattr(material, name)), np.nan, np.nan) for name in NAMES
     )
     sample: tuple[Prony, ...] = ()
     if draws:
-        known = errors(data, residuals, _slopes(data, times, weights))
+        # derivatives of ln(fitted value) by each weight, over the noise
+        basis = _basis(data, times)
+        slopes = basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
+        known = errors(data, residuals, slopes)
         spread = scatter(residuals, constants, known.words())
         intervals = _plateaus(data, material, times, weights, known, level, seed)
         sample = _bootstrap(data, times, weights, known, draws, seed)
@@ -243,12 +247,6 @@ def _grid(data: Observed, arms: int) -> Array:
     ends = np.array([-np.log10(fast) - 0.5, -np.log10(slow) + 0.5])
     cell = (decades + 1) / arms
     return 10 ** np.linspace(ends[0] + cell / 2, ends[1] - cell / 2, arms)
-
-
-def _grids(data: Observed) -> list[Array]:
-    """Return the grids to try: every size while small, then with increasing steps."""
-    counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
-    return [_grid(data, n) for n in counts if n + 3 < data.values.size]
 
 
 def _basis(data: Observed, times: Array) -> npt.NDArray:
@@ -349,12 +347,6 @@ def _criterion(data: Observed, times: Array, weights: Array) -> float:
     return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
 
 
-def _slopes(data: Observed, times: Array, weights: Array) -> Array:
-    """Return the derivatives of ln(fitted value) by each weight, divided by the noise."""
-    basis = _basis(data, times)
-    return basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
-
-
 def _bootstrap(
     data: Observed, times: Array, weights: Array, known: Errors, count: int, seed: int
 ) -> tuple[Prony, ...]:
@@ -366,14 +358,6 @@ def _bootstrap(
         if kept.size:
             found.append(_material(data, kept, drawn))
     return tuple(found)
-
-
-def _dense(data: Observed) -> Array:
-    """Return a grid so dense that additional times hardly change the fit."""
-    slow, fast = data.frequencies
-    beyond = 10**-0.5 if data.in_frequency else 1.0
-    count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
-    return np.geomspace(beyond / fast, 10**0.5 / slow, count)
 
 
 def _plateaus(
@@ -388,7 +372,11 @@ def _plateaus(
     """Return the intervals of the plateaus; one-sided where a plateau was not measured."""
     # with the fitted times, because a dense grid has not that of a single arm, and tails of loss
     # tell the difference
-    basis = _basis(data, np.union1d(_dense(data), times))
+    slow, fast = data.frequencies
+    beyond = 10**-0.5 if data.in_frequency else 1.0
+    count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
+    dense = np.geomspace(beyond / fast, 10**0.5 / slow, count)
+    basis = _basis(data, np.union1d(dense, times))
     logs = np.log(_basis(data, times) @ weights)
     noise = np.repeat(data.noise, data.at.size)
     # linearise the logarithm about the fit
@@ -415,5 +403,5 @@ def _plateaus(
             else:
                 ends.append(quantity.end(side, tail))
         value = float(getattr(material, name))
-        found.append(Interval(name, value, min(ends[0], value), max(ends[1], value), unit="Pa"))
+        found.append(Interval(name, value, min(ends[0], value), max(ends[1], value)))
     return tuple(found)

@@ -30,8 +30,6 @@ class Interval:
         Ends of the interval, in SI; 0 and inf where the data give no bound on that side. Both equal
         the value if it was given instead of fitted, and are nan if no interval was
         computed.
-    unit : str
-        SI unit, "1" for a pure number.
     known : bool
         Whether the quantity was given, not fitted.
     """
@@ -40,8 +38,12 @@ class Interval:
     value: float
     low: float
     high: float
-    unit: str = "1"
     known: bool = False
+
+    @property
+    def unit(self) -> str:
+        """SI unit, "1" for a pure number."""
+        return _UNITS.get(self.name, "1")
 
     @property
     def told(self) -> bool:
@@ -232,8 +234,3 @@ class FitReport(Fitted):
         lines += [f"  Not determined: {sentence}" for sentence in self.undetermined]
         lines += [f"  Note: {sentence}" for sentence in self.cautions]
         return "\n".join(lines)
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a constant of a material."""
-    return _UNITS.get(name, "1")

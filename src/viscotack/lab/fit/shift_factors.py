@@ -101,21 +101,15 @@ def shift_factors(
     [0.0, -1.0]
     """
     each = temperature_levels(sweeps)
-    return shifts_between(
-        np.array([float(np.mean(level.temperature)) for level in each]),
-        level_curves(each),
-        reference_temperature=reference_temperature,
-        by=by,
-        vertical=vertical,
-        temperature_uncertainty=temperature_uncertainty,
-    )
+    temperature = np.array([float(np.mean(level.temperature)) for level in each])
+    more = by, vertical, temperature_uncertainty
+    return shifts_between(temperature, level_curves(each), reference_temperature, *more)
 
 
 def shifts_between(
     temperature: Array,
     curves: Sequence[Curve],
-    *,
-    reference_temperature: float,
+    reference: float,
     by: str,
     vertical: str | float,
     temperature_uncertainty: float,
@@ -138,16 +132,16 @@ def shifts_between(
         )
     if len(curves) < 2:
         raise InputError(f"a shift needs two or more temperatures; {_LAW}")
-    if not temperature[0] - GAP <= reference_temperature <= temperature[-1] + GAP:
+    if not temperature[0] - GAP <= reference <= temperature[-1] + GAP:
         raise InputError(
             f"--reference-temperature must lie between {temperature[0]:.2f} and "
-            f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; beyond, {_LAW}"
+            f"{temperature[-1]:.2f} K, got {reference:g} K; beyond, {_LAW}"
         )
     steps = steps_between(temperature, curves, by, vertical)
-    shift, up, deviation = _summed(steps, temperature, reference_temperature)
+    shift, up, deviation = _summed(steps, temperature, reference)
     # change of each shift for an error of 1 K in its or the reference temperature
     slope = np.gradient(shift, temperature)
-    inside = float(np.clip(reference_temperature, temperature[0], temperature[-1]))
+    inside = float(np.clip(reference, temperature[0], temperature[-1]))
     kelvin = np.hypot(slope, np.interp(inside, temperature, slope))
     kelvin = np.where(np.abs(temperature - inside) <= GAP, 0.0, kelvin)
     uncertainty = np.hypot(deviation, temperature_uncertainty * kelvin)
@@ -157,7 +151,7 @@ def shifts_between(
             most = steps_between(temperature, curves, *BEST)
         except ValueError:
             most = steps
-        other = _summed(most, temperature, reference_temperature)[0]
+        other = _summed(most, temperature, reference)[0]
         uncertainty = np.hypot(uncertainty, shift - other)
     return ShiftTable(temperature, shift, uncertainty, None if vertical == "none" else up)
 

@@ -18,7 +18,6 @@ from .master_curve import shifted_by
 from .overlap import Curve
 from .shift_factors import BEST, FEWEST, level_curves, steps_between, temperature_levels
 
-_NAMES = ("storage", "loss")
 _APART = 0.1  # decades; larger differences contradict each other
 _SIGMAS = 3.0
 _POINTS = 3  # smallest number of points of each sweep in the overlap for a comparison
@@ -74,42 +73,29 @@ class Superposition:
 
     def words(self) -> tuple[str, ...]:
         """Return the contradictions to superposition as sentences; empty if there are none."""
-        return (*self._misfits(), *self._contradictions())
-
-    def _misfits(self) -> list[str]:
         found = []
-        for i, name in enumerate(_NAMES):
-            off = [
-                (each.deviation[i], each)
-                for each in self.neighbours
-                # two noisy sweeps may still superpose
-                if each.deviation[i] > max(np.log1p(self.tolerance), 2 * each.own[i])
-            ]
-            if not off:
-                continue
-            worst, where = max(off, key=lambda pair: pair[0])
+        for i, name in enumerate(("storage", "loss")):
+            least = np.log1p(self.tolerance)
+            # two noisy sweeps may still superpose
+            off = [x for x in self.neighbours if x.deviation[i] > max(least, 2 * x.own[i])]
+            if off:
+                worst = max(off, key=lambda each: each.deviation[i])
+                found.append(
+                    f"sweeps do not superpose in {name}: {_between(worst)} differ by "
+                    f"{100 * np.expm1(worst.deviation[i]):.2g} % where they overlap ({len(off)} "
+                    "such pairs): moduli that move with temperature (--vertical), a glass, two "
+                    "processes or a faulty sweep (--leave-out)"
+                )
+        limits = ((x, max(_APART, _SIGMAS * x.doubt)) for x in self.neighbours)
+        off = [x for x, limit in limits if abs(x.shift - x.asked) > limit]
+        if off:
+            worst = max(off, key=lambda each: abs(each.shift - each.asked))
             found.append(
-                f"sweeps do not superpose in {name}: {_between(where)} differ by "
-                f"{100 * np.expm1(worst):.2g} % where they overlap ({len(off)} such pairs): "
-                "moduli that move with temperature (--vertical), a glass, two processes or "
-                "a faulty sweep (--leave-out)"
+                f"storage and loss modulus give other shifts than those used: {_between(worst)} "
+                f"are shifted by {worst.shift:.2f} decades, not {worst.asked:.2f} +- "
+                f"{worst.doubt:.2f} ({len(off)} such steps)"
             )
-        return found
-
-    def _contradictions(self) -> list[str]:
-        off = [
-            each
-            for each in self.neighbours
-            if abs(each.shift - each.asked) > max(_APART, _SIGMAS * each.doubt)
-        ]
-        if not off:
-            return []
-        worst = max(off, key=lambda each: abs(each.shift - each.asked))
-        return [
-            f"storage and loss modulus give other shifts than those used: {_between(worst)} are "
-            f"shifted by {worst.shift:.2f} decades, not {worst.asked:.2f} +- {worst.doubt:.2f} "
-            f"({len(off)} such steps)"
-        ]
+        return tuple(found)
 
 
 def superposition(

@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
-from typing import SupportsIndex
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +29,7 @@ from .headings import (
     kind_of_geometry,
     nearness_to_sample,
     no_unit,
+    plain,
     radians_per_second,
     recognise,
     same_unit,
@@ -40,12 +41,14 @@ from .numbers import (
     decimal_mark,
     doubtful_temperature,
     half_digit,
+    is_number,
     number,
     plain_numbers,
     seconds,
     without_fillers,
 )
 from .tables import Table
+from .words import WORDS
 
 # the option that sets the unit of a column without one, and examples of units
 _FLAGS = {
@@ -62,6 +65,14 @@ _SAME_TEMPERATURE, _SAME = 0.5, 0.01
 _LARGEST_POWER = 100.0  # of a logarithm
 _HELD = 0.05  # relative to the level of a step; instruments hold it better than this
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
+# headings that tell one sample, or one place or state of a sample, from another
+_SAMPLE, _PLACE = (
+    re.compile(
+        f"({'|'.join(WORDS['apart'][what].split())})({'|'.join(WORDS['apart']['ending'].split())})?"
+    )
+    for what in ("sample", "place")
+)
+_STATUS = re.compile("status|statut|comment|kommentar|remark|bemerkung|date|datum|time$|zeit$")
 # index and meaning of a column
 _Place = tuple[int, Heading]
 
@@ -84,8 +95,11 @@ class Columns:
     def __init__(self, file: LabFile, table: Table, options: FileOptions, words: Vocabulary):
         self.file, self.table, self.options, self.words = file, table, options, words
         self.notes: list[str] = list(table.notes)
-        self._found = {name: [at] for name, at in self._chosen_by_caller().items()}
-        chosen = {index for ((index, _),) in self._found.values()}
+        said = self._chosen_by_caller()
+        # columns chosen by the caller that the table lacks
+        self.lost = {one.name for what, one in options.chosen.items() if what not in said}
+        self._found = {name: [at] for name, at in said.items()}
+        chosen = {index for index, _ in said.values()}
         for index, text in enumerate(table.headings):
             heading = words.recognise(text, table.units[index])
             if heading is None or heading.quantity in options.chosen:
@@ -100,7 +114,7 @@ class Columns:
                 self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
         # of each row: what was measured, such as temperature and frequency; set by the reader
-        self.states: Sequence[tuple[float, ...]] = ()
+        self.states: Sequence[Any] = ()
         self._chosen: dict[str, _Place] = {}
 
     def _may_be(self, heading: Heading) -> bool:
@@ -133,12 +147,6 @@ class Columns:
     def quantities(self) -> tuple[str, ...]:
         """Quantities of the recognised columns."""
         return tuple(self._found)
-
-    @property
-    def lost(self) -> set[str]:
-        """Columns chosen by the caller that the table lacks."""
-        found = self._chosen_by_caller()
-        return {column.name for what, column in self.options.chosen.items() if what not in found}
 
     @property
     def columns_in_use(self) -> set[int]:
@@ -488,3 +496,46 @@ class MaterialColumns(Columns):
         except ValueError as error:
             raise self.located(name, error) from None
         return self.numbers(name) * factor
+
+
+def refuse_pooled(read: Sequence[Columns]) -> None:
+    """Refuse tables with a column that tells samples, positions or states apart.
+
+    Raises
+    ------
+    ValueError
+        If a column that names a sample or a recipe differs, or any other one that is text, or names
+        a position, segment or state, differs between rows of one state.
+    """
+    columns: dict[str, list[tuple[str, Any]]] = {}
+    for one in read:
+        table, known = one.table, one.columns_in_use
+        for index, heading in enumerate(table.headings):
+            if heading and index not in known and no_unit(table.units[index]):
+                rows = zip(table.rows, one.states, strict=True)
+                cells = [(row[index].strip(), state) for (_, row), state in rows]
+                columns.setdefault(heading, []).extend(cells)
+    for heading, cells in columns.items():
+        values = dict.fromkeys(cell for cell, _ in cells if cell)
+        text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
+        sample, place = _SAMPLE.fullmatch(plain(heading)), _PLACE.fullmatch(plain(heading))
+        # a number of its own in each row counts the points
+        counts = len(values) == len(cells) and not text
+        if (
+            len(values) < 2
+            or counts
+            or not (text or sample or place)
+            or _STATUS.search(plain(heading))
+        ):
+            continue
+        by_state: dict[Any, set[str]] = {}
+        for cell, state in cells:
+            if cell:
+                by_state.setdefault(state, set()).add(cell)
+        if sample or any(len(each) > 1 for each in by_state.values()):
+            first = next(iter(values))
+            raise read[0].file.error(
+                f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
+                f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
+                f'choose, for example: --where "{heading}={first}"'
+            )

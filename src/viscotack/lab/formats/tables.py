@@ -22,7 +22,6 @@ from .headings import (
     in_kelvin,
     is_unit,
     no_unit,
-    plain,
     recognise,
     unquoted,
 )
@@ -36,14 +35,6 @@ _OF_TEST = set(WORDS["temperatures"]["test"].split())
 _ABOVE = 4  # rows of words above the numbers
 _ONE = ("1", "1.0")
 _SEGMENT = re.compile(r"[0-9]+\|[0-9]+")  # segment and point of HAAKE RheoWin
-# headings that tell one sample, or one place or state of a sample, from another
-_SAMPLE, _PLACE = (
-    re.compile(
-        f"({'|'.join(WORDS['apart'][what].split())})({'|'.join(WORDS['apart']['ending'].split())})?"
-    )
-    for what in ("sample", "place")
-)
-_STATUS = re.compile("status|statut|comment|kommentar|remark|bemerkung|date|datum|time$|zeit$")
 _COUNTERS = 3  # columns, from the left, that may number the points
 
 Row = tuple[int, Sequence[str]]
@@ -244,61 +235,6 @@ def _is(cell: str, value: str) -> bool:
     if is_number(cell) and is_number(value):
         return float(cell.replace(",", ".")) == float(value.replace(",", "."))
     return unquoted(cell).casefold() == unquoted(value).casefold()
-
-
-def refuse_pooled(
-    file: LabFile,
-    tables: Sequence[Table],
-    used: Sequence[set[int]],
-    states: Sequence[Sequence[Any]],
-) -> None:
-    """Refuse tables with a column that tells samples, positions or states apart.
-
-    Parameters
-    ----------
-    tables, used
-        The tables that are read, each with the indices of the columns that have a meaning.
-    states : sequence of sequence
-        For each table and row, the state that was measured, such as temperature and frequency.
-
-    Raises
-    ------
-    ValueError
-        If a column that names a sample or a recipe differs, or any other one that is text, or names
-        a position, segment or state, differs between rows of one state.
-    """
-    columns: dict[str, list[tuple[str, Any]]] = {}
-    for table, known, own in zip(tables, used, states, strict=True):
-        for index, heading in enumerate(table.headings):
-            if heading and index not in known and no_unit(table.units[index]):
-                cells = [
-                    (row[index].strip(), at) for (_, row), at in zip(table.rows, own, strict=True)
-                ]
-                columns.setdefault(heading, []).extend(cells)
-    for heading, cells in columns.items():
-        values = dict.fromkeys(cell for cell, _ in cells if cell)
-        text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
-        sample, place = _SAMPLE.fullmatch(plain(heading)), _PLACE.fullmatch(plain(heading))
-        # a number of its own in each row counts the points
-        counts = len(values) == len(cells) and not text
-        if (
-            len(values) < 2
-            or counts
-            or not (text or sample or place)
-            or _STATUS.search(plain(heading))
-        ):
-            continue
-        by_state: dict[Any, set[str]] = {}
-        for cell, state in cells:
-            if cell:
-                by_state.setdefault(state, set()).add(cell)
-        if sample or any(len(each) > 1 for each in by_state.values()):
-            first = next(iter(values))
-            raise file.error(
-                f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
-                f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
-                f'choose, for example: --where "{heading}={first}"'
-            )
 
 
 def without_waves(table: Table) -> Table:

@@ -188,7 +188,9 @@ def _cycle(
     notes.append(how)
     if compliance:
         notes.append(f"machine compliance {readable(compliance, 'm/N')} subtracted from the depth")
-    crossing = _crossing(force, own.retract, at)
+    # last point in compression before pull-off, or the start of the retraction
+    pressed = np.flatnonzero(force[own.retract : at] >= 0)
+    crossing = own.retract + (int(pressed[-1]) if pressed.size else 0)
     # at the smallest force the depth goes as the drive; single depths have the noise of the force,
     # and a soft machine may jump behind it
     index = np.arange(way.size) - own.retract
@@ -381,12 +383,6 @@ def _origin(
         spread + step / 5,
         "no approach before contact: depth is zero where the retraction's force is zero",
     )
-
-
-def _crossing(force: Array, begin: int, at: int) -> int:
-    """Return the last point in compression before pull-off, or the start of the retraction."""
-    pressed = np.flatnonzero(force[begin:at] >= 0)
-    return begin + int(pressed[-1]) if pressed.size else begin
 
 
 def _work(

@@ -17,7 +17,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.formats import afm, ibw, jpk, jpk_text, nid, tables, text, workbook
-from viscotack.lab.formats.columns import Columns
+from viscotack.lab.formats.columns import Columns, refuse_pooled
 from viscotack.lab.formats.file import Curve, LabFile, first_fitting, load
 from viscotack.lab.formats.headings import POSITIONS, TACK
 from viscotack.lab.joining import kelvin_in_name
@@ -224,7 +224,8 @@ def _from_table(
     more = {"contact_radius": _contact_radius(columns), "temperature": _temperature(columns)}
     columns.refuse_contradiction("force", position[0], "time")
     # what differs along a test, such as its parts, is no state that is pooled
-    tables.refuse_pooled(file, [table], [columns.columns_in_use], [range(len(table.rows))])
+    columns.states = range(len(table.rows))
+    refuse_pooled([columns])
     if lost := int(np.sum(~keep)):
         columns.notes.append(f"{lost} rows without a number rejected")
     needed = 1 if few else _NEEDED
