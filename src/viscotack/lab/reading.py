@@ -354,7 +354,9 @@ def _selected(
     chosen = [table for table in tables if table.sheet in read]
     others = dict.fromkeys(table.sheet for table in tables if table.sheet not in read)
     notes = []
-    which = f"sheet {first!r} is read" if len(read) == 1 else f"{len(read)} sheets are read"
+    which = (
+        f"sheet {first!r} is read" if len(read) == 1 else f"{len(read)} sheets of sweeps are read"
+    )
     if others:
         listed = ", ".join(map(repr, others))
         notes.append(f"{which}, {listed} are not; --table chooses a sheet")

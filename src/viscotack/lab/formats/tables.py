@@ -175,11 +175,21 @@ def _side_by_side(table: Table, words: Vocabulary) -> list[Table]:
         return [table]
     parts = []
     for a, b in blocks:
-        rows = tuple((line, row[a:b]) for line, row in table.rows if any(row[a:b]))
         note = f"the columns {a + 1} to {b} are one of {len(blocks)} tables side by side"
-        cut = {"headings": table.headings[a:b], "units": table.units[a:b], "rows": rows}
-        parts.append(replace(table, notes=(*table.notes, note), **cut))
+        parts.append(of_columns(table, range(a, b), range(a, b), notes=(*table.notes, note)))
     return parts
+
+
+def of_columns(table: Table, columns: Sequence[int], own: Sequence[int], **changes: Any) -> Table:
+    """Return some columns of a table, in the rows that have a cell in its own ones."""
+    rows = ((line, row) for line, row in table.rows if any(row[i] for i in own))
+    return replace(
+        table,
+        headings=tuple(table.headings[i] for i in columns),
+        units=tuple(table.units[i] for i in columns),
+        rows=tuple((line, tuple(row[i] for i in columns)) for line, row in rows),
+        **changes,
+    )
 
 
 def _stacked(table: Table, words: Vocabulary) -> list[Table]:

@@ -22,6 +22,7 @@ import csv
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import accumulate
 
 from viscotack.errors import InputError
 
@@ -33,6 +34,7 @@ from .tables import (
     Table,
     holds,
     numbered,
+    of_columns,
     stated_temperature,
     tabulated,
     under,
@@ -349,20 +351,8 @@ def wide(file: LabFile, *_: object) -> list[Table] | None:
     tables = []
     for label in dict.fromkeys(filter(None, labels)):
         own = [i for i, other in enumerate(labels) if other == label]
-        columns = [*shared, *own]
-        tables.append(
-            Table(
-                tuple(whole.headings[i] for i in columns),
-                tuple(whole.units[i] for i in columns),
-                tuple(
-                    (line, tuple(row[i] for i in columns))
-                    for line, row in whole.rows
-                    if any(row[i] for i in own)
-                ),
-                label=label,
-                notes=(f"the columns under {label!r} are a separate sweep",),
-            )
-        )
+        notes = (f"the columns under {label!r} are a separate sweep",)
+        tables.append(of_columns(whole, [*shared, *own], own, label=label, notes=notes))
     return tables
 
 
@@ -397,11 +387,8 @@ def _within(row: list[str]) -> tuple[list[str], list[str]]:
 
 def _above(row: list[str], labels: list[str]) -> list[str]:
     """Return the label above each column, or above the nearest column to the left."""
-    found, current = [], ""
-    for i in range(len(row)):
-        current = (labels[i] if i < len(labels) else "") or current
-        found.append(current)
-    return found
+    padded = [*labels, *[""] * len(row)][: len(row)]
+    return list(accumulate(padded, lambda left, own: own or left))
 
 
 def _each_has_its_own(headings: list[str], labels: list[str]) -> bool:
