@@ -266,6 +266,8 @@ def source_of(file: LabFile, format: str, notes: Sequence[str]) -> Source:
     return Source(file.path, file.sha256, format, tuple(dict.fromkeys(notes)))
 
 
+# ---- step tests and shift factors ----------------------------------------------------------------
+
 _DRIFT = 5.0  # K: largest range of temperatures of one test
 Test = TypeVar("Test", RelaxationTest, CreepTest)
 # test -> measured quantity, numerator and denominator if it is not a column, and its name

@@ -358,6 +358,9 @@ class CreepTest(_StepTest):
     source: Source = Source()
 
 
+# ---- validated, read-only columns ----------------------------------------------------------------
+
+
 def check_kind(kind: Any) -> None:
     """Raise an error unless the kind of modulus is "E" (tensile) or "G" (shear)."""
     if kind not in KINDS:

@@ -95,7 +95,7 @@ def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, .
     if few:
         return tuple(words)
     if len(data.parts) == 2 and data.at.size >= _SHAPE and found.scatter.deviation > 0.05:
-        alone = fit_series(only(data, "storage"), arms=None, level=0.9, draws=0, seed=0)
+        alone = fit_series(only(data, "storage"))
         if found.scatter.deviation > 3 * alone.scatter.deviation:
             off = np.median(np.abs(np.expm1(data.residuals(alone.material)[1])))
             words.append(
@@ -112,7 +112,7 @@ def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
     few = len(found.material.branches)
     if data.values.size < 6:
         return ()
-    free = fit_series(data, arms=None, level=0.9, draws=0, seed=0)
+    free = fit_series(data)
     many, own = len(free.material.branches), scatter_of(data, found.material)
     best = scatter_of(data, free.material)
     if few >= many or own < 1.1 * best:

@@ -195,7 +195,7 @@ def _affordable(data: Observed) -> list[str]:
 def _tried(data: Observed, model: str) -> Tried:
     """Fit a model without intervals."""
     if model == "prony":
-        found = fit_series(data, arms=None, level=0.9, draws=0, seed=0)
+        found = fit_series(data)
         return Tried(model, found.material, found.criterion, found.constants)
     material, constants = fitted_constants(data, model=model, known={})
     criterion = information_criterion(data.weighed(data.residuals(material)), constants)

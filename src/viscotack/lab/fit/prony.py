@@ -43,6 +43,8 @@ from .nonnegative import nonnegative
 from .observed import Observed, only
 from .report import Fitted, Interval, information_criterion, scatter
 
+# ---- intervals of the plateaus -------------------------------------------------------------------
+
 # A modulus that changes by more than this fraction per decade has not reached a plateau.
 PLATEAU = 0.05
 _HELD = 1e3  # weight that fixes the plateau; the numbers are about 0.01
@@ -142,6 +144,8 @@ class Plateau:
         return float(self._middle * np.exp(side * way))
 
 
+# ---- the series ----------------------------------------------------------------------------------
+
 _MOST = 60  # arms
 _ENOUGH = 40  # smallest number of points to separate the scatter of a curve from its shape
 _REPEATABLE = 2e-3  # best repeatability of a laboratory; smaller residuals do not count
@@ -151,7 +155,9 @@ _MADE = 120  # synthetic data sets to simulate the growth of the sum of squares
 _FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) relative to the smallest number
 
 
-def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, seed: int) -> Fitted:
+def fit_series(
+    data: Observed, *, arms: int | None = None, level: float = 0.9, draws: int = 0, seed: int = 0
+) -> Fitted:
     """Fit a Prony series to measured numbers.
 
     Parameters
@@ -227,10 +233,7 @@ def with_noise(data: Observed) -> Observed:
     """
     if data.quantity != "complex modulus" or data.at.size < _ENOUGH:
         return data
-    alone = [
-        fit_series(only(data, part), arms=None, level=0.9, draws=0, seed=0).scatter.deviation
-        for part in data.parts
-    ]
+    alone = [fit_series(only(data, part)).scatter.deviation for part in data.parts]
     noise = np.maximum(alone, _REPEATABLE)
     noise = noise / np.min(noise)
     return replace(data, noise=noise) if np.max(noise) > 2 else data

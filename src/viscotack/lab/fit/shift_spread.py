@@ -109,7 +109,7 @@ def _refitted(report: FitReport, curve: MasterCurve) -> Any:
         seen = replace(seen, noise=report.observed.noise)
     if isinstance(report.material, Prony):
         arms = len(report.material.branches)
-        return fit_series(seen, arms=arms, level=report.level, draws=0, seed=0).material
+        return fit_series(seen, arms=arms).material
     known = {each.name: each.value for each in report.intervals if each.known}
     return fitted_constants(seen, model=report.model, known=known)[0]
 

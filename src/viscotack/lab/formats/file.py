@@ -186,6 +186,8 @@ def first_fitting(
     return None
 
 
+# ---- force curves of microscopes, and numbers of their headers -----------------------------------
+
 Words = Mapping[str, str]
 MOST_POINTS = 5_000_000
 

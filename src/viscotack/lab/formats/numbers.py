@@ -169,6 +169,8 @@ def half_digit(text: str) -> float:
     return 0.5 * 10.0 ** (power - decimals)
 
 
+# ---- unusual values, which may indicate a wrong unit ---------------------------------------------
+
 _ROOM = 263.0, 323.0  # K: temperatures of a room or a refrigerator
 _COLD = 100.0  # K; few laboratories measure below
 _HARD, _SOFT = 3e10, 0.1  # Pa: beyond polymers and bones, below weak gels
