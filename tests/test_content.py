@@ -252,7 +252,7 @@ def test_the_position_of_a_tip_has_no_bending_left(file):
 def test_columns_of_a_rig_are_chosen_by_number(file):
     rows = "\n".join(f"{t},{abs(t - 20) / 10 + 1},{max(20 - t, 0)}" for t in range(41)) + "\n"
     path = file(rows)
-    with pytest.raises(InputError, match="3 columns of numbers begin at line 1.*--time-column 1"):
+    with pytest.raises(InputError, match="--time-column 1"):
         tack.read(path)
     columns = {"time_column": "1", "position_column": "2", "force_column": "3"}
     units = {"time_unit": "s", "length_unit": "mm", "force_unit": "mN"}

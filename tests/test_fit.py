@@ -265,7 +265,7 @@ def test_a_noisy_loss_modulus_does_not_spoil_the_storage_modulus():
     )
     report = fit(data, poisson_ratio=0.4, model="prony")
     assert np.median(np.abs(report.residuals[0])) < 0.01
-    assert "the scatter of the loss modulus" in report.words()
+    assert "the loss modulus scatters" in report.words()
 
 
 # ---- errors that points have in common ---------------------------------------------------------
@@ -292,7 +292,7 @@ def test_sweeps_that_err_as_one_make_intervals_wide_enough():
         inside += [i.low <= getattr(SMOOTH, i.name) <= i.high for i in found.intervals]
     assert np.mean(inside) > 0.8
     report = fit(swept(0), poisson_ratio=0.5, model="power-law", draws=0)
-    assert "the points of one sweep have a common error of about" in report.words()
+    assert "the points of one sweep have a common error" in report.words()
 
 
 def test_a_drift_is_found_and_the_interval_of_a_mean_is_that_of_few_numbers():

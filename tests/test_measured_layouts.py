@@ -95,7 +95,7 @@ def test_an_export_of_one_step_does_without_its_mark(file):
     )
     sweeps = read_dma(file(text, "film.txt"))
     assert (sweeps.source.format, sweeps.kind, len(sweeps)) == ("trios", "G", 2)
-    with pytest.raises(ValueError, match="states 2 points but has 1; the file is truncated"):
+    with pytest.raises(ValueError, match="2 points but has 1"):
         read_dma(file(text.rpartition("Data")[0], "film.txt"))
 
 
@@ -152,7 +152,7 @@ def test_only_the_first_columns_of_reptate_count(file, cells):
     assert_allclose(sweeps.temperature, 253.15)
     lines = lab_files.reptate_osc(cells=cells).decode("latin-1").split("\n")
     lines[4] = "    ".join(lines[4].split()[1:])
-    with pytest.raises(ValueError, match=r"line 5: .Temp. is 1.97 but the file states T=-20"):
+    with pytest.raises(ValueError, match=r"line 5: .Temp. is 1.97, .*T=-20"):
         read_dma(file("\n".join(lines).encode("latin-1"), "film.osc"))
 
 
@@ -237,9 +237,9 @@ def test_several_files_are_one_material(file):
 def test_a_name_has_one_temperature(file):
     text = next(halves())[1]
     for name, found in (("film.csv", 0), ("film_20C_30C.csv", 2), ("PC20K.5C2.csv", 0)):
-        with pytest.raises(ValueError, match=f"the file name contains {found} temperatures"):
+        with pytest.raises(ValueError, match=f"--temperature-in-name.*found {found}"):
             read_dma(file(text, name), temperature_in_name=True)
-    with pytest.raises(ValueError, match="'-25C' in the file name is ambiguous"):
+    with pytest.raises(ValueError, match="'-25C' in the file name"):
         read_dma(file(text, "film-25C.csv"), temperature_in_name=True)
     assert read_dma(file(text, "a 293.15 K.csv"), temperature_in_name=True).temperature[0] == 293.15
 

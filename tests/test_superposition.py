@@ -71,14 +71,15 @@ def test_moduli_do_not_move_unless_asked():
 def test_shifting_by_storage_alone_has_an_error_for_a_melt_and_reports_it():
     with pytest.raises(ValueError, match="do not determine the shift"):
         master_curve(melt(2), reference_temperature=REFERENCE, by="storage", vertical="none")
-    sweeps = melt(2).without(0)
+    sweeps = melt(2)
+    sweeps = sweeps.chosen(sweeps.sweep != 0)
     curve = master_curve(sweeps, reference_temperature=REFERENCE, by="storage", vertical="none")
     off = np.abs(curve.shifts.log10_shift - TRUE[1:])
     assert np.max(off) > 0.3
     assert np.all(off <= QUANTILE * curve.shifts.uncertainty + 1e-9)
     words = " ".join(superposition(sweeps, curve.shifts).words())
     assert "do not superpose in loss" in words
-    assert "both moduli give" in words
+    assert "other shifts" in words
     assert "Kramers-Kronig" in contradiction(curve)
 
 
@@ -151,7 +152,7 @@ def test_uncertain_shifts_widen_intervals_and_go_into_the_passport(tmp_path):
     before, after = (r.interval("tau0") for r in (plain, report))
     assert after.value == before.value
     assert np.log(after.high / after.low) > 1.1 * np.log(before.high / before.low)
-    assert any("the uncertainty of the shifts is" in words for words in report.cautions)
+    assert any("the uncertainty of the shifts" in words for words in report.cautions)
     # shifts that are certain change nothing
     sure = replace(curve.shifts, uncertainty=np.zeros(5))
     assert allow_for_shifts(plain, curve, sure) is plain

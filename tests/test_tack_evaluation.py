@@ -52,7 +52,7 @@ def test_a_machine_that_yields_is_taken_off_the_depth():
     assert unsure.depth_at_pull_off.uncertainty > cycle.depth_at_pull_off.uncertainty
     assert unsure.work_to_pull_off.uncertainty >= cycle.work_to_pull_off.uncertainty
     (refusal,) = tack.evaluate(record(test), compliance=1.0).refused
-    assert "exceeds the total compliance of rig and sample" in refusal.reason
+    assert "compliance" in refusal.reason
 
 
 @pytest.mark.parametrize("force_sign", [1, -1])
@@ -62,7 +62,7 @@ def test_signs_are_found_from_the_signal(force_sign, travel_sign):
     turned = replace(test, force=force_sign * test.force, drive=travel_sign * test.drive)
     found = tack.evaluate(record(turned, into=0)).cycles[0]
     assert found.pull_off_force == only(test).pull_off_force
-    with pytest.raises(InputError, match="compression was given as"):
+    with pytest.raises(InputError, match="--compression"):
         tack.evaluate(record(turned, into=0), compression=-force_sign)
 
 

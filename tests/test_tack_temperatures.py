@@ -74,7 +74,7 @@ def test_a_temperature_that_cannot_be_read_or_changes_is_noted(tmp_path):
     off = only(with_column(tmp_path / "c.csv", "Temperature [K]", np.full(count, -1e4)))
     assert off.temperature is None
     found = survey([tmp_path / "a.csv"], reading={"temperature_in_name": True})
-    assert "the file name contains 0 temperatures" in found.unread[0].reason
+    assert "--temperature-in-name" in found.unread[0].reason
 
 
 def test_intervals_of_one_test_keep_their_temperatures(tmp_path):

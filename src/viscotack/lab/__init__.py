@@ -3,14 +3,14 @@
 from viscotack.materials.shift import FittedShift as ShiftFit
 
 from .fit.fitting import fit
-from .fit.kramers_kronig import Consistency, consistency, loss_from_storage
+from .fit.kramers_kronig import contradiction, loss_from_storage
 from .fit.master_curve import master_curve, superposed
 from .fit.passport import issued
 from .fit.report import FitReport
 from .fit.shift_factors import shift_factors
 from .fit.shift_laws import fit_arrhenius, fit_wlf, nearest_law
 from .fit.shift_spread import allow_for_shifts
-from .fit.superposition import Superposition, contradiction, superposition
+from .fit.superposition import Superposition, superposition
 from .options import Options, TackOptions
 from .reading import (
     FORMATS,
@@ -24,7 +24,6 @@ from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Shi
 
 __all__ = [
     "FORMATS",
-    "Consistency",
     "CreepTest",
     "FitReport",
     "FrequencySweeps",
@@ -37,7 +36,6 @@ __all__ = [
     "Superposition",
     "TackOptions",
     "allow_for_shifts",
-    "consistency",
     "contradiction",
     "fit",
     "fit_arrhenius",

@@ -1,9 +1,9 @@
-"""Assemble frequency sweeps in SI from the tables of a file; functions shared by all readers."""
+"""Assemble sweeps, relaxation and creep tests and shift factors in SI from tables of a file."""
 
-import re
+import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -11,20 +11,19 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .diagnosis import cause, form_of, has_sweep
-from .formats.columns import MaterialColumns
+from .diagnosis import cause, form_of, test_of
+from .formats.columns import MaterialColumns, refuse_pooled
 from .formats.file import LabFile
-from .formats.tables import Table, refuse_pooled
-from .formats.unit_checks import doubtful_modulus
-from .grouping import GAP, grouped
+from .formats.numbers import doubtful_modulus
+from .formats.tables import Table
+from .grouping import GAP, grouped, levels
 from .joining import numbered_on
 from .options import Options
-from .sweeps import FrequencySweeps, Source
+from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable, Source
 
 STIFFEST = 1.2e12  # Pa, diamond
 _ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
 _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is wrong
-_FLAG = re.compile(r"(--[a-z-]+) ([\w/]+)")  # an option and its first value
 # Relative differences of tan(delta) and |E*| from the moduli, in addition to rounding: a larger one
 # is noted, because instruments average over cycles, and refused.
 _TOLERANCE, _DAMAGED = 0.02, 0.1
@@ -35,7 +34,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
         columns = MaterialColumns(file, table, given)
-        if not table.rows or not has_sweep(columns):
+        if not table.rows or not form_of(columns):
             notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
         part = _part(columns)
@@ -50,8 +49,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
         raise states[0].error(f"{_ONE_STATE}; expected several frequencies or temperatures")
     if not parts:
         raise no_such_test(file, tables, given, "dma")
-    used = [columns.columns_in_use for columns in read]
-    refuse_pooled(file, [columns.table for columns in read], used, [c.states for c in read])
+    refuse_pooled(read)
     if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
     source = source_of(file, format, notes)
@@ -106,8 +104,7 @@ def _part(columns: MaterialColumns) -> FrequencySweeps:
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
         raise columns.error(
-            f"the median loss tangent is {tangent:.2g}, which no solid has; check the units of "
-            "both moduli, or whether the sample was a liquid without elasticity"
+            f"a median loss tangent of {tangent:.2g} is that of no solid; check both units"
         )
     columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
     values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
@@ -151,9 +148,8 @@ def _tangent(columns: MaterialColumns) -> Array:
     wrong = np.flatnonzero((angle < 0) | (angle >= np.pi / 2))
     for row in wrong:
         raise columns.error(
-            f'"{columns.name("phase")}" is {angle[row]:g} rad; a loss angle lies between 0 and 90 '
-            "degrees; check its unit",
-            int(row),
+            f'"{columns.name("phase")}" is {angle[row]:g} rad, not 0 to 90 degrees',
+            row,
         )
     return np.tan(angle)
 
@@ -169,10 +165,7 @@ def refuse_what_is_lacking(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
         )
     if lacking:
-        flags = [" ".join(pair) for text in lacking for pair in _FLAG.findall(text)[:1]]
-        example = columns.file.command(" ".join(dict.fromkeys(flags))) if flags else ""
-        what = "; nor ".join(lacking)
-        raise columns.error(f"the file does not state {what}{'; ' * bool(flags)}{example}")
+        raise columns.error(f"the file does not state {'; nor '.join(lacking)}")
 
 
 def _without_repeats(columns: MaterialColumns, values: dict[str, Array]) -> dict[str, Array]:
@@ -209,7 +202,9 @@ def kept(columns: MaterialColumns, *positive: Array) -> npt.NDArray[np.bool_]:
     wrong = columns.keep & ~np.all([values > 0 for values in positive], axis=0)
     for rows, why in ((missing, "a number is missing"), (wrong, "a value is not positive")):
         if rows.any():
-            columns.notes.append(f"rejected because {why}: {_listed(lines[rows])}")
+            shown = ", ".join(map(str, lines[rows][:10]))
+            more = f" and {rows.sum() - 10} more" if rows.sum() > 10 else ""
+            columns.notes.append(f"rejected because {why}: line {shown}{more}")
     keep = ~missing & ~wrong
     if not keep.any():
         raise columns.error("no row has all required numbers")
@@ -221,8 +216,8 @@ def refuse_stiffer_than_diamond(columns: MaterialColumns, *moduli: Array) -> Non
     for modulus in moduli:
         for row in np.flatnonzero(modulus > STIFFEST):
             raise columns.error(
-                f"a modulus of {modulus[row]:g} Pa exceeds that of diamond; check its unit",
-                int(row),
+                f"{modulus[row]:g} Pa exceeds the modulus of diamond; check its unit",
+                row,
             )
 
 
@@ -247,9 +242,9 @@ def _same(
     off = np.abs(found - expected)
     for row in np.flatnonzero(off > slack + _DAMAGED * np.abs(expected)):
         raise columns.error(
-            f'"{columns.name(name)}" is {found[row]:g}, but storage and loss modulus give '
-            f"{expected[row]:g}; a number is damaged or a unit is wrong",
-            int(row),
+            f'"{columns.name(name)}" is {found[row]:g}, but the moduli give {expected[row]:g}: a '
+            "damaged number or a wrong unit",
+            row,
         )
     rows = np.flatnonzero(off > slack + _TOLERANCE * np.abs(expected))
     if rows.size:
@@ -266,11 +261,206 @@ def headings_of(tables: Sequence[Table]) -> str:
     return ", ".join(f'"{heading}"' for heading in dict.fromkeys(headings)) or "no headings"
 
 
-def _listed(lines: npt.NDArray[np.int64]) -> str:
-    shown = ", ".join(str(line) for line in lines[:10])
-    return f"line {shown}" if lines.size <= 10 else f"line {shown} and {lines.size - 10} more"
-
-
 def source_of(file: LabFile, format: str, notes: Sequence[str]) -> Source:
     """Return the source of the numbers, with each note once."""
     return Source(file.path, file.sha256, format, tuple(dict.fromkeys(notes)))
+
+
+# ---- step tests and shift factors ----------------------------------------------------------------
+
+_DRIFT = 5.0  # K: largest range of temperatures of one test
+Test = TypeVar("Test", RelaxationTest, CreepTest)
+# test -> measured quantity, numerator and denominator if it is not a column, and its name
+_MEASURED: dict[type, tuple[str, str, str, str]] = {
+    RelaxationTest: ("modulus", "stress", "strain", "relaxation"),
+    CreepTest: ("compliance", "strain", "stress", "creep"),
+}
+
+
+def tests(
+    kind: type[Test],
+    file: LabFile,
+    format: str,
+    tables: Sequence[Table],
+    given: Options,
+) -> list[Test]:
+    """Return the tests of a kind in a file, one per temperature.
+
+    Rows with monotonic time are one test, whose temperature may drift.
+    """
+    time, values, temperature, modulus, columns = _rows(file, tables, given, kind)
+    steps = np.diff(time)
+    runs_on = np.all(steps > 0) or np.all(steps < 0)
+    whole = runs_on or np.any(np.isnan(temperature))
+    source = source_of(file, format, [*file.notes, *columns.notes])
+    held = _MEASURED[kind][2]
+    found = []
+    for part in [np.arange(time.size)] if whole else levels(temperature):
+        known = temperature[part][~np.isnan(temperature[part])]
+        if known.size and np.ptp(known) > _DRIFT:
+            raise columns.error(
+                f"the temperature varies by {np.ptp(known):.3g} K; a step test has one"
+            )
+        stated: dict[str, Any] = {
+            held: _level(columns, held),
+            "temperature": float(np.mean(known)) if known.size else None,
+        }
+        found.append(kind(time[part], values[part], modulus, source=source, **stated))
+    return found
+
+
+def shifts(file: LabFile, tables: Sequence[Table], given: Options) -> ShiftTable:
+    """Return the shift factors of a file, as log10."""
+    for table in tables:
+        columns = MaterialColumns(file, table, given)
+        if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
+            break
+    else:
+        raise file.error(
+            f"no table with columns T and log_aT, or T and aT; found {headings_of(tables)}"
+        )
+    temperature = columns.temperature()
+    if "log10_shift" in columns:
+        horizontal = columns.numbers("log10_shift")
+    else:
+        horizontal = _log10(columns, "shift")
+    vertical = _log10(columns, "vertical_shift") if "vertical_shift" in columns else None
+    keep = columns.keep
+    if not keep.any():
+        raise columns.error("no row has all required numbers")
+    try:
+        table = ShiftTable(
+            temperature[keep],
+            horizontal[keep],
+            None,
+            None if vertical is None else vertical[keep],
+        )
+    except ValueError as error:
+        raise columns.error(str(error)) from None
+    if len(table) > 1 and np.all(np.diff(table.log10_shift) > 0):
+        raise columns.error(
+            "the shifts rise with temperature; a_T exceeds 1 in the cold: give 1/a_T"
+        )
+    return table
+
+
+def _rows(
+    file: LabFile, tables: Sequence[Table], given: Options, kind_of_test: type
+) -> tuple[Array, Array, Array, str, MaterialColumns]:
+    """Return time, modulus or compliance, temperature and kind of the single matching table."""
+    wanted, over, under, test = _MEASURED[kind_of_test]
+    found = []
+    for table in tables:
+        columns = MaterialColumns(file, table, given)
+        timed = "time" in columns or "step_time" in columns
+        known = under in columns or under in table.levels
+        if table.rows and timed and (wanted in columns or (over in columns and known)):
+            found.append(columns)
+    if not found:
+        raise no_such_test(file, tables, given, test)
+    # of several steps, select the one with constant stress or strain
+    found = [columns for columns in found if test_of(columns) == test] or found
+    if len(found) > 1:
+        numbers = [str(columns.table.number) for columns in found]
+        raise file.error(
+            f"{len(found)} tables have a {test} test: {', '.join(numbers)}; choose one (--table)"
+        )
+    (columns,) = found
+    # prefer the time since the step to the time of the whole test
+    timed = "step_time" if "step_time" in columns else "time"
+    needed = (wanted,) if wanted in columns else (over, under)
+    refuse_what_is_lacking(
+        columns, [name for name in needed if name in columns], timed, "temperature", *needed
+    )
+    time = columns.si(timed) - given.step_start
+    if columns.is_clock(timed) and not given.step_start and np.nanmin(time) > np.ptp(time):
+        raise columns.error(
+            f'"{columns.name(timed)}" begins at {np.nanmin(time):g} s, a time of day; set '
+            "--step-start"
+        )
+    if not given.step_start and timed == "time":
+        _refuse_late_start(columns, time)
+    kind = kind_of(columns, *needed)
+    if wanted in columns:
+        values = columns.si(wanted)
+    else:
+        values = _ratio(columns, over, under)
+        columns.notes.append(f"{wanted} from {over} over {under}")
+    if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
+        columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
+    _leave_out_what_is_not_held(columns, under, test)
+    temperature = temperatures(columns)
+    if wanted == "modulus":
+        refuse_stiffer_than_diamond(columns, values)
+        columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
+    kelvins = np.nan_to_num(np.round(temperature))
+    columns.states = list(zip(kelvins, np.round(time, 9), strict=True))
+    refuse_pooled([columns])
+    keep = kept(columns, time, values)
+    return time[keep], values[keep], temperature[keep], kind, columns
+
+
+def _refuse_late_start(columns: MaterialColumns, time: Array) -> None:
+    """Raise an error if time continues from the table before and is no time since the step."""
+    previous = columns.table.before
+    if previous is None or previous.sheet != columns.table.sheet or not np.isfinite(time).any():
+        return
+    before = MaterialColumns(columns.file, previous, columns.options)
+    if "time" not in before:
+        return
+    try:
+        end, start = before.si("time"), float(np.nanmin(time))
+    except InputError:
+        return
+    if np.isfinite(end).any() and 0 < np.nanmax(end) <= start:
+        raise columns.error(
+            f'"{columns.name("time")}" begins at {start:g} s, where the table before it ends: set '
+            f'--step-start "{np.nanmax(end):g} s"'
+        )
+
+
+def _ratio(columns: MaterialColumns, over: str, under: str) -> Array:
+    """Return stress over strain or its inverse; the step may be stated once in the file."""
+    numerator = columns.si(over)
+    if under not in columns:
+        return numerator / columns.table.levels[under]
+    denominator = columns.si(under)
+    columns.keep &= denominator != 0
+    return numerator / np.where(denominator == 0, math.nan, denominator)
+
+
+def _leave_out_what_is_not_held(columns: MaterialColumns, quantity: str, test: str) -> None:
+    """Remove the points before and after the step; raise an error if there is no step."""
+    if quantity not in columns:
+        return
+    held = columns.held(quantity)
+    left = int(np.count_nonzero(columns.keep & ~held))
+    if 2 * left > np.count_nonzero(columns.keep):
+        raise columns.error(
+            f'{left} of {held.size} points of "{columns.name(quantity)}" are more than 5 % off '
+            f"its level; a {test} test needs a constant {quantity}"
+        )
+    if left:
+        columns.notes.append(
+            f"rejected {left} points: the {quantity} is more than 5 % off its level"
+        )
+    columns.keep &= held
+
+
+def _level(columns: MaterialColumns, quantity: str) -> float | None:
+    """Return the median of a column held constant by the instrument, in SI."""
+    if quantity not in columns:
+        return columns.table.levels.get(quantity)
+    values = columns.factor(quantity) * columns.numbers(quantity, needed=False)
+    values = np.abs(values[columns.keep & np.isfinite(values)])
+    return float(np.median(values)) if values.size else None
+
+
+def _log10(columns: MaterialColumns, quantity: str) -> Array:
+    values = columns.numbers(quantity)
+    for row in np.flatnonzero(values <= 0):
+        raise columns.error(
+            f'a shift factor must be positive, got {values[row]:g} in "{columns.name(quantity)}"',
+            row,
+        )
+    return np.log10(values)

@@ -1,14 +1,13 @@
 """Explain why a file lacks the requested test, from what its tables contain."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import pairwise
 
 import numpy as np
 
-from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .arrays import KINDS
 from .formats.columns import MaterialColumns
 from .grouping import GAP
 
@@ -30,7 +29,7 @@ def test_of(columns: MaterialColumns) -> str | None:
 
     If both stress and strain are present, the one held constant identifies the test.
     """
-    if has_sweep(columns):
+    if form_of(columns):
         return "dma"
     if "temperature" in columns and ("log10_shift" in columns or "shift" in columns):
         return "shifts"
@@ -48,45 +47,32 @@ def test_of(columns: MaterialColumns) -> str | None:
     return "relaxation" if modulus else "creep" if compliance else None
 
 
-def best_sheet(tables: Sequence[MaterialColumns]) -> str:
-    """Return the first sheet with a test, preferably with one that sweeps and lacks no unit."""
+def sheets_with_test(tables: Sequence[MaterialColumns]) -> tuple[str, set[str], set[str]]:
+    """Return the sheet with a test, the sheets read with it, and others with the same columns.
+
+    It is the first sheet with a test, preferably with one that sweeps and lacks no unit. Sheets of
+    sweeps with the same headings belong to one test if each has temperatures of its own.
+    """
 
     def score(columns: MaterialColumns) -> tuple[bool, bool, bool]:
         test = test_of(columns) if columns.table.rows else None
         sweeps = test is not None and (test != "dma" or _sweeps(columns))
         return test is not None, sweeps, sweeps and not columns.lacking(*columns.quantities)
 
-    return max(tables, key=score).table.sheet
-
-
-def sheets_with(sheet: str, tables: Sequence[MaterialColumns]) -> tuple[set[str], set[str]]:
-    """Return the sheets that are read with a sheet, and others that have the same columns.
-
-    Sheets of sweeps with the same headings belong to one test if each has temperatures of its own.
-    """
-    chosen = next(one for one in tables if one.table.sheet == sheet)
-    headings = next(
-        (x.table.headings for x in tables if x.table.sheet == sheet and _is_sweep(x)), ()
-    )
-    alike = [one for one in tables if one.table.headings == headings and _is_sweep(one)]
-    names = {one.table.sheet for one in alike} or {chosen.table.sheet}
-    found = sorted((float(t), one.table.sheet) for one in alike for t in _levels(one))
-    known = {name for _, name in found} == names
-    apart = all(b - a > GAP for (a, one), (b, other) in pairwise(found) if one != other)
-    return (names, set()) if known and apart else ({sheet}, names - {sheet})
-
-
-def _is_sweep(columns: MaterialColumns) -> bool:
-    return bool(columns.table.rows) and test_of(columns) == "dma" and _sweeps(columns)
-
-
-def _levels(columns: MaterialColumns) -> Array:
-    """Return the temperatures of a table [K]; empty if they cannot be read."""
-    try:
-        kelvins = columns.temperature()
-    except InputError:
-        return np.empty(0)
-    return np.unique(kelvins[np.isfinite(kelvins)])
+    sheet = max(tables, key=score).table.sheet
+    swept = [x for x in tables if x.table.rows and test_of(x) == "dma" and _sweeps(x)]
+    headings = next((x.table.headings for x in swept if x.table.sheet == sheet), ())
+    alike = [one for one in swept if one.table.headings == headings]
+    names = {one.table.sheet for one in alike} or {sheet}
+    found: list[tuple[float, str]] = []
+    for one in alike:
+        with suppress(InputError):
+            found += [(float(T), one.table.sheet) for T in np.unique(one.temperature())]
+    known = [pair for pair in sorted(found) if np.isfinite(pair[0])]
+    apart = all(b - a > GAP for (a, one), (b, other) in pairwise(known) if one != other)
+    if {name for _, name in known} == names and apart:
+        return sheet, names, set()
+    return sheet, {sheet}, names - {sheet}
 
 
 def _sweeps(columns: MaterialColumns) -> bool:
@@ -103,14 +89,10 @@ def _sweeps(columns: MaterialColumns) -> bool:
     return any(x.size and np.ptp(x) > _SWEPT * np.max(np.abs(x)) for x in known)
 
 
-def has_sweep(columns: MaterialColumns) -> bool:
-    """Return whether the columns hold a frequency and two numbers that give a complex modulus."""
-    swept = "frequency" in columns or "angular_frequency" in columns
-    return swept and form_of(columns) is not None
-
-
 def form_of(columns: MaterialColumns) -> tuple[str, str] | None:
-    """Return the two columns from which a complex modulus follows, or None."""
+    """Return the two columns from which a complex modulus over frequency follows, or None."""
+    if "frequency" not in columns and "angular_frequency" not in columns:
+        return None
     return next((form for form in _FORMS if all(name in columns for name in form)), None)
 
 
@@ -130,51 +112,34 @@ def cause(tables: Sequence[MaterialColumns], wanted: str, kind: str | None) -> s
         return "there are no numbers below its headings"
     tests = {test_of(columns) for columns in tables if columns.table.rows} - {None}
     if wanted in tests and kind:
-        other = "G" if kind == "E" else "E"
-        return (
-            f"its moduli are of {KINDS[other]} ({other}), but --kind {kind} requests "
-            f"{KINDS[kind]}; omit --kind; --poisson-ratio converts one into the other"
-        )
+        return f"its moduli are not of --kind {kind}; --poisson-ratio converts them, omit --kind"
     for test in TESTS:
         if test in tests and test != wanted:
-            words = {
-                "dma": "frequency sweeps, --test dma",
-                "relaxation": "a stress relaxation test, --test relaxation",
-                "creep": "a creep test, --test creep",
-                "shifts": "shift factors, --shift-file",
-            }
-            return f"it contains {words[test]}"
+            return f"it contains {'--shift-file' if test == 'shifts' else f'--test {test}'}"
     return next(filter(None, (_nonlinear(columns) for columns in tables)), "")
 
 
 def _nonlinear(columns: MaterialColumns) -> str:
     """Describe a table without a linear viscoelastic test; empty if unknown."""
     timed = "time" in columns or "step_time" in columns
-    # a wave of large amplitude has its rate beside strain and stress
-    waves = timed and "stress" in columns and "strain" in columns and "viscosity" not in columns
-    if waves and "shear_rate" in columns:
-        return (
-            "it is strain, stress and rate over time, such as waves of a large amplitude; the "
-            "moduli of a sweep are needed"
-        )
-    flows = "shear_rate" in columns or "viscosity" in columns
-    if flows:
-        return "it is a flow curve or the start-up of a steady flow: a shear rate or a viscosity"
     swept = "frequency" in columns or "angular_frequency" in columns
-    if not swept and "storage" in columns and "strain" in columns:
-        return "it is an amplitude sweep, a modulus over strain, without a column of frequency"
-    if timed and "stress" in columns and "strain" in columns:
-        return (
-            "neither the stress nor the strain is held constant; a step and its recovery in one "
-            "table must be separated"
-        )
-    if timed and "stress" in columns:
-        return "it has a stress over time without the strain; add the strain or the modulus"
-    if timed and "strain" in columns:
-        return "it has a strain over time without the stress; add the stress or the compliance"
-    if swept and ("storage" in columns or "magnitude" in columns):
-        return "the complex modulus is incomplete; add a loss modulus or a loss angle"
-    return ""
+    stress, strain = "stress" in columns, "strain" in columns
+    rate, viscosity = "shear_rate" in columns, "viscosity" in columns
+    size = "storage" in columns or "magnitude" in columns
+    cases = (
+        # a wave of large amplitude has its rate beside strain and stress
+        (
+            timed and stress and strain and rate and not viscosity,
+            "it is waves of strain and stress",
+        ),
+        (rate or viscosity, "it is a flow curve or the start-up of a steady flow"),
+        (not swept and "storage" in columns and strain, "it is an amplitude sweep"),
+        (timed and stress and strain, "neither stress nor strain is held; separate the steps"),
+        (timed and stress, "it has a stress over time without strain or modulus"),
+        (timed and strain, "it has a strain over time without stress or compliance"),
+        (swept and size, "the complex modulus lacks a loss modulus or a loss angle"),
+    )
+    return next((words for holds, words in cases if holds), "")
 
 
 def _by_what_is_held(columns: MaterialColumns) -> str | None:

@@ -48,8 +48,12 @@ def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[n
     one = np.zeros(temperature.size, dtype=np.int64)
     if np.ptp(angular_frequency) <= 1e-3 * angular_frequency[0]:
         return one, ""
-    clusters = _clusters(temperature)
-    if clusters is not None and _each_frequency_once(clusters, angular_frequency):
+    clusters = np.empty(temperature.size, dtype=np.int64)
+    for number, points in enumerate(levels(temperature)):
+        clusters[points] = number
+    pairs = np.stack((clusters, np.round(1000 * np.log(angular_frequency))))
+    # each frequency once at each temperature
+    if not np.isnan(temperature).any() and np.unique(pairs, axis=1).shape[1] == clusters.size:
         how = "temperature"
     else:
         clusters, how = _runs(angular_frequency), "frequency reversal"
@@ -64,20 +68,6 @@ def levels(temperature: Array) -> list[npt.NDArray[np.int64]]:
     """Return the indices of the points of each temperature, from cold to hot."""
     order = np.argsort(temperature, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(temperature[order]) > GAP) + 1)
-
-
-def _clusters(temperature: Array) -> npt.NDArray[np.int64] | None:
-    if np.any(np.isnan(temperature)):
-        return None
-    clusters = np.empty(temperature.size, dtype=np.int64)
-    for number, points in enumerate(levels(temperature)):
-        clusters[points] = number
-    return clusters
-
-
-def _each_frequency_once(clusters: npt.NDArray[np.int64], angular_frequency: Array) -> bool:
-    pairs = np.stack((clusters, np.round(1000 * np.log(angular_frequency))))
-    return np.unique(pairs, axis=1).shape[1] == clusters.size
 
 
 def _runs(angular_frequency: Array) -> npt.NDArray[np.int64]:
@@ -113,9 +103,8 @@ def refuse_unlike(sweeps: FrequencySweeps) -> None:
             where = "unknown temperature" if np.isnan(T) else f"{T - 273.15:.4g} C"
             raise InputError(
                 f"{sweeps.source.path or 'the sweeps'}: sweeps at {where} differ by "
-                f"{100 * np.expm1(apart):.2g} %: several samples or states, or a temperature that "
-                "the file does not state; fit each by itself, or choose one by --where "
-                '"Sample=A" or --table'
+                f"{100 * np.expm1(apart):.2g} %: several samples, states or unstated "
+                "temperatures; choose one by --where or --table"
             )
 
 

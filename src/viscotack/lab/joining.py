@@ -99,13 +99,11 @@ def kelvin_in_name(file: LabFile) -> float:
     stem = PurePath(file.path).stem
     if match := _HYPHEN.search(stem):
         raise file.error(
-            f"{match[1]!r} in the file name is ambiguous (minus sign or hyphen?); use '_' in "
-            "place of the hyphen"
+            f"{match[1]!r} in the file name has a minus sign or a hyphen; write '_' for a hyphen"
         )
     found = kelvins_in_name(file.path)
     if len(found) != 1 or min(found) <= 0:
         raise file.error(
-            f"the file name contains {len(found)} temperatures such as '25C'; "
-            "--temperature-in-name needs exactly one, above absolute zero"
+            f"--temperature-in-name needs one temperature such as '25C', found {len(found)}"
         )
     return found.pop()

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -12,7 +12,6 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .arrays import KINDS
 from .formats.file import LabFile
 from .formats.headings import (
     COLUMNS,
@@ -23,9 +22,15 @@ from .formats.headings import (
     radians_per_second,
     scale,
 )
+from .sweeps import KINDS
 
 _COLUMN = re.compile(r"([^=]+)=\s*(.*\S)\s*")
 _BRACKET = re.compile(r"(.*\S)\s*\[([^\[\]]+)\]")
+# the option that states a unit; the one of a compliance is that of the stress
+_UNITS = {
+    "Pa": "modulus_unit", "1/Pa": "modulus_unit", "s": "time_unit", "N": "force_unit",
+    "m": "length_unit",
+}  # fmt: skip
 
 
 class Column(NamedTuple):
@@ -55,6 +60,11 @@ class FileOptions:
             if unit := self.unit(target):
                 scale(unit, target)
 
+    def check_format(self, formats: Iterable[str]) -> None:
+        """Raise an error unless the format is one of these or to be detected."""
+        if self.format not in (None, *formats):
+            raise InputError(f"--format must be one of {', '.join(formats)}, got {self.format!r}")
+
     @property
     def chosen(self) -> Mapping[str, Column]:
         """Columns chosen by the caller, by quantity."""
@@ -67,7 +77,8 @@ class FileOptions:
 
     def unit(self, target: str) -> str:
         """Return the unit given by the caller for columns without one, empty if none."""
-        return (self.time_unit or "") if target == "s" else ""
+        own = getattr(self, _UNITS.get(target, ""), None) or ""
+        return f"1/({bare(own)})" if own and target == "1/Pa" else own
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,10 +142,7 @@ class Options(FileOptions):
         if self.kind is not None and self.kind not in KINDS:
             raise InputError(f"--kind must be E (tensile) or G (shear), got {self.kind!r}")
         if self.temperature is not None and not POSSIBLE[0] < self.temperature < POSSIBLE[1]:
-            raise InputError(
-                f"--temperature must be above 0 K, got {self.temperature!r} K; give Celsius "
-                "+ 273.15"
-            )
+            raise InputError(f"--temperature must be above 0 K, got {self.temperature!r} K")
         if self.temperature is not None and self.temperature_in_name:
             raise InputError("give either --temperature or --temperature-in-name, not both")
         if not 0 <= self.step_start < math.inf:
@@ -152,18 +160,13 @@ class Options(FileOptions):
             quantity = COLUMNS.get(plain(match[1])) if match else None
             if match is None or quantity is None:
                 raise InputError(
-                    '--columns must be like "frequency=1 [Hz]; storage=Column name [Pa]" with the '
-                    f"quantities {', '.join(sorted(set(COLUMNS.values())))}, got {part.strip()!r}"
+                    '--columns must be like "frequency=1 [Hz]; storage=Column name [Pa]" with '
+                    f"the quantities {', '.join(sorted(set(COLUMNS.values())))}, got "
+                    f"{part.strip()!r}"
                 )
             unit = _BRACKET.fullmatch(match[2])
             found[quantity] = Column(unit[1], unit[2].strip()) if unit else Column(match[2], "")
         return found
-
-    def unit(self, target: str) -> str:
-        """Return the unit given by the caller for columns without one, empty if none."""
-        if target == "1/Pa" and self.modulus_unit:
-            return f"1/({bare(self.modulus_unit)})"
-        return (self.modulus_unit or "") if target == "Pa" else super().unit(target)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -214,18 +217,10 @@ class TackOptions(FileOptions):
         }
         return {name: Column(text.strip(), "") for name, text in said.items() if text}
 
-    def unit(self, target: str) -> str:
-        """Return the unit given by the caller for columns without one, empty if none."""
-        said = {"N": self.force_unit, "m": self.length_unit}
-        return (said[target] or "") if target in said else super().unit(target)
-
     def time_of(self, file: LabFile, position: Array, notes: list[str]) -> Array:
         """Compute the time [s] from the nominal speed."""
         if self.nominal_speed is None:
-            raise file.error(
-                "there is no column of time, so the true speed is unknown; set "
-                "--nominal-speed to use the set speed"
-            )
+            raise file.error("there is no column of time; set --nominal-speed to use the set speed")
         if not 0 < self.nominal_speed < np.inf:
             raise InputError(f"--nominal-speed must be positive, got {self.nominal_speed!r} m/s")
         notes.append("no column of time: computed from the nominal speed, which is not verified")

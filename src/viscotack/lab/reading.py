@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 
 from viscotack.errors import InputError
 
-from . import assembly, step_tests
-from .diagnosis import best_sheet, sheets_with, test_of
+from . import assembly
+from .diagnosis import sheets_with_test, test_of
 from .formats import reptate, text, trios_json, workbook
 from .formats.columns import MaterialColumns
-from .formats.file import LabFile, format_of, load
-from .formats.headings import MATERIAL, Vocabulary
+from .formats.file import LabFile, first_fitting, load
+from .formats.headings import MATERIAL
 from .formats.tables import Table, pieces, where
 from .joining import joined, kelvin_in_name
 from .options import Options
@@ -28,28 +28,17 @@ Test = FrequencySweeps | RelaxationTest | CreepTest
 _NOTHING = Options()
 
 
-class Layout(NamedTuple):
-    """How to recognise files of a layout, and how to read their tables."""
-
-    name: Callable[[LabFile], str | None]
-    tables: Callable[[LabFile, Vocabulary, Sequence[str]], list[Table]]
-
-
-_PLAIN, _WORKBOOK = (
-    Layout(text.is_plain, text.plain),
-    Layout(workbook.is_workbook, workbook.tables),
-)
-# by format, in order of detection
-FORMATS: dict[str, Layout] = {
-    "eplexor": _WORKBOOK,
-    "workbook": _WORKBOOK,
-    "reptate": Layout(reptate.name, reptate.tables),
-    "trios-json": Layout(trios_json.name, trios_json.tables),
-    "trios": Layout(text.is_trios, text.trios),
-    "rheocompass": Layout(text.is_rheocompass, text.rheocompass),
-    "wide": Layout(text.is_wide, text.wide),
-    "pyvisco": _PLAIN,
-    "csv": _PLAIN,
+# reader of the tables of each format, in order of detection
+FORMATS: dict[str, Callable[..., list[Table] | None]] = {
+    "eplexor": workbook.eplexor,
+    "workbook": workbook.tables,
+    "reptate": reptate.tables,
+    "trios-json": trios_json.tables,
+    "trios": text.trios,
+    "rheocompass": text.rheocompass,
+    "wide": text.wide,
+    "pyvisco": text.pyvisco,
+    "csv": text.plain,
 }
 
 
@@ -296,7 +285,7 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTa
     [2.1, 0.0]
     """
     (opened,) = _opened([path], options, more)
-    return step_tests.shifts(opened.file, opened.tables, opened.given)
+    return assembly.shifts(opened.file, opened.tables, opened.given)
 
 
 class _Opened(NamedTuple):
@@ -324,8 +313,8 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
     return opened
 
 
-def _each(kind: type[step_tests.Test], opened: Sequence[_Opened]) -> tuple[step_tests.Test, ...]:
-    tests = [test for one in opened for test in step_tests.tests(kind, *one)]
+def _each(kind: type[assembly.Test], opened: Sequence[_Opened]) -> tuple[assembly.Test, ...]:
+    tests = [test for one in opened for test in assembly.tests(kind, *one)]
     return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
 
 
@@ -333,9 +322,10 @@ def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
     file = load(path)
     if not given.names:
         file = text.upright(file, MATERIAL)
-    names = {name: layout.name for name, layout in FORMATS.items()}
-    found = format_of(file, names, given.format, "csv")
-    whole = FORMATS[found].tables(file, MATERIAL, given.names)
+    given.check_format(FORMATS)
+    fitting = first_fitting(file, FORMATS, given.format, MATERIAL, given.names)
+    assert fitting is not None, "plain tables raise their own error"
+    found, whole = fitting
     said = () if given.format is not None else (f"detected format: {found}",)
     cut = () if found == "trios-json" else file.left_out
     parts = [part for table in whole for part in pieces(table, MATERIAL)]
@@ -354,28 +344,28 @@ def _selected(
         tables = [each for each in tables if str(given.table) in (each.sheet, str(each.number))]
         if not tables:
             raise file.error(f"no table {given.table!r} (--table); the file has {places}")
-    for name in given.names:
-        if not any(name in MaterialColumns(file, table, given).names for table in tables):
-            headings = assembly.headings_of(tables)
-            raise file.error(f"no column {name!r} (--columns); the headings are {headings}")
+    columns = [MaterialColumns(file, table, given) for table in tables]
+    if lost := set(given.names).intersection(*(each.lost for each in columns)):
+        headings = assembly.headings_of(tables)
+        raise file.error(f"no column {min(lost)!r} (--columns); the headings are {headings}")
     if not tables:
         return tables, ()
-    columns = [MaterialColumns(file, table, given) for table in tables]
-    read, alike = sheets_with(best_sheet(columns), columns)
+    first, read, alike = sheets_with_test(columns)
     chosen = [table for table in tables if table.sheet in read]
-    names = list(dict.fromkeys(table.sheet for table in chosen))
     others = dict.fromkeys(table.sheet for table in tables if table.sheet not in read)
-    which = f"sheet {names[0]!r} is" if len(names) == 1 else f"{len(names)} sheets of sweeps are"
     notes = []
+    which = (
+        f"sheet {first!r} is read" if len(read) == 1 else f"{len(read)} sheets of sweeps are read"
+    )
     if others:
         listed = ", ".join(map(repr, others))
-        notes.append(f"{which} read, {listed} are not; --table chooses a sheet")
-    elif len(names) > 1:
-        notes.append(f"{which} read: {', '.join(map(repr, names))}")
+        notes.append(f"{which}, {listed} are not; --table chooses a sheet")
+    elif len(read) > 1:
+        names = dict.fromkeys(table.sheet for table in chosen)
+        notes.append(f"{which}: {', '.join(map(repr, names))}")
     if alike:
         notes.append(
-            f"{len(alike) + 1} sheets hold sweeps, and only {names[0]!r} is read, because their "
-            "temperatures are unknown or the same; save each sheet as a file, or write the "
-            "temperature into a column"
+            f"{len(alike) + 1} sheets hold sweeps, and only {first!r} is read, because their "
+            "temperatures are unknown or the same; save each as a file, or write a temperature"
         )
     return chosen, tuple(notes)

@@ -10,7 +10,7 @@ are multiplied by 10^log10_vertical to give those at the reference temperature.
 """
 
 from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +18,10 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.checks import temperatures
+from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
 from viscotack.materials.shift import TabulatedShift
 
-from . import arrays
+KINDS = {"E": "tension", "G": "shear"}
 
 Integers = npt.NDArray[np.int64]
 Complex = npt.NDArray[np.complex128]
@@ -74,7 +75,13 @@ class _Moduli:
 
     def chosen(self, points: npt.ArrayLike) -> Self:
         """Select points, by indices or by a mask of shape (N,)."""
-        return arrays.chosen(self, points)
+        columns = {
+            name: values[np.asarray(points)]
+            for name, values in vars(self).items()
+            if isinstance(values, np.ndarray)
+        }
+        this: Any = self
+        return replace(this, **columns)
 
     def in_tension(self, poisson_ratio: float) -> Self:
         """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
@@ -84,7 +91,7 @@ class _Moduli:
         poisson_ratio : float
             nu, in [0, 0.5], the same at every frequency.
         """
-        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
+        return in_tension(self, poisson_ratio, "storage", "loss")
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,15 +134,15 @@ class FrequencySweeps(_Moduli):
     source: Source = Source()
 
     def __post_init__(self):
-        arrays.check_kind(self.kind)
-        arrays.store_columns(
+        check_kind(self.kind)
+        store_columns(
             self,
             temperature=("K", True),
             angular_frequency=("rad/s", False),
             storage=("Pa", False),
             loss=("Pa", False),
         )
-        arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
+        store_whole(self, "sweep", self.sweep, self.storage.size)
 
     @property
     def ids(self) -> tuple[int, ...]:
@@ -148,13 +155,6 @@ class FrequencySweeps(_Moduli):
         if not found.size:
             raise InputError(f"no sweep {sweep}; available: {list(self.ids)}")
         return self.chosen(found[np.argsort(self.angular_frequency[found], kind="stable")])
-
-    def without(self, *sweeps: int) -> "FrequencySweeps":
-        """Return a copy without some sweeps, for example without flagged ones."""
-        unknown = set(sweeps) - set(self.ids)
-        if unknown:
-            raise InputError(f"no sweep {min(unknown)}; available: {list(self.ids)}")
-        return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,25 +185,20 @@ class ShiftTable:
     log10_vertical: Array | None = None
 
     def __post_init__(self):
-        temperature = temperatures(
-            "temperature", arrays.array("temperature", self.temperature, "K")
-        )
+        temperature = temperatures("temperature", array("temperature", self.temperature, "K"))
         order = np.argsort(temperature, kind="stable")
         if np.any(np.diff(temperature[order]) == 0):
-            raise InputError(
-                "a table of shift factors must have one row per temperature; remove repeated "
-                "temperatures"
-            )
+            raise InputError("a table of shift factors must have one row per temperature")
         for name in ("temperature", "log10_shift", "uncertainty", "log10_vertical"):
             values = getattr(self, name)
             if values is None:
                 continue
-            values = arrays.array(name, values, "-", temperature.size)[order]
+            values = array(name, values, "-", temperature.size)[order]
             if not np.all(np.isfinite(values)):
                 raise InputError(f"{name} must be finite")
             if name == "uncertainty" and np.any(values < 0):
                 raise InputError(f"uncertainty must not be negative, got {values.min():g}")
-            arrays.store(self, name, values)
+            store(self, name, values)
 
     def __len__(self) -> int:
         return self.temperature.size
@@ -257,16 +252,16 @@ class MasterCurve(_Moduli):
     sweep: Integers | None = None
 
     def __post_init__(self):
-        arrays.check_kind(self.kind)
-        arrays.store_temperature(self, "reference_temperature")
-        arrays.store_columns(
+        check_kind(self.kind)
+        store_temperature(self, "reference_temperature")
+        store_columns(
             self, angular_frequency=("rad/s", False), storage=("Pa", False), loss=("Pa", False)
         )
         if self.temperature is not None:
-            arrays.store_columns(self, storage=("Pa", False), temperature=("K", True))
+            store_columns(self, storage=("Pa", False), temperature=("K", True))
         if self.sweep is not None:
-            arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
-        arrays.sort_along(self, self.angular_frequency)
+            store_whole(self, "sweep", self.sweep, self.storage.size)
+        sort_along(self, self.angular_frequency)
 
 
 class _StepTest:
@@ -279,10 +274,10 @@ class _StepTest:
 
     def __post_init__(self):
         name, unit, _ = self.measured
-        arrays.check_kind(self.kind)
-        arrays.store_temperature(self, "temperature")
-        arrays.store_columns(self, time=("s", False), **{name: (unit, False)})
-        arrays.sort_along(self, self.time)
+        check_kind(self.kind)
+        store_temperature(self, "temperature")
+        store_columns(self, time=("s", False), **{name: (unit, False)})
+        sort_along(self, self.time)
 
     def __len__(self) -> int:
         return self.time.size
@@ -290,7 +285,7 @@ class _StepTest:
     def in_tension(self, poisson_ratio: float) -> Self:
         """Convert a shear to a tensile modulus, 2 (1 + nu) G, or compliance, J/(2 (1 + nu))."""
         name, _, power = self.measured
-        return arrays.in_tension(self, poisson_ratio, name, power=power)
+        return in_tension(self, poisson_ratio, name, power=power)
 
 
 @dataclass(frozen=True, eq=False)
@@ -361,3 +356,83 @@ class CreepTest(_StepTest):
     stress: float | None = None
     temperature: float | None = None
     source: Source = Source()
+
+
+# ---- validated, read-only columns ----------------------------------------------------------------
+
+
+def check_kind(kind: Any) -> None:
+    """Raise an error unless the kind of modulus is "E" (tensile) or "G" (shear)."""
+    if kind not in KINDS:
+        raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
+
+
+def store_temperature(instance: Any, name: str) -> None:
+    """Store one temperature [K] as a float, or None where it is unknown."""
+    value = getattr(instance, name)
+    if value is None:
+        return
+    number = float(value)
+    if not 0 < number < np.inf:
+        raise InputError(f"{name} must be positive [K], got {value!r}; give Celsius + 273.15")
+    object.__setattr__(instance, name, number)
+
+
+def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None) -> Array:
+    """Return a copy as a one-dimensional array of floats, of a given length."""
+    row = np.array(values, dtype=float)
+    if row.ndim != 1 or not row.size:
+        raise InputError(f"{name} must be a row of numbers [{unit}], got shape {row.shape}")
+    if length is not None and row.size != length:
+        raise InputError(f"{name} has {row.size} values where the others have {length}")
+    return row
+
+
+def store_columns(instance: Any, **units: tuple[str, bool]) -> None:
+    """Store positive read-only arrays of one length; some columns may contain nan (unknown)."""
+    length = None
+    for name, (unit, may_miss) in units.items():
+        row = array(name, getattr(instance, name), unit, length)
+        length = row.size
+        wrong = row[~((row > 0) & (row < np.inf) | (may_miss & np.isnan(row)))]
+        if wrong.size:
+            cure = "; give Celsius + 273.15" if unit == "K" else ""
+            raise InputError(f"{name} must be positive and finite [{unit}], got {wrong[0]:g}{cure}")
+        store(instance, name, row)
+
+
+def store_whole(instance: Any, name: str, values: npt.ArrayLike, length: int) -> None:
+    """Store a row of whole numbers as a read-only array."""
+    row = array(name, values, "-", length)
+    broken = row[row != np.round(row)]
+    if broken.size:
+        raise InputError(f"{name} must be whole numbers, got {broken[0]:g}")
+    store(instance, name, row.astype(np.int64))
+
+
+def store(instance: Any, name: str, row: npt.NDArray[Any]) -> None:
+    """Store a read-only array."""
+    row.flags.writeable = False
+    object.__setattr__(instance, name, row)
+
+
+def sort_along(instance: Any, along: Array) -> None:
+    """Sort all columns of a curve in ascending order of one of them."""
+    order = np.argsort(along, kind="stable")
+    for name, values in vars(instance).items():
+        if isinstance(values, np.ndarray):
+            store(instance, name, values[order])
+
+
+def in_tension(instance: Any, poisson_ratio: float, *names: str, power: int = 1) -> Any:
+    """Convert shear to tensile moduli; a note records the Poisson ratio used."""
+    nu = checked_poisson_ratio(poisson_ratio)
+    if instance.kind == "E":
+        return instance
+    factor = (2 * (1 + nu)) ** power
+    return replace(
+        instance,
+        kind="E",
+        source=instance.source.noted(f"shear converted to tension with Poisson ratio {nu:g}"),
+        **{name: factor * getattr(instance, name) for name in names},
+    )

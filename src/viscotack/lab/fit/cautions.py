@@ -7,8 +7,7 @@ import numpy as np
 from viscotack.materials.passport import LIQUID
 
 from .observed import Observed, only
-from .plateaus import NAMES, change, open_ends
-from .prony import fit_series
+from .prony import NAMES, change, fit_series, open_ends
 from .report import Fitted, Interval, Scatter
 
 # Ratio of a plateau to the measured moduli above which the law extrapolates.
@@ -49,28 +48,24 @@ def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -
         elif not each.bounded:
             words.append(f"{each.name}: the data give no bound on one or both sides")
         elif each.high > 3 * each.low:
-            words.append(
-                f"{each.name} is known only to a factor of {each.high / each.low:.2g}; "
-                "the constants compensate each other"
-            )
+            words.append(f"{each.name} is known only to a factor of {each.high / each.low:.2g}")
     return tuple(words)
 
 
 def misfit_cautions(data: Observed, material: Any, found: Scatter) -> tuple[str, ...]:
     """Return sentences on a poor fit and on correlated residuals."""
-    words = []
-    if scatter_of(data, material) > _MISSED:
+    words, missed = [], scatter_of(data, material)
+    if missed > _MISSED:
         words.append(
-            "this model does not describe the measurement: its root mean square error is a "
-            f"factor of {np.exp(scatter_of(data, material)):.2g}. Its constants and intervals are "
-            "meaningless; choose another model"
+            f"this model does not describe the measurement, off by a factor of {np.exp(missed):.2g}"
+            ": its constants and intervals are meaningless; choose another model"
         )
     if np.max(data.noise) > 1:
         noise = dict(zip(data.parts, data.noise, strict=True))
         worse = max(noise, key=lambda part: noise[part])
         words.append(
-            f"the scatter of the {worse} modulus about a smooth curve is {noise[worse]:.2g} times "
-            "that of the other part; its weight is reduced accordingly"
+            f"the {worse} modulus scatters {noise[worse]:.2g} times as much as the other part; its "
+            "weight is reduced accordingly"
         )
     if found.shared:
         words.append(f"{found.shared}; the intervals are widened accordingly")
@@ -88,30 +83,26 @@ def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, .
     arms, numbers = found.grid, data.values.size
     if 2 * arms + 1 > numbers:
         words.append(
-            f"{arms} arms have {2 * arms + 1} constants (moduli, times and the rubbery modulus) "
-            f"for {numbers} numbers; with times on a grid {arms + 1} non-negative moduli are "
-            f"fitted, of which {found.constants} are not zero. Between the points the series is "
-            "not determined"
+            f"{arms} arms have {2 * arms + 1} constants for {numbers} numbers: between the points "
+            "the series is not determined"
         )
     steps = np.diff(np.log10(data.at))
     if np.max(steps) > _GAP:
         words.append(
-            f"points are up to {np.max(steps):.2g} decades apart, and one arm covers about one "
-            "decade: in such gaps the series rises in steps that were not measured and that its "
-            "band does not show; a power law interpolates smoothly"
+            f"points are up to {np.max(steps):.2g} decades apart: in gaps beyond a decade the "
+            "series rises in steps that were not measured; a power law interpolates smoothly"
         )
     if few:
         return tuple(words)
     if len(data.parts) == 2 and data.at.size >= _SHAPE and found.scatter.deviation > 0.05:
-        alone = fit_series(only(data, "storage"), arms=None, level=0.9, draws=0, seed=0)
+        alone = fit_series(only(data, "storage"))
         if found.scatter.deviation > 3 * alone.scatter.deviation:
             off = np.median(np.abs(np.expm1(data.residuals(alone.material)[1])))
             words.append(
                 "storage and loss modulus contradict each other (Kramers-Kronig): a series that "
-                f"fits the storage modulus to {100 * alone.scatter.deviation:.2g} % has a loss "
-                f"modulus {100 * off:.2g} % off the measured one (median). Shift factors, a sweep "
-                "or a calibration are wrong; this fit is a compromise, and a fit without the "
-                "loss modulus relies on the storage modulus alone"
+                f"fits storage to {100 * alone.scatter.deviation:.2g} % is {100 * off:.2g} % off "
+                "the loss (median). A shift, a sweep or a calibration is wrong; this fit is a "
+                "compromise"
             )
     return tuple(words)
 
@@ -121,23 +112,23 @@ def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
     few = len(found.material.branches)
     if data.values.size < 6:
         return ()
-    free = fit_series(data, arms=None, level=0.9, draws=0, seed=0)
+    free = fit_series(data)
     many, own = len(free.material.branches), scatter_of(data, found.material)
     best = scatter_of(data, free.material)
     if few >= many or own < 1.1 * best:
         return ()
     worst = float(np.max(np.abs(np.expm1(-data.residuals(found.material)))))
     return (
-        f"the error of {few} arms is {100 * own:.2g} % on average and {100 * worst:.2g} % "
-        f"at most; with {many} arms, the best number for these data, it is {100 * best:.2g} %",
+        f"the error of {few} arms is {100 * own:.2g} % and at most {100 * worst:.2g} %; the best "
+        f"number, {many}, has {100 * best:.2g} %",
     )
 
 
 def _ends(data: Observed) -> str:
     slow, fast = data.frequencies
     return (
-        f"the measurement covers {1 / fast:.2g} s to {1 / slow:.2g} s; "
-        "faster or slower response is an extrapolation of the model"
+        f"the measurement covers {1 / fast:.2g} s to {1 / slow:.2g} s; faster or slower "
+        "response is an extrapolation"
     )
 
 
@@ -171,43 +162,30 @@ def _plateau(data: Observed, material: Any, interval: Interval) -> list[str]:
     rubbery = interval.name == "rubbery_modulus"
     if rubbery and (flowing := flow(data, material)):
         return [
-            f"{LIQUID}: at the slowest point {flowing}. It has no rubbery plateau; "
-            f"rubbery_modulus = {interval.value:.3g} Pa is the end of the fit, not a property of "
-            "the material, so relaxed contact and slow detachment cannot be predicted"
+            f"{LIQUID}: at the slowest point {flowing}. It has no rubbery plateau; rubbery_modulus "
+            f"= {interval.value:.3g} Pa is the end of the fit, not a property: relaxed contact and "
+            "slow detachment cannot be predicted"
         ]
-    if not interval.bounded:
-        rate = 100 * change(data, material, interval.name)
-        least = interval.low if interval.told else interval.value
-        ratio = material.rubbery_modulus / max(least, material.rubbery_modulus)
-        plateau, place, way, unknown = (
-            ("rubbery", "slowest", "falls", ", and slow detachment cannot be predicted")
-            if rubbery
-            else (
-                "glassy",
-                "fastest",
-                "rises",
-                f" and modulus_ratio at most {ratio:.2g}, so the bound 1/k on the ratio of fast to "
-                "slow pull-off force is unknown",
-            )
-        )
-        return [
-            f"the {plateau} plateau was not measured: at the {place} point the modulus still {way} "
-            f"by {rate:.2g} % per decade. {interval.name} is {_bound(interval)}{unknown}; give "
-            f"{interval.name} if you know it"
-        ]
-    beyond = data.moduli[0] / interval.value if rubbery else interval.value / data.moduli[1]
-    if beyond <= _BEYOND:
-        return []
-    end = "below the softest" if rubbery else "above the stiffest"
+    if interval.bounded:
+        beyond = data.moduli[0] / interval.value if rubbery else interval.value / data.moduli[1]
+        end = "below the softest" if rubbery else "above the stiffest"
+        words = f"{interval.name} lies {beyond:.3g} times {end} point: it extrapolates the law"
+        return [words] if beyond > _BEYOND else []
+    ratio = material.rubbery_modulus / max(
+        interval.low if interval.told else interval.value, material.rubbery_modulus
+    )
+    at, unknown = (
+        ("slowest", "slow detachment cannot be predicted")
+        if rubbery
+        else ("fastest", f"modulus_ratio at most {ratio:.2g}: the largest pull-off is unknown")
+    )
+    bound = "not bounded" if interval.told else "a guess"
+    if interval.told and np.isfinite(interval.high):
+        bound = f"at most {interval.high:.3g} Pa"
+    elif interval.told and interval.low > 0:
+        bound = f"at least {interval.low:.3g} Pa"
     return [
-        f"{interval.name} lies {beyond:.3g} times {end} point: it is an extrapolation of the law, "
-        "and so is its interval"
+        f"the {interval.name.partition('_')[0]} plateau was not measured: at the {at} point the "
+        f"modulus still changes by {100 * change(data, material, interval.name):.2g} % per decade. "
+        f"{interval.name} is {bound}, and {unknown}; give {interval.name} if you know it"
     ]
-
-
-def _bound(interval: Interval) -> str:
-    if not interval.told:
-        return "a guess"
-    if np.isfinite(interval.high):
-        return f"at most {interval.high:.3g} Pa"
-    return f"at least {interval.low:.3g} Pa" if interval.low > 0 else "not bounded"

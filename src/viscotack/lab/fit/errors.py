@@ -27,6 +27,7 @@ independent errors the mixture reduces to a slightly wider Student's t.
 """
 
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import numpy.typing as npt
@@ -162,14 +163,11 @@ class Errors:
         size = self.scales[self.forms.index(likely)]
         if likely.sweep:
             return (
-                "the points of one sweep have a common error of about "
-                f"{100 * size * likely.sweep:.2g} %"
+                f"the points of one sweep have a common error of {100 * size * likely.sweep:.2g} %"
             )
-        decades = likely.length / np.log(10)
         return (
-            f"neighbouring points have correlated errors over about {decades:.1g} decades, of "
-            f"{100 * size * likely.drift:.2g} %: the model or a sweep deviates locally, or the "
-            "instrument drifts"
+            f"neighbouring points have correlated errors of {100 * size * likely.drift:.2g} % over "
+            f"{likely.length / np.log(10):.1g} decades: a local misfit, or the instrument drifts"
         )
 
     def _covariances(self, influences: Array) -> list[Array]:
@@ -209,36 +207,28 @@ def errors(data: Observed, residuals: Array, slopes: Array) -> Errors:
     rows = Rows.of(data)
     r = residuals.ravel()
     small = _averaged(rows, r, slopes)
-    forms = _forms(rows)
-    likelihood, scales = np.array([_likelihood(*small, form) for form in forms]).T
     own = _OWN if data.in_frequency else _OWN_IN_TIME
-    prior = np.array([_prior(form, forms, own) for form in forms])
-    posterior = np.log(prior) + likelihood
+    swept = rows.sweep is not None
+    each = (1 - own) / (2 if swept else 1) / len(_SHARED)
+    prior = {_Form(0.0): own}
+    if swept:
+        prior |= {_Form(0.0, sweep=a): each for a in _SHARED}
+    drifts = product(_SHARED, _LENGTHS)
+    prior |= {_Form(0.0, drift=b, length=length): each / len(_LENGTHS) for b, length in drifts}
+    trended = [
+        (replace(form, trend=g), share * float(np.exp(-((g / _TREND_PRIOR) ** 2) / 2)))
+        for form, share in prior.items()
+        for g in _TRENDS
+    ]
+    likelihood, scales = np.array([_likelihood(*small, form) for form, _ in trended]).T
+    posterior = np.log([share for _, share in trended]) + likelihood
     weights = np.exp(posterior - np.max(posterior))
     weights /= np.sum(weights)
     # negligible terms are dropped
     keep = weights > 1e-2 * np.max(weights)
-    kept = tuple(form for form, yes in zip(forms, keep, strict=True) if yes)
+    forms = tuple(form for (form, _), yes in zip(trended, keep, strict=True) if yes)
     degrees = max(min(r.size, small[1].size) - slopes.shape[1], 1)
-    return Errors(rows, kept, weights[keep] / np.sum(weights[keep]), scales[keep], degrees)
-
-
-def _forms(rows: Rows) -> list[_Form]:
-    shared = [_Form(0.0)]
-    if rows.sweep is not None:
-        shared += [_Form(0.0, sweep=a) for a in _SHARED]
-    shared += [_Form(0.0, drift=b, length=length) for b in _SHARED for length in _LENGTHS]
-    return [replace(form, trend=g) for form in shared for g in _TRENDS]
-
-
-def _prior(form: _Form, forms: list[_Form], own: float) -> float:
-    trend = float(np.exp(-((form.trend / _TREND_PRIOR) ** 2) / 2))
-    if not form.shared:
-        return own * trend
-    swept = any(other.sweep for other in forms)
-    if form.sweep:
-        return (1 - own) / 2 / len(_SHARED) * trend
-    return (1 - own) / (2 if swept else 1) / (len(_SHARED) * len(_LENGTHS)) * trend
+    return Errors(rows, forms, weights[keep] / np.sum(weights[keep]), scales[keep], degrees)
 
 
 def _averaged(rows: Rows, r: Array, slopes: Array) -> tuple[Rows, Array, Array, Array]:

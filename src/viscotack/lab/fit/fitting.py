@@ -117,17 +117,35 @@ def fit(
     seen = observed(data, poisson_ratio=poisson_ratio)
     if not loss:
         seen = only(seen, "storage")
-    options = {"known": dict(known or {}), "arms": arms, "level": level, "seed": seed}
     with one_blas_thread():
         seen = with_noise(thinned(seen))
-        if model != "best":
-            return _fitted(seen, model, draws=draws, **options)
-        tried = [_tried(seen, each) for each in _affordable(seen)]
+        tried = [_tried(seen, each) for each in _affordable(seen)] if model == "best" else []
         alike = _alike(tried)
-        report = _fitted(seen, alike[0].model, draws=draws, **options)
-        compared = tuple((one.model, one.criterion) for one in tried)
-        undetermined = (*report.undetermined, *_undecided(alike))
-        return replace(report, compared=compared, undetermined=undetermined)
+        if alike:
+            model = alike[0].model
+        cautions: tuple[str, ...] = ()
+        more = {"level": level, "draws": draws, "seed": seed}
+        if model == "prony":
+            found = fit_series(seen, arms=arms, **more)
+            if arms is not None:
+                cautions = few_arms_caution(seen, found)
+            if draws:
+                # a misfit of few arms is no contradiction of the moduli
+                cautions += series_cautions(seen, found, few=bool(cautions))
+        else:
+            found = fit_constants(seen, model=model, known=known or {}, **more)
+        if tried:
+            found = replace(found, compared=tuple((one.model, one.criterion) for one in tried))
+        cautions = (*misfit_cautions(seen, found.material, found.scatter), *cautions)
+        unknown = undetermined(seen, found.material, found.intervals)
+        return FitReport(
+            **vars(found),
+            model=model,
+            observed=seen,
+            level=level,
+            undetermined=(*unknown, *_undecided(alike)),
+            cautions=(*cautions, *seen.source.notes[-1:]) if seen.points else cautions,
+        )
 
 
 class Tried(NamedTuple):
@@ -141,7 +159,7 @@ class Tried(NamedTuple):
 
 def _alike(tried: Sequence[Tried]) -> list[Tried]:
     """Return the models that the data do not distinguish from the best, the simplest first."""
-    least = min(one.criterion for one in tried)
+    least = min((one.criterion for one in tried), default=0.0)
     alike = [one for one in tried if one.criterion <= least + ALIKE]
     return sorted(alike, key=lambda one: (one.constants, one.criterion))
 
@@ -158,8 +176,8 @@ def _undecided(alike: Sequence[Tried]) -> tuple[str, ...]:
         for one in alike
     ]
     return (
-        f"the data do not distinguish {' from '.join(each)}; the one with the fewest constants "
-        "is used. Outside the measured range they differ: --model fits another",
+        f"the data do not distinguish {' from '.join(each)}; the one with the fewest constants is "
+        "used (--model fits another)",
     )
 
 
@@ -177,41 +195,8 @@ def _affordable(data: Observed) -> list[str]:
 def _tried(data: Observed, model: str) -> Tried:
     """Fit a model without intervals."""
     if model == "prony":
-        found = fit_series(data, arms=None, level=0.9, draws=0, seed=0)
+        found = fit_series(data)
         return Tried(model, found.material, found.criterion, found.constants)
     material, constants = fitted_constants(data, model=model, known={})
     criterion = information_criterion(data.weighed(data.residuals(material)), constants)
     return Tried(model, material, criterion, constants)
-
-
-def _fitted(
-    data: Observed,
-    model: str,
-    *,
-    known: dict[str, float],
-    arms: int | None,
-    level: float,
-    draws: int,
-    seed: int,
-) -> FitReport:
-    cautions: tuple[str, ...] = ()
-    if model == "prony":
-        found = fit_series(data, arms=arms, level=level, draws=draws, seed=seed)
-        if arms is not None:
-            cautions = few_arms_caution(data, found)
-        if draws:
-            # a misfit of few arms is no contradiction of the moduli
-            cautions += series_cautions(data, found, few=bool(cautions))
-    else:
-        found = fit_constants(data, model=model, known=known, level=level, draws=draws, seed=seed)
-    cautions = (*misfit_cautions(data, found.material, found.scatter), *cautions)
-    if data.points:
-        cautions = (*cautions, data.source.notes[-1])
-    return FitReport(
-        **vars(found),
-        model=model,
-        observed=data,
-        level=level,
-        undetermined=undetermined(data, found.material, found.intervals),
-        cautions=cautions,
-    )

@@ -7,6 +7,7 @@ the plateau of a melt this matters, and the stated uncertainty includes it.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
@@ -19,14 +20,12 @@ from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, Relaxa
 from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
 from .kramers_kronig import causal_misfit
-from .overlap import Curve
 from .shift_factors import (
-    FEWEST,
     THERMOMETER,
+    curve,
     shift_factors,
     shifts_between,
     temperature_levels,
-    thinned,
 )
 
 # methods that use most of the data come first
@@ -101,38 +100,57 @@ def master_curve(
     ['6.28', '3.07e+09']
     """
     refuse_unlike(sweeps)
-    if reference_temperature is None:
-        return _unshifted(sweeps, shift)
-    if np.any(np.isnan(sweeps.temperature)):
+    temperature, reference = sweeps.temperature, reference_temperature
+    unknown, many = bool(np.any(np.isnan(temperature))), bool(np.ptp(temperature) > GAP)
+    if reference is None:
+        if shift is not None or many:
+            raise InputError(
+                "sweeps at several temperatures, or a shift, need reference_temperature="
+            )
+        return _moved(sweeps, None if unknown else float(np.mean(temperature)))
+    if unknown:
         raise InputError("the temperature of some points is unknown; set --temperature")
     if shift is not None and (by is not None or vertical is not None):
         raise InputError("by and vertical apply to shifts from overlap only; omit shift=")
-    reference_temperature = float(reference_temperature)
-    if shift is None:
-        if np.ptp(sweeps.temperature) <= GAP and _near(sweeps.temperature, reference_temperature):
-            return replace(_unshifted(sweeps, None), reference_temperature=reference_temperature)
-        _refuse_ramp(sweeps)
-        if by is None and vertical is None:
-            return most_carried(sweeps, reference_temperature=reference_temperature)
-        by, vertical = by or "both", "none" if vertical is None else vertical
-        shift = shift_factors(
-            sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
+    reference = float(reference)
+    if shift is not None:
+        how = _named(shift)
+    elif not many and np.all(np.abs(temperature - reference) <= GAP):
+        return _moved(sweeps, reference)
+    elif many and np.ptp(sweeps.angular_frequency) <= 1e-3 * sweeps.angular_frequency[0]:
+        raise InputError(
+            "a temperature ramp at one frequency has no overlap; give shift=, a law or a table"
         )
-        how = f"shifts from the overlap of {_PARTS[by]}, {moved_words(vertical)}"
+    elif by is None and vertical is None:
+        return most_carried(sweeps, reference_temperature=reference)
     else:
-        how = shift_words(shift)
+        by, vertical = by or "both", "none" if vertical is None else vertical
+        shift = shift_factors(sweeps, reference_temperature=reference, by=by, vertical=vertical)
+        how = f"shifts from the overlap of {_PARTS[by]}, {_moving(vertical)}"
     levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
-    horizontal, up, table = shifted_by(shift, sweeps.temperature, levels, reference_temperature)
+    horizontal, up, table = shifted_by(shift, temperature, levels, reference)
+    curve = _moved(sweeps, reference, 10**horizontal, 10**up, table)
+    return replace(curve, source=curve.source.noted(f"{how}, reference {reference:.2f} K"))
+
+
+def _moved(
+    sweeps: FrequencySweeps,
+    reference: float | None,
+    along: Array | float = 1.0,
+    up: Array | float = 1.0,
+    table: ShiftTable | None = None,
+) -> MasterCurve:
+    """Return all points as one curve, their frequencies and moduli multiplied."""
     return MasterCurve(
-        reference_temperature=reference_temperature,
-        angular_frequency=sweeps.angular_frequency * 10**horizontal,
-        storage=sweeps.storage * 10**up,
-        loss=sweeps.loss * 10**up,
-        kind=sweeps.kind,
-        shifts=table,
-        source=sweeps.source.noted(f"{how}, reference {reference_temperature:.2f} K"),
-        temperature=sweeps.temperature,
-        sweep=sweeps.sweep,
+        reference,
+        sweeps.angular_frequency * along,
+        sweeps.storage * up,
+        sweeps.loss * up,
+        sweeps.kind,
+        table,
+        sweeps.source,
+        sweeps.temperature,
+        sweeps.sweep,
     )
 
 
@@ -171,32 +189,16 @@ def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> Ma
     return replace(best, source=best.source.noted(note))
 
 
-def moved_words(vertical: str | float) -> str:
+def _moving(vertical: str | float) -> str:
     """Describe the allowed vertical shift in a few words."""
-    words = {
-        "auto": "moduli shifted vertically as the data determine",
-        "none": "moduli not shifted vertically",
-        "free": "moduli shifted vertically without restriction",
-    }
+    how = {"auto": " as the data determine", "none": "", "free": " without restriction"}
     if isinstance(vertical, str):
-        return words[vertical]
+        return f"moduli {'not ' * (vertical == 'none')}shifted vertically{how[vertical]}"
     return f"moduli shifted vertically by density and temperature, expansion {vertical:g} 1/K"
 
 
-def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> MasterCurve:
-    known = not np.any(np.isnan(sweeps.temperature))
-    if shift is not None or (known and np.ptp(sweeps.temperature) > GAP):
-        raise InputError("sweeps at several temperatures, or a shift, need reference_temperature=")
-    return MasterCurve(
-        reference_temperature=float(np.mean(sweeps.temperature)) if known else None,
-        angular_frequency=sweeps.angular_frequency,
-        storage=sweeps.storage,
-        loss=sweeps.loss,
-        kind=sweeps.kind,
-        source=sweeps.source,
-        temperature=sweeps.temperature,
-        sweep=sweeps.sweep,
-    )
+def _named(shift: Shift | ShiftTable) -> str:
+    return f"shifted by {shift.words() if isinstance(shift, WLF | Arrhenius) else 'a table'}"
 
 
 def shifted_by(
@@ -204,20 +206,16 @@ def shifted_by(
 ) -> tuple[Array, Array, ShiftTable]:
     """Return the horizontal and vertical shift of each point, and the table at the levels."""
     if isinstance(shift, ShiftTable):
-        return *_by_table(temperature, shift, reference), shift
+        vertical = np.zeros(len(shift)) if shift.log10_vertical is None else shift.log10_vertical
+        along, up = (
+            _interpolated(temperature, shift.temperature, values, reference)
+            for values in (shift.log10_shift, vertical)
+        )
+        return along, up, shift
     law = shift.at_reference(reference)
     horizontal = np.asarray(law.log10_shift(temperature))
     table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
     return horizontal, np.zeros_like(horizontal), table
-
-
-def _by_table(temperature: Array, table: ShiftTable, reference: float) -> tuple[Array, Array]:
-    """Return the horizontal and the vertical shift of each point."""
-    vertical = np.zeros(len(table)) if table.log10_vertical is None else table.log10_vertical
-    return (
-        _interpolated(temperature, table.temperature, table.log10_shift, reference),
-        _interpolated(temperature, table.temperature, vertical, reference),
-    )
 
 
 def _interpolated(temperature: Array, rows: Array, values: Array, reference: float) -> Array:
@@ -234,30 +232,11 @@ def _interpolated(temperature: Array, rows: Array, values: Array, reference: flo
     if beside.any():
         if rows.size < 2:
             raise InputError(
-                f"the table of shifts has one row, at {rows[0]:.2f} K; "
-                f"a shift at {asked[beside][0]:.2f} K is needed"
+                f"the table of shifts has one row; {asked[beside][0]:.2f} K needs another"
             )
         curve = TabulatedShift(float(rows[0]), tuple(rows), tuple(values))
         found[beside] = values[0] + np.asarray(curve.log10_shift(asked[beside]))
     return found[:-1] - found[-1]
-
-
-def _refuse_ramp(sweeps: FrequencySweeps) -> None:
-    omega = sweeps.angular_frequency
-    if np.ptp(omega) <= 1e-3 * omega[0] and np.ptp(sweeps.temperature) > GAP:
-        raise InputError(
-            "a temperature ramp at one frequency has no overlap; give "
-            "shift=WLF.from_glass_transition(...) or another law"
-        )
-
-
-def _near(temperature: Array, reference: float) -> bool:
-    return bool(np.all(np.abs(temperature - reference) <= GAP))
-
-
-def shift_words(shift: Shift | ShiftTable) -> str:
-    """Describe the applied shift in a few words."""
-    return f"shifted by {shift.words() if isinstance(shift, WLF | Arrhenius) else 'a table'}"
 
 
 Test = TypeVar("Test", RelaxationTest, CreepTest)
@@ -311,81 +290,47 @@ def superposed(
     (40, [0.0, -1.0])
     """
     ordered = _ordered(tests)
+    first, column = ordered[0], ordered[0].measured[0]
+    sign = first.measured[2]  # a compliance is the inverse of a modulus
     temperature = np.array([test.temperature for test in ordered], dtype=float)
     if shift is None:
-        shift, how = _shifts_of_tests(
-            ordered, temperature, reference_temperature, vertical, temperature_uncertainty
-        )
+        curves = [
+            curve(T, -np.log10(test.time[::-1]), sign * np.log10(getattr(test, column)[::-1]))
+            for T, test in zip(temperature, ordered, strict=True)
+        ]
+        more = "both", vertical, temperature_uncertainty
+        shift = shifts_between(temperature, curves, reference_temperature, *more)
+        how = f"shifts from the overlap of the tests, {_moving(vertical)}"
     else:
-        how = shift_words(shift)
+        how = _named(shift)
     slower, up, table = shifted_by(shift, temperature, temperature, reference_temperature)
-    first = ordered[0]
     sources = list(dict.fromkeys(test.source for test in ordered))
-    one = first.source if len(sources) == 1 else joined_source(sources)
-    source = one.noted(f"{how}; {len(ordered)} tests, reference {reference_temperature:.2f} K")
-    time = np.concatenate([t.time / 10**s for t, s in zip(ordered, slower, strict=True)])
-    column = "modulus" if isinstance(first, RelaxationTest) else "compliance"
-    sign = 1 if column == "modulus" else -1
-    values = [getattr(test, column) * 10 ** (sign * v) for test, v in zip(ordered, up, strict=True)]
+    source = first.source if len(sources) == 1 else joined_source(sources)
+    rows = list(zip(ordered, slower, up, strict=True))
     answer = replace(
         first,
-        time=time,
+        time=np.concatenate([test.time / 10**along for test, along, _ in rows]),
         temperature=float(reference_temperature),
-        source=source,
-        **{column: np.concatenate(values)},
+        source=source.noted(f"{how}; {len(rows)} tests, reference {reference_temperature:.2f} K"),
+        **{column: np.concatenate([getattr(t, column) * 10 ** (sign * v) for t, _, v in rows])},
     )
     return answer, table
 
 
-def _shifts_of_tests(
-    tests: Sequence[RelaxationTest | CreepTest],
-    temperature: Array,
-    reference: float,
-    vertical: str | float,
-    uncertainty: float,
-) -> tuple[ShiftTable, str]:
-    """Return the shifts from overlap, and the method in words."""
-    table = shifts_between(
-        temperature,
-        [_curve_of_test(test) for test in tests],
-        reference_temperature=reference,
-        by="both",
-        vertical=vertical,
-        temperature_uncertainty=uncertainty,
-    )
-    return table, f"shifts from the overlap of the tests, {moved_words(vertical)}"
-
-
 def _ordered(tests: Sequence[Test]) -> list[Test]:
-    """Return the tests from cold to hot."""
+    """Return the tests from cold to hot, all of one kind and each at its own temperature."""
     if not tests:
         raise InputError("superposition needs one or more tests, got none")
-    kinds = {(type(test).__name__, test.kind) for test in tests}
+    kinds = {f"{type(test).__name__} ({test.kind})" for test in tests}
     if len(kinds) > 1:
-        words = " and ".join(sorted(f"{name} ({kind})" for name, kind in kinds))
-        raise InputError(f"only tests of one kind can be superposed, got {words}")
+        raise InputError(
+            f"only tests of one kind can be superposed, got {' and '.join(sorted(kinds))}"
+        )
     unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
     if unknown:
         raise InputError(f"the temperature of {unknown[0]} is unknown; set --temperature")
     ordered = sorted(tests, key=lambda test: test.temperature or 0.0)
-    temperature = np.array([test.temperature for test in ordered], dtype=float)
-    near = np.flatnonzero(np.diff(temperature) <= GAP)
-    if near.size:
-        raise InputError(
-            f"two tests have the same temperature, {temperature[near[0]]:.2f} K; superpose only "
-            "one of them"
-        )
+    for one, other in pairwise(float(test.temperature or 0.0) for test in ordered):
+        if other - one <= GAP:
+            raise InputError(f"two tests have the same temperature, {one:.2f} K; superpose one")
     return ordered
-
-
-def _curve_of_test(test: RelaxationTest | CreepTest) -> Curve:
-    """Return the modulus, or the inverse compliance, of a test as a curve over -log10(time)."""
-    x = -np.log10(test.time[::-1])
-    if x.size < FEWEST or np.ptp(x) < 0.1:
-        raise InputError(
-            f"{x.size} points at {test.temperature:.2f} K are too few to find a shift from "
-            "overlap; give a shift law (--wlf, --shift-file) or omit this test (--leave-out)"
-        )
-    if isinstance(test, RelaxationTest):
-        return thinned(Curve(x, (np.log10(test.modulus[::-1]),)))
-    return thinned(Curve(x, (-np.log10(test.compliance[::-1]),)))

@@ -138,9 +138,8 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
     degree, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
     if best in (0, tried.size - 1):
         raise InputError(
-            "the curves fit best end to end, so the data do not determine the shift; measure "
-            "closer temperatures, superpose another modulus (--shift-by), or give a shift law "
-            "(--glass-transition, --wlf, --shift-file)"
+            "the curves fit best end to end, so the data do not determine the shift; superpose "
+            "another modulus (--shift-by), or give a law (--glass-transition, --wlf, --shift-file)"
         )
     degree = _DEGREES[int(degree)]
     return _refined(colder, hotter, float(tried[best]), hold, degree), degree

@@ -1,7 +1,5 @@
 """Issue a material passport from a fit."""
 
-from typing import Any
-
 from viscotack.errors import InputError
 from viscotack.lab.sweeps import ShiftTable
 from viscotack.materials.passport import Evidence, Origin, Passport
@@ -98,10 +96,6 @@ def issued(
             undetermined=report.undetermined,
             cautions=report.cautions,
         ),
-        allowed=_thinned(report.draws),
+        # evenly, at most _ALLOWED
+        allowed=report.draws[:: max(len(report.draws) // _ALLOWED, 1)][:_ALLOWED],
     )
-
-
-def _thinned(draws: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Select evenly at most _ALLOWED of the sampled solids."""
-    return draws[:: max(len(draws) // _ALLOWED, 1)][:_ALLOWED]

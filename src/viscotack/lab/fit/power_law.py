@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import least_squares
 
 from viscotack.arrays import Array
@@ -33,7 +32,7 @@ from viscotack.materials.interconversion import reciprocal
 
 from .errors import errors
 from .observed import Observed
-from .report import Fitted, Interval, information_criterion, scatter, unit_of
+from .report import Fitted, Interval, information_criterion, scatter
 
 _POOR = 0.25  # half-width of the interval of ln(constant) above which the profile is computed
 
@@ -87,10 +86,12 @@ class Search:
             "glassy_modulus": (middle, np.log(stiffest) + _FAR),
             "exponent": (np.log(0.02), np.log(3.0) - 1e-9),
             "modulus": (np.log(softest) - _FAR, np.log(stiffest) + _FAR),
-            "order": _order_bounds(kind),
             "lower_order": (np.log(1e-3), -1e-9),
             "tau0": (-np.log(fast) - 2 * _FAR, -np.log(slow) + 2 * _FAR),
         }
+        if "order" in names:
+            card = cards(kind)["order"].card
+            bounds["order"] = np.log(card.least) + 1e-9, np.log(card.most) - 1e-9
         free = [name for name in names if name not in known]
         if not free:
             raise InputError("all constants are given, so nothing is left to fit; omit one")
@@ -120,22 +121,19 @@ class Search:
         # zero loss far outside the range: keep it finite so that the search can continue
         return np.clip(self.data.weighed(np.log(self.data.values) - logs).ravel(), -50, 50)
 
-    def at_bound(self, x: Array) -> npt.NDArray[np.bool_]:
-        """Return a mask of the constants at the bounds of the search."""
-        return (x - self.low < 1e-3) | (self.high - x < 1e-3)
-
     def polished(self, x: Array, fixed: int | None = None) -> Any:
-        """Return the nearest local minimum; optionally with one constant fixed."""
+        """Return the nearest local minimum, optionally with one constant fixed.
+
+        None if no constant is left.
+        """
         x = np.clip(x, self.low + 1e-9, self.high - 1e-9)
-        # predictions accurate to 1e-6 need wide finite-difference steps
-        options: Any = {} if self.data.in_frequency else {"diff_step": _COARSE}
-        if fixed is None:
-            return least_squares(
-                self.misfit, x, bounds=(self.low, self.high), xtol=1e-10, **options
-            )
-        others = np.arange(x.size) != fixed
-        if not np.any(others):
+        others = np.arange(x.size) != (-1 if fixed is None else fixed)
+        if not others.any():
             return None
+        # a few digits suffice for the profile
+        options: Any = {"xtol": 1e-10} if fixed is None else {"xtol": 1e-4, "ftol": 1e-5}
+        if not self.data.in_frequency:  # predictions accurate to 1e-6 need wide differences
+            options["diff_step"] = _COARSE
 
         def misfit(part: Array) -> Array:
             whole = x.copy()
@@ -143,22 +141,18 @@ class Search:
             return self.misfit(whole)
 
         bounds = self.low[others], self.high[others]
-        # a few digits suffice for the profile
-        return least_squares(misfit, x[others], bounds=bounds, xtol=1e-4, ftol=1e-5, **options)
+        return least_squares(misfit, x[others], bounds=bounds, **options)
 
     def minimum(self) -> Any:
         """Return the best of the local minima found from the best starts."""
-        places = self.places(3)
-        if self.data.at.size > 2 * _SKETCH:
-            # a subset of the points suffices to rank the starts
-            each = -(-self.data.at.size // _SKETCH)
-            few = replace(
-                self.data, at=self.data.at[::each], values=self.data.values[:, ::each], sweep=None
-            )
-            rough = [replace(self, data=few).polished(x) for x in places]
-            return self.polished(min(rough, key=lambda result: result.cost).x)
-        found = [self.polished(x) for x in places]
-        return min(found, key=lambda result: result.cost)
+        data, places = self.data, self.places(3)
+        each = -(-data.at.size // _SKETCH)
+        if each <= 2:
+            return min((self.polished(x) for x in places), key=lambda result: result.cost)
+        # a subset of the points suffices to rank the starts
+        few = replace(data, at=data.at[::each], values=data.values[:, ::each], sweep=None)
+        rough = [replace(self, data=few).polished(x) for x in places]
+        return self.polished(min(rough, key=lambda result: result.cost).x)
 
     def places(self, count: int) -> list[Array]:
         """Return the best starts of a coarse search over spectrum, time and modulus ratio.
@@ -194,23 +188,18 @@ class Search:
 
     def _twins(self, ratio: float) -> Iterator[tuple[Any, dict[str, float]]]:
         """Yield trial solids with tau0 = 1 s, and the logarithms of their constants."""
-        tried = {name: self._tried(name, ratio) for name in self.names if name != "tau0"}
+        tried = _TRIED | {"glassy_modulus": tuple(1 / ratio / np.array([0.9, 0.2, 0.01]))}
+        if "lower_order" in self.names:
+            tried["order"] = _UPPER_ORDERS
+        # moduli are relative to one of them
+        tried |= {name: (value,) for name, value in self.known.items() if name not in _MODULI}
+        tried = {name: tried[name] for name in self.names if name != "tau0"}
         for values in itertools.product(*tried.values()):
             constants = dict(zip(tried, values, strict=True))
             if constants.get("lower_order", -1.0) >= constants.get("order", 0.0):
                 continue
             twin = self.kind(**constants, tau0=1.0, poisson_ratio=0.0)
             yield twin, {name: float(np.log(value)) for name, value in constants.items()}
-
-    def _tried(self, name: str, ratio: float) -> tuple[float, ...]:
-        """Return the trial values of a constant; moduli relative to one of them."""
-        if name in self.known and name not in _MODULI:
-            return (self.known[name],)
-        if name == "glassy_modulus":
-            return tuple(1 / ratio / np.array([0.9, 0.2, 0.01]))
-        if name == "order" and "lower_order" in self.names:
-            return _UPPER_ORDERS
-        return _TRIED[name]
 
     def profile_end(self, x: Array, i: int, side: int, deviation: float, allowed: float) -> float:
         """Return the value of constant i at which the profile reaches its limit, or inf."""
@@ -264,14 +253,6 @@ def _profile_zero(
         else:
             near, under, over = place, value, 0.5 * over
     return (near + far) / 2
-
-
-def _order_bounds(kind: Any) -> tuple[float, float]:
-    """Return the bounds of the logarithm of a springpot's order, for laws that have one."""
-    if "order" not in cards(kind):
-        return (0.0, 0.0)
-    card = cards(kind)["order"].card
-    return float(np.log(card.least)) + 1e-9, float(np.log(card.most)) - 1e-9
 
 
 def quick(data: Observed, solid: Any, at: Array) -> Array:
@@ -328,7 +309,7 @@ def fit_constants(
     spread = scatter(residuals, len(search.free), known_errors.words())
     influences = np.linalg.pinv(best.jac)
     half = known_errors.half_width(influences, level)
-    poor = bool(np.any(half > _POOR) or np.any(search.at_bound(best.x)))
+    poor = bool(np.any(half > _POOR) or np.min([best.x - search.low, search.high - best.x]) < 1e-3)
     # linearised, or by the profile where the linearisation is poor
     ends = np.array([best.x - half, best.x + half]).T
     if poor:
@@ -344,18 +325,16 @@ def fit_constants(
         )
     material = search.solid(best.x)
     found = dict(zip(search.free, np.exp(ends), strict=True))
-    intervals = tuple(
-        Interval(name, value, *map(float, found[name]), unit=unit_of(name))
-        if name in found
-        else Interval(name, value, value, value, unit=unit_of(name), known=True)
-        for name in search.names
-        for value in [float(getattr(material, name))]
-    )
+    intervals = []
+    for name in search.names:
+        value = float(getattr(material, name))
+        low, high = map(float, found.get(name, (value, value)))
+        intervals.append(Interval(name, value, low, high, known=name not in found))
     sample = _draws(search, best.x, known_errors.covariance(influences), ends, draws, seed)
     criterion = information_criterion(residuals, len(search.free))
     return Fitted(
         material=material,
-        intervals=intervals,
+        intervals=tuple(intervals),
         scatter=spread,
         constants=len(search.free),
         criterion=criterion,

@@ -4,15 +4,33 @@ The relaxation times lie on a logarithmic grid over the measured range. The non-
 minimise the sum of squares of ln(measured/fitted) in a few Gauss-Newton steps, each a linear
 problem with bounds (:mod:`.nonnegative`). Creep is fitted in the same way by retardation times and
 interconverted exactly. The number of grid times is increased and the corrected Akaike criterion
-chooses. Arms of zero modulus are dropped. Intervals of the plateaus include all series on a dense
-grid (:mod:`.plateaus`).
+chooses. Arms of zero modulus are dropped.
+
+A series with few times restricts its plateaus, and a bootstrap on the same times does not include
+the uncertainty of these times. So the plateau is varied; for each value the best non-negative
+series on a *dense* grid is computed, until the sum of squares exceeds its limit: the profile of a
+linear quantity under bounds (Rust & Burrus, Mathematical Programming and the Numerical Solution of
+Linear Equations, 1972). Each step is a linear problem.
+
+Under bounds the growth does not follow a chi-square distribution (Batlle, Stanley,
+Patil, Kuusela & Owhadi, arXiv:2310.02461), so the limit is simulated: synthetic moduli are
+generated from the series at the end of the interval, with the errors of the residuals
+(:mod:`.errors`), and the growth of their sum of squares at the true plateau is recorded
+(Feldman & Cousins, doi:10.1103/PhysRevD.57.3873), separately on each side.
+
+The quantity is the modulus at the ends of the grid, half a decade beyond the measurement (for a
+test over time, not before its first point, because earlier creep is not observed). Response
+further out cannot be determined. A modulus that still changes at an end gives only a bound
+(:func:`open_ends`).
 """
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import least_squares
+from scipy.optimize import brentq, least_squares
+from scipy.stats import norm
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -23,8 +41,110 @@ from viscotack.materials.modes import maxwell
 from .errors import Errors, errors
 from .nonnegative import nonnegative
 from .observed import Observed, only
-from .plateaus import NAMES, Plateau, open_ends
 from .report import Fitted, Interval, information_criterion, scatter
+
+# ---- intervals of the plateaus -------------------------------------------------------------------
+
+# A modulus that changes by more than this fraction per decade has not reached a plateau.
+PLATEAU = 0.05
+_HELD = 1e3  # weight that fixes the plateau; the numbers are about 0.01
+_ENDLESS = 1e4  # ratio to the fitted plateau above which there is no bound
+NAMES = ("rubbery_modulus", "glassy_modulus")
+
+
+def change(data: Observed, material: Any, name: str) -> float:
+    """Return the relative change of the modulus per decade at the end next to a plateau."""
+    slow = name == "rubbery_modulus"
+    if data.in_frequency:
+        modulus = complex(material.complex_modulus(data.frequencies[0 if slow else 1]))
+        # d ln E'/d ln omega is about 2/pi times the loss angle
+        return float(10 ** (2 / np.pi * np.angle(modulus)) - 1)
+    end = data.at[-1] if slow else data.at[0]
+    ratio = data.predicted(material, [end / np.sqrt(10), end * np.sqrt(10)])[0]
+    return float(np.exp(abs(np.log(ratio[1] / ratio[0]))) - 1)
+
+
+def open_ends(data: Observed, material: Any) -> tuple[str, ...]:
+    """Return the names of the plateaus that the measurement does not reach."""
+    return tuple(name for name in NAMES if change(data, material, name) > PLATEAU)
+
+
+class Plateau:
+    """A linear quantity of the weights on a dense grid, with its profile.
+
+    Parameters
+    ----------
+    columns : ndarray, shape (M, n)
+        Contribution of a unit weight to each number, over model and noise.
+    numbers : ndarray, shape (M,)
+        The numbers, scaled in the same way.
+    sums : ndarray, shape (n,)
+        The quantity is ``sums @ weights``.
+    errors : ndarray, shape (B, M)
+        Random errors, over their noise.
+    """
+
+    def __init__(self, columns: npt.NDArray, numbers: Array, sums: Array, errors: Array):
+        # QR: a triangular matrix replaces all rows
+        frame, self._columns = np.linalg.qr(columns)
+        self._sums, self._numbers, self._errors = sums, frame.T @ numbers, errors @ frame
+        self._least, best = self._nearest(self._numbers)
+        self._middle = float(sums @ best)
+
+    def end(self, side: int, tail: float) -> float:
+        """Return the end of the interval on one side, at a tail probability.
+
+        The end is 0 or inf if the sum of squares never reaches its limit.
+        """
+        if self._middle <= 0:
+            return 0.0 if side < 0 else np.inf
+        # first with the chi-square limit, then with the simulated one
+        guess = self._reached(side, float(norm.isf(tail)) ** 2 * self._size)
+        at = guess if 0 < guess < np.inf else self._middle
+        return self._reached(side, self._allowed(at, side, tail))
+
+    @property
+    def _size(self) -> float:
+        """Mean square of the errors per direction that the weights can follow."""
+        return float(np.mean(self._errors**2))
+
+    def _nearest(self, numbers: Array, value: float | None = None) -> tuple[float, Array]:
+        """Return the smallest sum of squares, optionally at a fixed quantity, and its weights."""
+        columns, wanted = self._columns, numbers
+        if value is not None:
+            row = _HELD * self._sums / value
+            columns, wanted = np.vstack((columns, row)), np.append(numbers, _HELD)
+        found = nonnegative(columns, wanted)
+        return float(np.sum((self._columns @ found - numbers) ** 2)), found
+
+    def _allowed(self, value: float, side: int, tail: float) -> float:
+        """Return the simulated limit on the growth of the sum of squares at a value."""
+        made = self._columns @ self._nearest(self._numbers, value)[1]
+        growth = []
+        for each in self._errors:
+            least, best = self._nearest(made + each)
+            grown = max(self._nearest(made + each, value)[0] - least, 0.0)
+            # at the lower end, only synthetic estimates above the value count
+            growth.append(np.sqrt(grown) * np.sign(float(self._sums @ best) - value) * -side)
+        return max(float(np.quantile(growth, 1 - tail)), 0.0) ** 2
+
+    def _reached(self, side: int, allowed: float) -> float:
+        def excess(way: float) -> float:
+            value = self._middle * np.exp(side * way)
+            return self._nearest(self._numbers, value)[0] - self._least - allowed
+
+        if allowed <= 0 or excess(0.0) >= 0:
+            return self._middle
+        near, step = 0.0, 0.02  # in the logarithm of the quantity
+        while excess(near + step) <= 0:
+            near, step = near + step, 1.8 * step
+            if near > np.log(_ENDLESS):
+                return np.inf if side > 0 else 0.0
+        way: Any = brentq(excess, near, near + step, xtol=1e-3 * step)
+        return float(self._middle * np.exp(side * way))
+
+
+# ---- the series ----------------------------------------------------------------------------------
 
 _MOST = 60  # arms
 _ENOUGH = 40  # smallest number of points to separate the scatter of a curve from its shape
@@ -35,7 +155,9 @@ _MADE = 120  # synthetic data sets to simulate the growth of the sum of squares
 _FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) relative to the smallest number
 
 
-def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, seed: int) -> Fitted:
+def fit_series(
+    data: Observed, *, arms: int | None = None, level: float = 0.9, draws: int = 0, seed: int = 0
+) -> Fitted:
     """Fit a Prony series to measured numbers.
 
     Parameters
@@ -56,11 +178,11 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
         raise InputError(f"arms must be between 1 and {4 * _MOST}, got {arms}")
     compared: list[tuple[str, float]] = []
     if arms is None:
-        grids = _grids(data)
+        counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
+        grids = [_grid(data, n) for n in counts if n + 3 < data.values.size]
         if not grids:
             raise InputError(
-                f"{data.values.size} numbers are too few to choose the number of arms; give "
-                "arms, or fit a model with few constants"
+                f"{data.values.size} numbers are too few to choose the number of arms; give arms"
             )
         criteria = [_criterion(data, *_fitted(data, grid, data.logs)) for grid in grids]
         chosen = grids[int(np.argmin(criteria))]
@@ -76,11 +198,14 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
     constants = int(np.count_nonzero(weights))
     spread = scatter(residuals, constants)
     intervals = tuple(
-        Interval(name, float(getattr(material, name)), np.nan, np.nan, unit="Pa") for name in NAMES
+        Interval(name, float(getattr(material, name)), np.nan, np.nan) for name in NAMES
     )
     sample: tuple[Prony, ...] = ()
     if draws:
-        known = errors(data, residuals, _slopes(data, times, weights))
+        # derivatives of ln(fitted value) by each weight, over the noise
+        basis = _basis(data, times)
+        slopes = basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
+        known = errors(data, residuals, slopes)
         spread = scatter(residuals, constants, known.words())
         intervals = _plateaus(data, material, times, weights, known, level, seed)
         sample = _bootstrap(data, times, weights, known, draws, seed)
@@ -108,10 +233,7 @@ def with_noise(data: Observed) -> Observed:
     """
     if data.quantity != "complex modulus" or data.at.size < _ENOUGH:
         return data
-    alone = [
-        fit_series(only(data, part), arms=None, level=0.9, draws=0, seed=0).scatter.deviation
-        for part in data.parts
-    ]
+    alone = [fit_series(only(data, part)).scatter.deviation for part in data.parts]
     noise = np.maximum(alone, _REPEATABLE)
     noise = noise / np.min(noise)
     return replace(data, noise=noise) if np.max(noise) > 2 else data
@@ -128,12 +250,6 @@ def _grid(data: Observed, arms: int) -> Array:
     ends = np.array([-np.log10(fast) - 0.5, -np.log10(slow) + 0.5])
     cell = (decades + 1) / arms
     return 10 ** np.linspace(ends[0] + cell / 2, ends[1] - cell / 2, arms)
-
-
-def _grids(data: Observed) -> list[Array]:
-    """Return the grids to try: every size while small, then with increasing steps."""
-    counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
-    return [_grid(data, n) for n in counts if n + 3 < data.values.size]
 
 
 def _basis(data: Observed, times: Array) -> npt.NDArray:
@@ -216,8 +332,7 @@ def _material(data: Observed, times: Array, weights: Array) -> Prony:
     arms = tuple(zip(weights[1:], times, strict=True))
     if not arms:
         raise InputError(
-            "the measured modulus does not rise with frequency (or fall with time), so a Prony "
-            "series cannot describe it"
+            "a Prony series needs a modulus that rises with frequency or falls with time"
         )
     if data.quantity == "creep":
         series = RetardationSeries(
@@ -235,12 +350,6 @@ def _criterion(data: Observed, times: Array, weights: Array) -> float:
     return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
 
 
-def _slopes(data: Observed, times: Array, weights: Array) -> Array:
-    """Return the derivatives of ln(fitted value) by each weight, divided by the noise."""
-    basis = _basis(data, times)
-    return basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
-
-
 def _bootstrap(
     data: Observed, times: Array, weights: Array, known: Errors, count: int, seed: int
 ) -> tuple[Prony, ...]:
@@ -252,14 +361,6 @@ def _bootstrap(
         if kept.size:
             found.append(_material(data, kept, drawn))
     return tuple(found)
-
-
-def _dense(data: Observed) -> Array:
-    """Return a grid so dense that additional times hardly change the fit."""
-    slow, fast = data.frequencies
-    beyond = 10**-0.5 if data.in_frequency else 1.0
-    count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
-    return np.geomspace(beyond / fast, 10**0.5 / slow, count)
 
 
 def _plateaus(
@@ -274,7 +375,11 @@ def _plateaus(
     """Return the intervals of the plateaus; one-sided where a plateau was not measured."""
     # with the fitted times, because a dense grid has not that of a single arm, and tails of loss
     # tell the difference
-    basis = _basis(data, np.union1d(_dense(data), times))
+    slow, fast = data.frequencies
+    beyond = 10**-0.5 if data.in_frequency else 1.0
+    count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
+    dense = np.geomspace(beyond / fast, 10**0.5 / slow, count)
+    basis = _basis(data, np.union1d(dense, times))
     logs = np.log(_basis(data, times) @ weights)
     noise = np.repeat(data.noise, data.at.size)
     # linearise the logarithm about the fit
@@ -301,5 +406,5 @@ def _plateaus(
             else:
                 ends.append(quantity.end(side, tail))
         value = float(getattr(material, name))
-        found.append(Interval(name, value, min(ends[0], value), max(ends[1], value), unit="Pa"))
+        found.append(Interval(name, value, min(ends[0], value), max(ends[1], value)))
     return tuple(found)

@@ -30,8 +30,6 @@ class Interval:
         Ends of the interval, in SI; 0 and inf where the data give no bound on that side. Both equal
         the value if it was given instead of fitted, and are nan if no interval was
         computed.
-    unit : str
-        SI unit, "1" for a pure number.
     known : bool
         Whether the quantity was given, not fitted.
     """
@@ -40,8 +38,12 @@ class Interval:
     value: float
     low: float
     high: float
-    unit: str = "1"
     known: bool = False
+
+    @property
+    def unit(self) -> str:
+        """SI unit, "1" for a pure number."""
+        return _UNITS.get(self.name, "1")
 
     @property
     def told(self) -> bool:
@@ -206,25 +208,25 @@ class FitReport(Fitted):
                 return found
         raise InputError(f"no interval {name!r}; available: {[i.name for i in self.intervals]}")
 
-    def _scatters(self) -> str:
-        """Return the root mean square residual of each part, in words."""
-        each = np.sqrt(np.mean(self.residuals**2, axis=1))
-        pairs = zip(self.observed.parts, each, strict=True)
-        return ", ".join(f"{100 * value:.2g} % ({part})" for part, value in pairs)
-
     def words(self) -> str:
         """Format the report as lines of text."""
+        scatters = np.sqrt(np.mean(self.residuals**2, axis=1))
+        pairs = zip(self.observed.parts, scatters, strict=True)
+        parts = ", ".join(f"{100 * value:.2g} % ({part})" for part, value in pairs)
+        low, high = self.observed.at[0], self.observed.at[-1]
+        over = f"{self.observed.quantity} from {low:.3g} to {high:.3g} s"
+        if self.observed.in_frequency:
+            over = f"{low / (2 * np.pi):.3g} to {high / (2 * np.pi):.3g} Hz"
         each = dict(self.compared)
         least = min(each.values(), default=0.0)
         alike = [x for x in each if self.model in each and each[x] <= least + ALIKE]
         model = " or ".join([self.model, *(x for x in alike if x != self.model)])
         model += ", undetermined" * (len(alike) > 1)
         lines = [
-            f"{model}: {self.constants} constants on {self.observed.values.size} numbers, "
-            f"{_range(self.observed)}",
+            f"{model}: {self.constants} constants on {self.observed.values.size} numbers, {over}",
             f"  {100 * self.level:.0f} % intervals:",
             *(f"  {interval.words()}" for interval in self.intervals),
-            f"  scatter {self._scatters()}, median error {100 * self.median_error:.2g} %",
+            f"  scatter {parts}, median error {100 * self.median_error:.2g} %",
         ]
         if len(self.compared) > 1:
             tried = ", ".join(f"{name} {value - least:+.1f}" for name, value in each.items())
@@ -232,15 +234,3 @@ class FitReport(Fitted):
         lines += [f"  Not determined: {sentence}" for sentence in self.undetermined]
         lines += [f"  Note: {sentence}" for sentence in self.cautions]
         return "\n".join(lines)
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a constant of a material."""
-    return _UNITS.get(name, "1")
-
-
-def _range(data: Observed) -> str:
-    low, high = data.at[0], data.at[-1]
-    if data.in_frequency:
-        return f"{low / (2 * np.pi):.3g} to {high / (2 * np.pi):.3g} Hz"
-    return f"{data.quantity} from {low:.3g} to {high:.3g} s"

@@ -31,6 +31,7 @@ FEWEST = 4  # smallest number of points per temperature
 MOST = 200  # largest number of points per temperature; more are averaged without loss of accuracy
 BY = ("both", "storage", "loss", "tan")
 BEST = ("both", "auto")  # by, vertical: what shifts are compared with; uses most of the data
+_LAW = "give a shift law (--glass-transition, --wlf, --shift-file)"
 THERMOMETER = 0.2  # K: standard uncertainty of a chamber's temperature
 
 
@@ -100,21 +101,15 @@ def shift_factors(
     [0.0, -1.0]
     """
     each = temperature_levels(sweeps)
-    return shifts_between(
-        np.array([float(np.mean(level.temperature)) for level in each]),
-        [curve(level) for level in each],
-        reference_temperature=reference_temperature,
-        by=by,
-        vertical=vertical,
-        temperature_uncertainty=temperature_uncertainty,
-    )
+    temperature = np.array([float(np.mean(level.temperature)) for level in each])
+    more = by, vertical, temperature_uncertainty
+    return shifts_between(temperature, level_curves(each), reference_temperature, *more)
 
 
 def shifts_between(
     temperature: Array,
     curves: Sequence[Curve],
-    *,
-    reference_temperature: float,
+    reference: float,
     by: str,
     vertical: str | float,
     temperature_uncertainty: float,
@@ -133,23 +128,22 @@ def shifts_between(
         raise InputError(f"by must be 'both', 'storage', 'loss' or 'tan', got {by!r}")
     if not 0 <= temperature_uncertainty < 50:
         raise InputError(
-            "temperature_uncertainty must lie between 0 and 50 K, got "
-            f"{temperature_uncertainty:g} K"
+            f"temperature_uncertainty must lie in [0, 50) K, got {temperature_uncertainty:g}"
         )
     if len(curves) < 2:
-        raise InputError(
-            "a shift needs sweeps at two or more temperatures, got one; give a shift law "
-            "(--glass-transition, --wlf, --shift-file)"
-        )
-    if not temperature[0] - GAP <= reference_temperature <= temperature[-1] + GAP:
+        raise InputError(f"a shift needs two or more temperatures; {_LAW}")
+    if not temperature[0] - GAP <= reference <= temperature[-1] + GAP:
         raise InputError(
             f"--reference-temperature must lie between {temperature[0]:.2f} and "
-            f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; give a shift law to go "
-            "beyond (--glass-transition, --wlf, --shift-file)"
+            f"{temperature[-1]:.2f} K, got {reference:g} K; beyond, {_LAW}"
         )
     steps = steps_between(temperature, curves, by, vertical)
-    shift, up, deviation = _summed(steps, temperature, reference_temperature)
-    kelvin = _per_kelvin(temperature, shift, reference_temperature)
+    shift, up, deviation = _summed(steps, temperature, reference)
+    # change of each shift for an error of 1 K in its or the reference temperature
+    slope = np.gradient(shift, temperature)
+    inside = float(np.clip(reference, temperature[0], temperature[-1]))
+    kelvin = np.hypot(slope, np.interp(inside, temperature, slope))
+    kelvin = np.where(np.abs(temperature - inside) <= GAP, 0.0, kelvin)
     uncertainty = np.hypot(deviation, temperature_uncertainty * kelvin)
     if (by, vertical) != BEST and len(curves[0].y) > 1:
         # the uncertainty includes the difference to the shifts from all moduli
@@ -157,7 +151,7 @@ def shifts_between(
             most = steps_between(temperature, curves, *BEST)
         except ValueError:
             most = steps
-        other = _summed(most, temperature, reference_temperature)[0]
+        other = _summed(most, temperature, reference)[0]
         uncertainty = np.hypot(uncertainty, shift - other)
     return ShiftTable(temperature, shift, uncertainty, None if vertical == "none" else up)
 
@@ -169,20 +163,16 @@ def steps_between(
     holds = _holds(vertical, temperature, list(pairwise(curves)))
     steps = []
     for i, (colder, hotter) in enumerate(pairwise(curves)):
+        hold = Hold() if by == "tan" else holds[i]
         try:
-            steps.append(_step(colder, hotter, by, holds[i]))
+            step = step_between(part(colder, by), part(hotter, by), hold)
+            if by == "tan":  # independent of vertical shifts, which are fitted afterwards
+                step = replace(step, vertical=vertical_at(colder, hotter, step.shift, holds[i]))
         except ValueError as error:
-            raise InputError(
-                f"sweeps at {temperature[i]:.2f} and {temperature[i + 1]:.2f} K: {error}"
-            ) from None
+            between = f"{temperature[i]:.2f} and {temperature[i + 1]:.2f} K"
+            raise InputError(f"sweeps at {between}: {error}") from None
+        steps.append(step)
     return steps
-
-
-def _step(colder: Curve, hotter: Curve, by: str, hold: Hold) -> Step:
-    if by != "tan":
-        return step_between(part(colder, by), part(hotter, by), hold)
-    step = step_between(part(colder, by), part(hotter, by), Hold())
-    return replace(step, vertical=vertical_at(colder, hotter, step.shift, hold))
 
 
 def part(curve: Curve, by: str) -> Curve:
@@ -191,14 +181,6 @@ def part(curve: Curve, by: str) -> Curve:
         return curve
     storage, loss = curve.y
     return Curve(curve.x, ({"storage": storage, "loss": loss, "tan": loss - storage}[by],))
-
-
-def _per_kelvin(temperature: Array, shift: Array, reference: float) -> Array:
-    """Return the change of each shift for an error of 1 K in its or the reference temperature."""
-    slope = np.gradient(shift, temperature)
-    inside = float(np.clip(reference, temperature[0], temperature[-1]))
-    both = np.hypot(slope, np.interp(inside, temperature, slope))
-    return np.where(np.abs(temperature - inside) <= GAP, 0.0, both)
 
 
 def _summed(
@@ -229,27 +211,31 @@ def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
     return [sweeps.chosen(points) for points in levels(sweeps.temperature)]
 
 
-def curve(level: FrequencySweeps) -> Curve:
-    """Return the points of one temperature as a curve in decades: storage and loss."""
-    order = np.argsort(level.angular_frequency, kind="stable")
-    x = np.log10(level.angular_frequency[order])
+def level_curves(levels: Sequence[FrequencySweeps]) -> list[Curve]:
+    """Return the points of each temperature as a curve in decades: storage and loss."""
+    rows = ((level, np.argsort(level.angular_frequency, kind="stable")) for level in levels)
+    return [
+        curve(
+            float(np.mean(level.temperature)),
+            *(np.log10(x[i]) for x in (level.angular_frequency, level.storage, level.loss)),
+        )
+        for level, i in rows
+    ]
+
+
+def curve(temperature: float, x: Array, *y: Array) -> Curve:
+    """Return moduli over frequency, in decades, averaged to at most MOST points."""
     if x.size < FEWEST or np.ptp(x) < 0.1:
         raise InputError(
-            f"{x.size} points at {np.mean(level.temperature):.2f} K, over "
-            f"{np.ptp(x):.1g} decades of frequency are too few to find a shift from overlap; "
-            "give a shift law (--wlf, --shift-file) or omit this temperature (--leave-out)"
+            f"{x.size} points at {temperature:.2f} K, over {np.ptp(x):.1g} decades, are too few "
+            f"to overlap; {_LAW}, or omit them (--leave-out)"
         )
-    return thinned(Curve(x, (np.log10(level.storage[order]), np.log10(level.loss[order]))))
-
-
-def thinned(curve: Curve) -> Curve:
-    """Average the points of a curve to at most MOST."""
-    if curve.x.size <= MOST:
-        return curve
-    stretch = (MOST * (curve.x - curve.x[0]) / (np.ptp(curve.x) * (1 + 1e-12))).astype(int)
+    if x.size <= MOST:
+        return Curve(x, y)
+    stretch = (MOST * (x - x[0]) / (np.ptp(x) * (1 + 1e-12))).astype(int)
     _, stretch, count = np.unique(stretch, return_inverse=True, return_counts=True)
-    x, *y = (np.bincount(stretch, column) / count for column in (curve.x, *curve.y))
-    return Curve(x, tuple(y))
+    means = tuple(np.bincount(stretch, column) / count for column in (x, *y))
+    return Curve(means[0], means[1:])
 
 
 _VERTICAL = ("none", "auto", "free")
@@ -263,23 +249,10 @@ def _checked_vertical(vertical: str | float) -> str | float:
         return vertical
     if isinstance(vertical, bool | str) or not 0 <= float(vertical) < 0.01:
         raise InputError(
-            f"vertical must be one of {', '.join(_VERTICAL)}, or the coefficient of volume "
-            f"expansion in 1/K, from 0 to 0.01 (about 6e-4 for a melt), got {vertical!r}"
+            f"vertical must be one of {', '.join(_VERTICAL)}, or a volume expansion from 0 to "
+            f"0.01 1/K, got {vertical!r}"
         )
     return float(vertical)
-
-
-def _by_density(temperature: Array, expansion: float) -> Array:
-    """Return log10(rho T) up to a constant; differences are minus the vertical shift.
-
-    Parameters
-    ----------
-    temperature : ndarray
-        [K].
-    expansion : float
-        Coefficient of volume expansion [1/K], constant.
-    """
-    return np.log10(temperature) - expansion * temperature / np.log(10)
 
 
 def _holds(
@@ -299,8 +272,8 @@ def _holds(
     if vertical == "free":
         return [Hold(0.0, np.inf) for _ in pairs]
     law = np.zeros(len(pairs))
-    if not isinstance(vertical, str):
-        law = -np.diff(_by_density(temperature, vertical))
+    if not isinstance(vertical, str):  # by density and temperature, log10(rho T)
+        law = -np.diff(np.log10(temperature) - vertical * temperature / np.log(10))
     spread = _spread(law, pairs)
     moves = vertical == "auto"
     return [Hold(float(expected), spread, moves) for expected in law]

@@ -66,8 +66,8 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     values, c1, c2 = shape(best.x)
     if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
         raise InputError(
-            "the curvature of the shifts contradicts a WLF law; fit Arrhenius, or the part of the "
-            "table above the glass transition"
+            "the curvature of the shifts contradicts a WLF law; fit Arrhenius, or a part of the "
+            "table"
         )
     # chain rule from ln c1 and ln(c2 + coldest)
     scale = np.array([c1, c2 + coldest])
@@ -112,10 +112,7 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedS
     columns = np.column_stack((unit, np.ones(len(table))))
     found, *_ = np.linalg.lstsq(columns * weight[:, None], table.log10_shift * weight, rcond=None)
     if found[0] <= 0:
-        raise InputError(
-            f"the shift rises with temperature (activation energy {found[0]:.3g} J/mol); "
-            "log10 a_T must be positive where the solid is slower, at low temperature"
-        )
+        raise InputError(f"the shift rises with temperature ({found[0]:.3g} J/mol); give 1/a_T")
     difference = table.log10_shift - columns @ found
     covariance = _covariance(columns * weight[:, None], difference * weight)
     error = np.sqrt(np.diag(covariance)[:1])

@@ -69,16 +69,16 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0
         wider = quantile * float(np.std(logs, ddof=1))
         intervals.append(_wider(each, wider))
         if each.bounded and not each.known and each.high > each.low:
-            more = max(more, _width(intervals[-1]) / _width(each))
+            last = intervals[-1]
+            more = max(more, float(np.log(last.high / last.low) / np.log(each.high / each.low)))
     cautions = report.cautions
     if more > _WORTH:
         worst = int(np.argmax(shifts.uncertainty))
         cautions = (
             *cautions,
-            f"the uncertainty of the shifts is {shifts.uncertainty[worst]:.2g} decades at "
-            f"{shifts.temperature[worst] - 273.15:.4g} C: it widens intervals by up to a factor "
-            f"of {more:.2g} compared with the scatter of the points alone; the band does not "
-            "include it",
+            f"the uncertainty of the shifts, {shifts.uncertainty[worst]:.2g} decades at "
+            f"{shifts.temperature[worst] - 273.15:.4g} C, widens intervals by up to a factor of "
+            f"{more:.2g}, but not the band",
         )
     return replace(report, intervals=tuple(intervals), cautions=cautions)
 
@@ -109,13 +109,9 @@ def _refitted(report: FitReport, curve: MasterCurve) -> Any:
         seen = replace(seen, noise=report.observed.noise)
     if isinstance(report.material, Prony):
         arms = len(report.material.branches)
-        return fit_series(seen, arms=arms, level=report.level, draws=0, seed=0).material
+        return fit_series(seen, arms=arms).material
     known = {each.name: each.value for each in report.intervals if each.known}
     return fitted_constants(seen, model=report.model, known=known)[0]
-
-
-def _width(each: Interval) -> float:
-    return float(np.log(each.high / each.low))
 
 
 def _wider(each: Interval, wider: float) -> Interval:

@@ -1,4 +1,4 @@
-"""Tests of superposition and of causality that weight all points equally.
+"""Test of superposition that weights all points equally.
 
 A best shift always exists; whether the shifted sweeps form one curve is a separate question. No
 outlier is down-weighted here, and both moduli have equal weights.
@@ -12,14 +12,12 @@ from numpy.polynomial import Chebyshev
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.sweeps import FrequencySweeps, MasterCurve, ShiftTable
+from viscotack.lab.sweeps import FrequencySweeps, ShiftTable
 
-from .kramers_kronig import causal_misfit
 from .master_curve import shifted_by
 from .overlap import Curve
-from .shift_factors import BEST, FEWEST, curve, steps_between, temperature_levels
+from .shift_factors import BEST, FEWEST, level_curves, steps_between, temperature_levels
 
-_NAMES = ("storage", "loss")
 _APART = 0.1  # decades; larger differences contradict each other
 _SIGMAS = 3.0
 _POINTS = 3  # smallest number of points of each sweep in the overlap for a comparison
@@ -75,43 +73,29 @@ class Superposition:
 
     def words(self) -> tuple[str, ...]:
         """Return the contradictions to superposition as sentences; empty if there are none."""
-        return (*self._misfits(), *self._contradictions())
-
-    def _misfits(self) -> list[str]:
         found = []
-        for i, name in enumerate(_NAMES):
-            off = [
-                (each.deviation[i], each)
-                for each in self.neighbours
-                # two noisy sweeps may still superpose
-                if each.deviation[i] > max(np.log1p(self.tolerance), 2 * each.own[i])
-            ]
-            if not off:
-                continue
-            worst, where = max(off, key=lambda pair: pair[0])
+        for i, name in enumerate(("storage", "loss")):
+            least = np.log1p(self.tolerance)
+            # two noisy sweeps may still superpose
+            off = [x for x in self.neighbours if x.deviation[i] > max(least, 2 * x.own[i])]
+            if off:
+                worst = max(off, key=lambda each: each.deviation[i])
+                found.append(
+                    f"sweeps do not superpose in {name}: {_between(worst)} differ by "
+                    f"{100 * np.expm1(worst.deviation[i]):.2g} % where they overlap ({len(off)} "
+                    "such pairs): moduli that move with temperature (--vertical), a glass, two "
+                    "processes or a faulty sweep (--leave-out)"
+                )
+        limits = ((x, max(_APART, _SIGMAS * x.doubt)) for x in self.neighbours)
+        off = [x for x, limit in limits if abs(x.shift - x.asked) > limit]
+        if off:
+            worst = max(off, key=lambda each: abs(each.shift - each.asked))
             found.append(
-                f"sweeps do not superpose in {name}: {_between(where)} differ by "
-                f"{100 * np.expm1(worst):.2g} % where they "
-                f"overlap{f', as do {len(off) - 1} more pairs' * (len(off) > 1)}. No shift in "
-                "frequency makes them one curve. Possible causes: moduli that move with "
-                "temperature (--vertical), a glass, two processes or a faulty sweep (--leave-out)"
+                f"storage and loss modulus give other shifts than those used: {_between(worst)} "
+                f"are shifted by {worst.shift:.2f} decades, not {worst.asked:.2f} +- "
+                f"{worst.doubt:.2f} ({len(off)} such steps)"
             )
-        return found
-
-    def _contradictions(self) -> list[str]:
-        off = [
-            each
-            for each in self.neighbours
-            if abs(each.shift - each.asked) > max(_APART, _SIGMAS * each.doubt)
-        ]
-        if not off:
-            return []
-        worst = max(off, key=lambda each: abs(each.shift - each.asked))
-        return [
-            f"storage and loss modulus give other shifts than those used: {_between(worst)} are "
-            f"shifted by {worst.shift:.2f} decades, but both moduli give {worst.asked:.2f} +- "
-            f"{worst.doubt:.2f}{f'; so do {len(off) - 1} more steps' * (len(off) > 1)}"
-        ]
+        return tuple(found)
 
 
 def superposition(
@@ -158,7 +142,7 @@ def superposition(
     temperature = np.array([float(np.mean(level.temperature)) for level in levels])
     along, up, _ = shifted_by(shifts, temperature, temperature, float(shifts.temperature[0]))
     shapely = [i for i, level in enumerate(levels) if len(level) >= FEWEST]
-    curves = [curve(levels[i]) for i in shapely]
+    curves = level_curves([levels[i] for i in shapely])
     asked = _asked(temperature[shapely], curves)
     found = []
     for (a, b), (i, j), (other, doubt) in zip(
@@ -170,43 +154,6 @@ def superposition(
         between = float(temperature[i]), float(temperature[j])
         found.append(Neighbours(between, deviation, own, step, other, doubt))
     return Superposition(tuple(found), tolerance)
-
-
-def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
-    """Describe how storage and loss modulus violate causality; empty if they do not.
-
-    The nearest pair that obeys the Kramers-Kronig relation is fitted with equal weights of all
-    points.
-
-    Parameters
-    ----------
-    master : MasterCurve
-        Storage and loss modulus.
-    tolerance : float
-        Relative deviation from the nearest causal pair that is accepted.
-
-    Returns
-    -------
-    str
-        A sentence, or an empty string.
-
-    Examples
-    --------
-    >>> from viscotack.materials import StandardSolid
-    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e9, tau0=1.0, poisson_ratio=0.5)
-    >>> omega = np.geomspace(1e-2, 1e6, 40)
-    >>> modulus = solid.complex_modulus(omega)
-    >>> contradiction(MasterCurve(293.15, omega, modulus.real, modulus.imag, "E"))
-    ''
-    """
-    off = causal_misfit(master)
-    if off is None or max(off) <= tolerance:
-        return ""
-    return (
-        "storage and loss modulus contradict each other (Kramers-Kronig): with equal weights of "
-        f"all points, the nearest causal solid is {100 * np.expm1(off[0]):.2g} % off in storage "
-        f"and {100 * np.expm1(off[1]):.2g} % in loss. A shift, a sweep or a calibration is wrong"
-    )
 
 
 def _asked(temperature: Array, curves: list[Curve]) -> list[tuple[float, float]]:

@@ -16,8 +16,7 @@ import numpy as np
 from viscotack.errors import install_command
 from viscotack.lab.options import TackOptions
 
-from .curve import Curve
-from .file import LabFile, unpacked
+from .file import Curve, LabFile, unpacked
 
 HDF = b"\x89HDF"  # first bytes of an .h5 file
 _ENDINGS = (".jpk-force-map", ".jpk-qi-data", ".h5")
@@ -28,19 +27,8 @@ _LOOKED = 60  # lines searched for the name of the device
 _FIRST = ("Force-Distance Curve", "# afmformats")  # first lines of AFM Workshop and .tab files
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None for other files."""
-    first = file.lines[0] if file.lines else ""
-    known = PurePath(file.path).suffix.casefold() in _ENDINGS or first.startswith(_FIRST)
-    return "afmformats" if known or _is_chiaro(file) else None
-
-
-def _is_chiaro(file: LabFile) -> bool:
-    return any("Device:" in text and "Chiaro" in text for text in file.lines[:_LOOKED])
-
-
-def curves(file: LabFile, given: TackOptions) -> list[Curve]:
-    """Return every curve of a file.
+def curves(file: LabFile, given: TackOptions) -> list[Curve] | None:
+    """Return every curve of a file; None for other files unless the caller names the format.
 
     Raises
     ------
@@ -48,11 +36,13 @@ def curves(file: LabFile, given: TackOptions) -> list[Curve]:
         If afmformats is not installed or cannot read the file, or a curve has no force, or has no
         time while no nominal speed was given.
     """
+    first = file.lines[0] if file.lines else ""
+    known = PurePath(file.path).suffix.casefold() in _ENDINGS or first.startswith(_FIRST)
+    chiaro = any("Device:" in text and "Chiaro" in text for text in file.lines[:_LOOKED])
+    if not (known or chiaro or given.format):
+        return None
     if not file.path.casefold().endswith(_ALLOWED):
-        raise file.error(
-            f"afmformats is used only for files that end with {', '.join(_ALLOWED)}; "
-            "leave out --format"
-        )
+        raise file.error(f"afmformats reads only files that end with {', '.join(_ALLOWED)}")
     try:
         library = import_module("afmformats")
     except ImportError:
@@ -74,7 +64,6 @@ def curves(file: LabFile, given: TackOptions) -> list[Curve]:
         cure = " (--sensitivity, --spring-constant)" if "specify" in str(error) else ""
         raise file.error(f"afmformats cannot read it: {error}{cure}") from None
     # what Chiaro exports as measured is the indentation, zero before contact
-    chiaro = _is_chiaro(file)
     answer = []
     for curve in found:
         measured = not chiaro and "height (measured)" in curve.columns

@@ -5,14 +5,15 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.arrays import KINDS
 from viscotack.lab.options import FileOptions, Options
+from viscotack.lab.sweeps import KINDS
 
 from .file import LabFile
 from .headings import (
@@ -28,6 +29,7 @@ from .headings import (
     kind_of_geometry,
     nearness_to_sample,
     no_unit,
+    plain,
     radians_per_second,
     recognise,
     same_unit,
@@ -37,14 +39,16 @@ from .headings import (
 from .numbers import (
     CLOCK,
     decimal_mark,
+    doubtful_temperature,
     half_digit,
+    is_number,
     number,
     plain_numbers,
     seconds,
     without_fillers,
 )
 from .tables import Table
-from .unit_checks import doubtful_temperature
+from .words import WORDS
 
 # the option that sets the unit of a column without one, and examples of units
 _FLAGS = {
@@ -61,6 +65,14 @@ _SAME_TEMPERATURE, _SAME = 0.5, 0.01
 _LARGEST_POWER = 100.0  # of a logarithm
 _HELD = 0.05  # relative to the level of a step; instruments hold it better than this
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
+# headings that tell one sample, or one place or state of a sample, from another
+_SAMPLE, _PLACE = (
+    re.compile(
+        f"({'|'.join(WORDS['apart'][what].split())})({'|'.join(WORDS['apart']['ending'].split())})?"
+    )
+    for what in ("sample", "place")
+)
+_STATUS = re.compile("status|statut|comment|kommentar|remark|bemerkung|date|datum|time$|zeit$")
 # index and meaning of a column
 _Place = tuple[int, Heading]
 
@@ -83,8 +95,11 @@ class Columns:
     def __init__(self, file: LabFile, table: Table, options: FileOptions, words: Vocabulary):
         self.file, self.table, self.options, self.words = file, table, options, words
         self.notes: list[str] = list(table.notes)
-        self._found = {name: [at] for name, at in self._chosen_by_caller().items()}
-        chosen = {index for ((index, _),) in self._found.values()}
+        said = self._chosen_by_caller()
+        # columns chosen by the caller that the table lacks
+        self.lost = {one.name for what, one in options.chosen.items() if what not in said}
+        self._found = {name: [at] for name, at in said.items()}
+        chosen = {index for index, _ in said.values()}
         for index, text in enumerate(table.headings):
             heading = words.recognise(text, table.units[index])
             if heading is None or heading.quantity in options.chosen:
@@ -99,7 +114,7 @@ class Columns:
                 self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
         # of each row: what was measured, such as temperature and frequency; set by the reader
-        self.states: Sequence[tuple[float, ...]] = ()
+        self.states: Sequence[Any] = ()
         self._chosen: dict[str, _Place] = {}
 
     def _may_be(self, heading: Heading) -> bool:
@@ -134,12 +149,6 @@ class Columns:
         return tuple(self._found)
 
     @property
-    def names(self) -> set[str]:
-        """Columns chosen by the caller that the table has."""
-        found = self._chosen_by_caller()
-        return {column.name for what, column in self.options.chosen.items() if what in found}
-
-    @property
     def columns_in_use(self) -> set[int]:
         """Indices of the columns with a meaning."""
         return {index for columns in self._found.values() for index, _ in columns}
@@ -147,11 +156,10 @@ class Columns:
     def __contains__(self, quantity: str) -> bool:
         return quantity in self._found
 
-    def error(self, what: str, row: int | None = None) -> InputError:
+    def error(self, what: str, row: SupportsIndex | None = None) -> InputError:
         """Return an error that names the line of a row, by default of the first row."""
         rows = self.table.rows
-        line = rows[row][0] if row is not None else rows[0][0] if rows else None
-        return self.file.error(what, line)
+        return self.file.error(what, rows[0 if row is None else row][0] if rows else None)
 
     def name(self, quantity: str) -> str:
         """Return the heading of a quantity as written in the file."""
@@ -166,9 +174,7 @@ class Columns:
         if heading.base is not None:
             self.notes.append(f'"{self.name(quantity)}": the logarithm is undone')
             for row in np.flatnonzero(np.abs(values) > _LARGEST_POWER):
-                raise self.error(
-                    f'{values[row]:g} in "{self.name(quantity)}" is no logarithm', int(row)
-                )
+                raise self.error(f'{values[row]:g} in "{self.name(quantity)}" is no logarithm', row)
             values = heading.base**values
         if needed:
             self.keep &= ~np.isnan(values)
@@ -201,8 +207,7 @@ class Columns:
 
     def _is_clock(self, index: int) -> bool:
         """Return whether a column has clock times: hh:mm:ss, or mm:ss where its unit says so."""
-        cells = (cells[index].strip() for _, cells in self.table.rows)
-        first = next(filter(None, cells), "")
+        first = next(filter(None, (row[index].strip() for _, row in self.table.rows)), "")
         unit = unit_within(self.table.headings[index]) or self.table.units[index]
         return bool(CLOCK.fullmatch(first)) or (":" in first and is_clock_unit(unit))
 
@@ -284,7 +289,7 @@ class Columns:
             for name in targeted:
                 if not same_unit(self._unit(name), unit):
                     raise self.error(
-                        f'the file states {bare(self._unit(name))} for "{self.name(name)}", but '
+                        f'"{self.name(name)}" is in {bare(self._unit(name))}, but '
                         f"{_FLAGS[target].split()[0]} is {unit}"
                     )
 
@@ -304,12 +309,9 @@ class Columns:
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
         unit = self._unit("temperature")
         unit = (self.options.temperature_unit or "") if no_unit(unit) else unit
-        if no_unit(unit):
-            raise self.error(
-                f'column "{self.name("temperature")}": no unit; set {_FLAGS["K"]}, or write it '
-                "into the file"
-            )
         try:
+            if no_unit(unit):
+                raise InputError(f"no unit; set {_FLAGS['K']}")
             factor, offset = kelvin(unit)
         except ValueError as error:
             raise self.located("temperature", error) from None
@@ -358,8 +360,7 @@ class Columns:
             apart = self._apart(quantity, first, other)
             if len(kinds) > 1:
                 raise self.error(
-                    f'two columns of one quantity: "{names[0]}" and "{names[1]}"; set --kind E or '
-                    "--kind G"
+                    f'"{names[0]}" and "{names[1]}" are one quantity; set --kind E or --kind G'
                 )
             if not np.any(apart > 1):
                 self.notes.append(f'two equal columns; "{names[0]}" is used')
@@ -454,32 +455,28 @@ class MaterialColumns(Columns):
         names = [name for name in ("angular_frequency", "frequency") if name in self]
         if len(names) == 2 and self.lacking("frequency"):
             names.pop()  # redundant, and its unit is ambiguous
-        found = {name: self._angular(name) for name in names}
-        if len(found) == 2:
-            both = found["angular_frequency"], found["frequency"]
+        omega, *others = map(self._angular, names)
+        for other in others:
             with np.errstate(divide="ignore", invalid="ignore"):
                 # half a digit of each, in rad/s
                 digits = [
-                    self.resolution(name) * np.abs(found[name] / self.numbers(name))
-                    for name in names
+                    self.resolution(name) * np.abs(values / self.numbers(name))
+                    for name, values in zip(names, (omega, other), strict=True)
                 ]
-            apart = np.abs(both[0] - both[1])
-            for row in np.flatnonzero(apart > 0.01 * np.abs(both[0]) + digits[0] + digits[1]):
+            own, alien = (f'"{self.name(name)}"' for name in names)
+            apart, near = np.abs(omega - other), 0.01 * np.abs(omega)
+            for row in np.flatnonzero(apart > near + digits[0] + digits[1]):
                 raise self.error(
-                    f'"{self.name("angular_frequency")}" is {both[0][row]:g} rad/s but '
-                    f'"{self.name("frequency")}" gives {both[1][row]:g} rad/s',
-                    int(row),
+                    f"{own} is {omega[row]:g} rad/s but {alien} gives {other[row]:g} rad/s", row
                 )
-            if np.any(apart > 0.01 * np.abs(both[0])):
-                coarse = int(np.nanmedian(digits[0]) < np.nanmedian(digits[1]))
-                found.pop(names[coarse])
+            if np.any(apart > near):
+                if not np.nanmedian(digits[0]) < np.nanmedian(digits[1]):
+                    omega, own, alien = other, alien, own
                 self.notes.append(
-                    f'"{self.name(names[1 - coarse])}" is used; it agrees with '
-                    f'"{self.name(names[coarse])}" within the digits written'
+                    f"{own} is used; it agrees with {alien} within the digits written"
                 )
-        omega = next(iter(found.values()))
         for row in np.flatnonzero(omega <= 0):
-            raise self.error(f"a frequency must be positive, got {omega[row]:g} rad/s", int(row))
+            raise self.error(f"a frequency must be positive, got {omega[row]:g} rad/s", row)
         return omega
 
     def _angular(self, name: str) -> Array:
@@ -489,17 +486,56 @@ class MaterialColumns(Columns):
             self.notes.append(f'"{self.name(name)}" has no unit; rad/s assumed')
             return self.numbers(name)
         try:
-            if said is None:
-                factor = radians_per_second(unit, angular=angular)
-            else:
-                factor = own = radians_per_second(said, angular="rad" in said)
-                if not no_unit(unit):
-                    with suppress(ValueError):  # an ambiguous unit is decided by the caller
-                        own = radians_per_second(unit, angular=angular)
+            factor = radians_per_second(said or unit, angular="rad" in said if said else angular)
+            if said and not no_unit(unit):
+                own = factor
+                with suppress(ValueError):  # an ambiguous unit is decided by the caller
+                    own = radians_per_second(unit, angular=angular)
                 if not math.isclose(own, factor):
-                    raise InputError(
-                        f"the file states {bare(unit)}, but --frequency-unit is {said}"
-                    )
+                    raise InputError(f"the unit is {bare(unit)}, but --frequency-unit is {said}")
         except ValueError as error:
             raise self.located(name, error) from None
         return self.numbers(name) * factor
+
+
+def refuse_pooled(read: Sequence[Columns]) -> None:
+    """Refuse tables with a column that tells samples, positions or states apart.
+
+    Raises
+    ------
+    ValueError
+        If a column that names a sample or a recipe differs, or any other one that is text, or names
+        a position, segment or state, differs between rows of one state.
+    """
+    columns: dict[str, list[tuple[str, Any]]] = {}
+    for one in read:
+        table, known = one.table, one.columns_in_use
+        for index, heading in enumerate(table.headings):
+            if heading and index not in known and no_unit(table.units[index]):
+                rows = zip(table.rows, one.states, strict=True)
+                cells = [(row[index].strip(), state) for (_, row), state in rows]
+                columns.setdefault(heading, []).extend(cells)
+    for heading, cells in columns.items():
+        values = dict.fromkeys(cell for cell, _ in cells if cell)
+        text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
+        sample, place = _SAMPLE.fullmatch(plain(heading)), _PLACE.fullmatch(plain(heading))
+        # a number of its own in each row counts the points
+        counts = len(values) == len(cells) and not text
+        if (
+            len(values) < 2
+            or counts
+            or not (text or sample or place)
+            or _STATUS.search(plain(heading))
+        ):
+            continue
+        by_state: dict[Any, set[str]] = {}
+        for cell, state in cells:
+            if cell:
+                by_state.setdefault(state, set()).add(cell)
+        if sample or any(len(each) > 1 for each in by_state.values()):
+            first = next(iter(values))
+            raise read[0].file.error(
+                f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
+                f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
+                f'choose, for example: --where "{heading}={first}"'
+            )

@@ -3,14 +3,17 @@
 import hashlib
 import io
 import re
-import shlex
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from os import PathLike, fspath
+from typing import Any, NamedTuple, TypeVar
 from zipfile import ZipFile
 
+import numpy as np
+
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.files.bounded import check_unpacked, read_bytes
 
@@ -71,11 +74,6 @@ class LabFile:
         place = "" if line is None else f", {'row' if rows else 'line'} {line}"
         return InputError(f"{self.path}{place}: {what}")
 
-    def command(self, flags: str) -> str:
-        """Return an example of a command that reads the file with further options."""
-        name = shlex.quote(self.path)
-        return f"for example: viscotack material fit {name} --poisson-ratio 0.5 {flags}"
-
 
 def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     """Read the bytes and lines of a file.
@@ -131,8 +129,7 @@ def _decoded(file: LabFile) -> tuple[str, str]:
         if encoding is None:
             return _by_code_page(content)
         raise file.error(
-            f"the bytes after {error.start} are not {encoding} text; the file is truncated or "
-            "damaged"
+            f"the bytes after {error.start} are not {encoding} text; the file is damaged"
         ) from None
 
 
@@ -171,17 +168,68 @@ def unpacked(file: LabFile) -> dict[str, bytes]:
         ) from None
 
 
-def format_of(
-    file: LabFile,
-    formats: Mapping[str, Callable[[LabFile], str | None]],
-    said: str | None,
-    otherwise: str,
-) -> str:
-    """Return the format given by the caller, or the first whose test recognises the file.
+Found = TypeVar("Found")
 
-    `otherwise` is the format whose reader raises the error for unrecognised files.
+
+def first_fitting(
+    file: LabFile, readers: Mapping[str, Callable[..., Found | None]], said: str | None, *more: Any
+) -> tuple[str, Found] | None:
+    """Return the format given by the caller, or the first that fits, and what its reader returns.
+
+    A reader returns None for a file of another layout.
     """
-    if said is not None and said not in formats:
-        raise InputError(f"--format must be one of {', '.join(formats)}, got {said!r}")
-    found = (recognised(file) for recognised in dict.fromkeys(formats.values()))
-    return said or next(filter(None, found), otherwise)
+    for name, reader in readers.items():
+        if said in (None, name) and (found := reader(file, *more)) is not None:
+            return name, found
+    if said is not None:
+        raise file.error(f"the file does not have the format {said}; leave out --format")
+    return None
+
+
+# ---- force curves of microscopes, and numbers of their headers -----------------------------------
+
+Words = Mapping[str, str]
+MOST_POINTS = 5_000_000
+
+
+class Curve(NamedTuple):
+    """Numbers of a force curve in SI, as the instrument stored them.
+
+    `into` is 1 if a larger position is deeper in the sample, -1 if it is further away, 0 if
+    unknown; `stiffness` is that of the cantilever whose bending the position contains [N/m], or 0.
+    """
+
+    time: Array
+    force: Array
+    position: Array
+    into: int = 0
+    stiffness: float = 0.0
+    notes: tuple[str, ...] = ()
+
+
+def whole(file: LabFile, words: Words, key: str, section: str = "") -> int:
+    """Return an integer of a header; raise an error if it is missing or malformed."""
+    value = words.get(key, "")
+    if re.fullmatch(r"[0-9]{1,8}", value) is None:
+        raise file.error(f"{section}{key} must be an integer, got {value[:20]!r}")
+    return int(value)
+
+
+def real(file: LabFile, words: Words, key: str, section: str = "") -> float:
+    """Return a finite number of a header; raise an error if it is missing or malformed."""
+    value = words.get(key, "")
+    try:
+        number = float(value)
+    except ValueError:
+        number = np.nan
+    if not np.isfinite(number):
+        raise file.error(f"{section}{key} must be a number, got {value[:20]!r}")
+    return number
+
+
+def positive(file: LabFile, words: Words, key: str) -> float:
+    """Return a positive number of a header; raise an error otherwise."""
+    number = real(file, words, key)
+    if number <= 0:
+        raise file.error(f"{key} must be positive, got {number:g}")
+    return number

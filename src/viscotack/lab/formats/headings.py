@@ -6,7 +6,6 @@ second, and tensile (E) and shear (G) moduli, are never confused silently.
 
 import math
 import re
-import shlex
 import unicodedata
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -477,17 +476,8 @@ class Vocabulary(NamedTuple):
     recognise: Callable[[str, str], Heading | None]
     suffice: Callable[[set[str]], bool]
     usual: str
-    command: str
-    columns: tuple[str, str]
+    columns: str
     choose: Callable[[str, int], str]
-
-    def example(self, path: str, row: Sequence[str]) -> str:
-        """Return an example of a command that chooses columns of numbers, for two or more."""
-        columns = self.columns[len(row) > 2]
-        return (
-            f"for example: viscotack {self.command.format(shlex.quote(path))} {columns}, with the "
-            "unit of each in place of UNIT"
-        )
 
     def known(self, row: Sequence[str]) -> set[str]:
         """Return the quantities that a row names."""
@@ -517,23 +507,15 @@ MATERIAL = Vocabulary(
     recognise,
     lambda found: len(found) > 1,
     "\"f, E', E'', T\"",
-    "material fit {} --poisson-ratio 0.5",
-    (
-        '--columns "time=1 [UNIT]; modulus=2 [UNIT]"',
-        '--columns "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
-    ),
+    '--columns "frequency=1 [UNIT]; storage=2 [UNIT]; loss=3 [UNIT]"',
     lambda quantity, number: f'choose one, for example --columns "{quantity}={number}"',
 )
 TACK = Vocabulary(
     recognise_tack,
     lambda found: "force" in found and bool(found & {*POSITIONS, "time"}),
     '"Time [s], Gap [mm], Normal Force [N]"',
-    "test read {}",
-    (
-        "--position-column 1 --length-unit UNIT --force-column 2 --force-unit UNIT",
-        "--time-column 1 --time-unit UNIT --position-column 2 --length-unit UNIT "
-        "--force-column 3 --force-unit UNIT",
-    ),
+    "--time-column 1 --time-unit UNIT --position-column 2 --length-unit UNIT "
+    "--force-column 3 --force-unit UNIT",
     lambda quantity, number: (
         "which of them is that of the sample is unknown"
         if quantity == "temperature"

@@ -11,8 +11,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-from .curve import MOST_POINTS, Curve, positive
-from .file import LabFile
+from .file import MOST_POINTS, Curve, LabFile, positive
 
 START = b"\x05\x00"  # version 5, little-endian
 _HEAD = struct.Struct("<hHiiii4i4iiii")
@@ -22,20 +21,16 @@ _LABEL = 32  # bytes
 _NOTED = re.compile(r"(?:^|[\r\n])(\w+):\s*([0-9.eE+-]+)")
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None for other files."""
-    known = file.content.startswith(START) and not file.lines and len(file.content) > _DATA
-    return "ibw" if known else None
-
-
-def curves(file: LabFile) -> list[Curve]:
-    """Return the force curve of a wave.
+def curves(file: LabFile, *_: object) -> list[Curve] | None:
+    """Return the force curve of a wave; None for other files.
 
     Raises
     ------
     ValueError
         If the wave is truncated, of another kind, or not calibrated.
     """
+    if not file.content.startswith(START) or file.lines or len(file.content) <= _DATA:
+        return None
     columns, note = _wave(file)
     for needed in ("Defl", "ZSnsr"):
         if needed not in columns:
@@ -60,8 +55,6 @@ def curves(file: LabFile) -> list[Curve]:
 def _wave(file: LabFile) -> tuple[dict[str, Array], str]:
     """Return the named columns of a wave, and its note."""
     content = file.content
-    if len(content) <= _DATA or not content.startswith(START):
-        raise file.error("expected an Igor binary wave of version 5")
     head = _HEAD.unpack_from(content)
     size, formula, note, units, dimension_units = head[2], head[3], head[4], head[5], head[6:10]
     labels = head[10:14]

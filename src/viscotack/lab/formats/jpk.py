@@ -12,8 +12,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-from .curve import Curve, Words, positive, real, whole
-from .file import LabFile, unpacked
+from .file import Curve, LabFile, Words, positive, real, unpacked, whole
 
 _INTEGERS = {
     "signedshort": ">i2",
@@ -28,20 +27,16 @@ HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "hei
 _SEGMENT = re.compile(r"segments/(\d{1,4})/segment-header\.properties")
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None for other files."""
-    packed = file.content.startswith(b"PK\x03\x04") and b"segments/0" in file.content
-    return "jpk-force" if packed else None
-
-
-def curves(file: LabFile) -> list[Curve]:
-    """Return the consecutive segments of a force curve as one curve.
+def curves(file: LabFile, *_: object) -> list[Curve] | None:
+    """Return the consecutive segments of a force curve as one curve; None for other files.
 
     Raises
     ------
     ValueError
         If the archive is damaged, or deflections are not calibrated in newtons.
     """
+    if not (file.content.startswith(b"PK\x03\x04") and b"segments/0" in file.content):
+        return None
     files = unpacked(file)
     numbers = sorted(int(match[1]) for part in files if (match := _SEGMENT.fullmatch(part)))
     if not numbers:
@@ -136,8 +131,8 @@ class _Segment:
             key = f"conversion-set.conversion.{slot}."
             if words.get(f"{key}defined") != "true" or key in steps:
                 raise file.error(
-                    f"{channel} is not calibrated in {unit} (no conversion {slot!r}); calibrate "
-                    "the cantilever and save the curve again"
+                    f"{channel} is not calibrated in {unit}; calibrate the cantilever and save it "
+                    "again"
                 )
             steps.insert(0, key)
             slot = words.get(f"{key}base-calibration-slot", "")

@@ -12,8 +12,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .curve import Curve, positive
-from .file import LabFile
+from .file import Curve, LabFile, positive
 from .jpk import HEIGHTS
 from .numbers import number
 
@@ -43,20 +42,16 @@ class _Segment:
         return np.array([row[at] for row in self.rows])
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None for other files."""
-    known = any(text.startswith("# columns:") for text in file.lines[:_LOOKED])
-    return "jpk-text" if known else None
-
-
-def curves(file: LabFile) -> list[Curve]:
-    """Return the consecutive segments of a force curve as one curve.
+def curves(file: LabFile, *_: object) -> list[Curve] | None:
+    """Return the consecutive segments of a force curve as one curve; None for other files.
 
     Raises
     ------
     ValueError
         If a row is damaged, a column is missing, or a force is not in newtons.
     """
+    if not any(text.startswith("# columns:") for text in file.lines[:_LOOKED]):
+        return None
     segments = [segment for segment in _segments(file) if segment.rows]
     if not segments:
         raise file.error("no segment has points below '# columns:' and '# units:'")
@@ -64,8 +59,7 @@ def curves(file: LabFile) -> list[Curve]:
     used = next((each for each in (*HEIGHTS, *_TIPS) if each in shared), None)
     if used is None or "vDeflection" not in shared:
         raise file.error(
-            "each segment must have vDeflection and a height or position of the tip; the columns "
-            f"are {', '.join(segments[0].names)}"
+            f"no vDeflection and height in {', '.join(segments[0].names)} of each segment"
         )
     if not shared & {"seriesTime", "time"}:
         raise file.error("no column seriesTime or time; export one of them")
@@ -98,11 +92,7 @@ def _segments(file: LabFile) -> Iterator[_Segment]:
         elif text.strip():
             cells = text.split()
             if len(cells) != len(segment.names):
-                raise file.error(
-                    f"{len(cells)} numbers under {len(segment.names)} columns; the file is damaged "
-                    "or truncated",
-                    line,
-                )
+                raise file.error(f"{len(cells)} numbers under {len(segment.names)} columns", line)
             try:
                 segment.rows.append([number(cell, ".") for cell in cells])
             except InputError as error:

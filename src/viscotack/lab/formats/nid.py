@@ -11,8 +11,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-from .curve import MOST_POINTS, Curve, Words, real, whole
-from .file import LabFile
+from .file import MOST_POINTS, Curve, LabFile, Words, real, whole
 
 MARK = b"[DataSet]"
 _END = b"#!"
@@ -23,29 +22,26 @@ _TIME = re.compile(r"\s*([0-9.]+)\s*(s|ms|us)\s*")
 _PARTS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None for other files."""
-    return "nid" if file.content.startswith(MARK) else None
-
-
-def curves(file: LabFile) -> list[Curve]:
-    """Return the forward, pause and backward curves as one curve.
+def curves(file: LabFile, *_: object) -> list[Curve] | None:
+    """Return the forward, pause and backward curves as one curve; None for other files.
 
     Raises
     ------
     ValueError
         If the header is incomplete, a curve is truncated, or there is no force.
     """
+    if not file.content.startswith(MARK):
+        return None
     head, end, content = file.content.partition(_END)
-    if not head.startswith(MARK) or not end:
+    if not end:
         raise file.error("the header has no end; the file is truncated or not a .nid file")
     sections: dict[str, dict[str, str]] = {}
     current: dict[str, str] = {}
-    for line in head.decode("latin-1").splitlines():
-        if line.startswith("[") and line.rstrip().endswith("]"):
-            current = sections.setdefault(line.strip()[1:-1], {})
-        elif "=" in line:
-            key, _, value = line.partition("=")
+    for text in head.decode("latin-1").splitlines():
+        if text.startswith("[") and text.rstrip().endswith("]"):
+            current = sections.setdefault(text.strip()[1:-1], {})
+        elif "=" in text:
+            key, value = text.split("=", 1)
             current[key.strip()] = value.strip()
     channels = _channels(file, sections, content)
     step, note = _step(file, sections)

@@ -13,9 +13,8 @@ from viscotack.errors import InputError
 
 from .file import LabFile
 from .headings import MATERIAL, bare, recognise
-from .numbers import is_number, number
+from .numbers import doubtful_temperature, is_number, number
 from .tables import Table, tabulated
-from .unit_checks import doubtful_temperature
 
 _PARAMETERS = re.compile(r"\s*([\w()\[\],]+\s*=[^;=]*;\s*)+([\w()\[\],]+\s*=[^;=]*)?;?\s*")
 _ONE = re.compile(r"\s*\w+\s*=[^;=\s]*\s*;?\s*")
@@ -46,16 +45,8 @@ _OTHERS = {
 _OFF = 5.0  # K largest difference between the temperatures of the file and of its points
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if neither extension nor first line matches it."""
-    ends = PurePath(file.path).suffix.casefold()
-    first = file.lines[0] if file.lines else ""
-    alone = ends in _COLUMNS and _ONE.fullmatch(first)
-    return "reptate" if ends in _OTHERS or _PARAMETERS.fullmatch(first) or alone else None
-
-
-def tables(file: LabFile, *_: object) -> list[Table]:
-    """Return the table of a file.
+def tables(file: LabFile, *_: object) -> list[Table] | None:
+    """Return the table of a file; None if neither extension nor first line matches.
 
     Raises
     ------
@@ -64,11 +55,13 @@ def tables(file: LabFile, *_: object) -> list[Table]:
         temperatures contradict those of the format.
     """
     ends = PurePath(file.path).suffix.casefold()
+    first = file.lines[0] if file.lines else ""
+    alone = ends in _COLUMNS and _ONE.fullmatch(first)
+    if not (ends in _OTHERS or _PARAMETERS.fullmatch(first) or alone):
+        return None
     if what := _OTHERS.get(ends):
         raise file.error(f"a {ends} file of RepTate contains {what}, not a modulus")
-    if name(file) is None:
-        raise file.error("expected parameters such as 'Mw=94.9;T=0;chem=PI;'", 1)
-    pairs = (part.partition("=") for part in file.lines[0].split(";"))
+    pairs = (part.partition("=") for part in first.split(";"))
     parameters = {key.strip(): value.strip() for key, _, value in pairs}
     rows = [
         (line, text.split())
@@ -81,10 +74,19 @@ def tables(file: LabFile, *_: object) -> list[Table]:
     if rows and not is_number(rows[0][1][0]):
         raise file.error("expected a row of headings and a row of units, then numbers", rows[0][0])
     headings, units = [*above, [], []][:2]
-    columns = _COLUMNS.get(ends) or _by_headings(file, headings)
+    quantities = list(map(_quantity, headings))
+    columns = _COLUMNS.get(ends) or next(
+        (c for c in _COLUMNS.values() if [_quantity(x) for x, _ in c] == quantities[: len(c)]), None
+    )
+    if columns is None:
+        raise file.error(
+            "the extension defines the columns of RepTate: .tts or .osc (omega, G', G''), .gt "
+            "(t, G), .creep (t, strain), .ttsf (T, aT, bT)",
+            1,
+        )
     count, whole = len(columns), len(headings) or len(columns)
     for i, (expected, unit) in enumerate(columns[: len(headings)]):
-        given, wanted = _quantity(headings[i]), _quantity(expected)
+        given, wanted = quantities[i], _quantity(expected)
         # other words ("sxy", "gamma") are not checked; a modulus is a stress at unit strain
         if given not in (None, wanted) and (given, wanted) != ("modulus", "stress"):
             raise file.error(f"column {i + 1} has the heading {headings[i]!r}; expected {expected}")
@@ -97,19 +99,17 @@ def tables(file: LabFile, *_: object) -> list[Table]:
         kelvin = _number(file, parameters, "T") + 273.15
         if kelvin <= 0:
             raise file.error(f"expected a temperature in C after 'T=', got {parameters['T']}", 1)
-    tested = len(headings) > count and _quantity(headings[count]) == "temperature"
+    tested = quantities[count : count + 1] == ["temperature"]
     for line, cells in rows:
         if len(cells) < min(whole, count + 1):
             raise file.error(
-                f"{len(cells)} numbers under {whole} headings; a number is missing, or "
-                "the file is truncated",
+                f"{len(cells)} numbers under {whole} headings; the file may be truncated",
                 line,
             )
         own = cells[count].replace(",", ".") if tested and len(cells) > count else ""
         if kelvin is not None and is_number(own) and abs(float(own) + 273.15 - kelvin) > _OFF:
             raise file.error(
-                f'"{headings[count]}" is {own} but the file states T={parameters["T"]} C: a '
-                "number is missing, or the file belongs to another test",
+                f'"{headings[count]}" is {own}, but the file states T={parameters["T"]} C',
                 line,
             )
     levels = {}
@@ -124,22 +124,9 @@ def tables(file: LabFile, *_: object) -> list[Table]:
     if kelvin is not None:
         notes += tuple(doubtful_temperature(np.array([kelvin]), False))
     names, fixed = zip(*columns, strict=True)
-    first = [(line, cells[:count]) for line, cells in rows]
+    used = [(line, cells[:count]) for line, cells in rows]
     stated = {"temperature": kelvin, "notes": notes, "levels": levels}
-    return [tabulated(file, MATERIAL, names, fixed, first, **stated)]
-
-
-def _by_headings(file: LabFile, headings: list[str]) -> tuple[tuple[str, str], ...]:
-    """Identify the columns of a file with another extension from its headings."""
-    quantities = list(map(_quantity, headings))
-    for columns in _COLUMNS.values():
-        if [_quantity(name) for name, _ in columns] == quantities[: len(columns)]:
-            return columns
-    raise file.error(
-        "the file looks like a RepTate file; name it .tts or .osc (omega, G', G''), .gt (t, G), "
-        ".creep (t, strain) or .ttsf (T, aT, bT) to define its columns",
-        1,
-    )
+    return [tabulated(file, MATERIAL, names, fixed, used, **stated)]
 
 
 def _quantity(heading: str) -> str | None:

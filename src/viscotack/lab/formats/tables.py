@@ -22,7 +22,6 @@ from .headings import (
     in_kelvin,
     is_unit,
     no_unit,
-    plain,
     recognise,
     unquoted,
 )
@@ -36,14 +35,6 @@ _OF_TEST = set(WORDS["temperatures"]["test"].split())
 _ABOVE = 4  # rows of words above the numbers
 _ONE = ("1", "1.0")
 _SEGMENT = re.compile(r"[0-9]+\|[0-9]+")  # segment and point of HAAKE RheoWin
-# headings that tell one sample, or one place or state of a sample, from another
-_SAMPLE, _PLACE = (
-    re.compile(
-        f"({'|'.join(WORDS['apart'][what].split())})({'|'.join(WORDS['apart']['ending'].split())})?"
-    )
-    for what in ("sample", "place")
-)
-_STATUS = re.compile("status|statut|comment|kommentar|remark|bemerkung|date|datum|time$|zeit$")
 _COUNTERS = 3  # columns, from the left, that may number the points
 
 Row = tuple[int, Sequence[str]]
@@ -117,8 +108,7 @@ def tabulated(
         cells = tuple(map(str.strip, cells))
         if len(cells) < width or (any(cells[width:]) and not file.is_workbook):
             raise file.error(
-                f"{len(cells)} cells under {width} headings; a cell is missing or extra, "
-                "or the file is truncated",
+                f"{len(cells)} cells under {width} headings; the file may be truncated",
                 line,
             )
         if any(cells[:width]) or not file.is_workbook:
@@ -158,12 +148,9 @@ def under(rows: Sequence[Row]) -> tuple[Sequence[str] | None, list[Row]]:
     above = [row for _, row in filled[: min(next(number, _ABOVE), _ABOVE)]]
     if not above:
         return None, filled
-    at = max(range(len(above)), key=lambda i: _units_in(above[i]))
+    units = [sum(not no_unit(cell) and is_unit(cell) for cell in row) for row in above]
+    at = units.index(max(units))
     return above[at], filled[at + 1 :]
-
-
-def _units_in(row: Sequence[str]) -> int:
-    return sum(not no_unit(cell) and is_unit(cell) for cell in row)
 
 
 def pieces(table: Table, words: Vocabulary) -> list[Table]:
@@ -188,11 +175,21 @@ def _side_by_side(table: Table, words: Vocabulary) -> list[Table]:
         return [table]
     parts = []
     for a, b in blocks:
-        rows = tuple((line, row[a:b]) for line, row in table.rows if any(row[a:b]))
         note = f"the columns {a + 1} to {b} are one of {len(blocks)} tables side by side"
-        cut = {"headings": table.headings[a:b], "units": table.units[a:b], "rows": rows}
-        parts.append(replace(table, notes=(*table.notes, note), **cut))
+        parts.append(of_columns(table, range(a, b), range(a, b), notes=(*table.notes, note)))
     return parts
+
+
+def of_columns(table: Table, columns: Sequence[int], own: Sequence[int], **changes: Any) -> Table:
+    """Return some columns of a table, in the rows that have a cell in its own ones."""
+    rows = ((line, row) for line, row in table.rows if any(row[i] for i in own))
+    return replace(
+        table,
+        headings=tuple(table.headings[i] for i in columns),
+        units=tuple(table.units[i] for i in columns),
+        rows=tuple((line, tuple(row[i] for i in columns)) for line, row in rows),
+        **changes,
+    )
 
 
 def _stacked(table: Table, words: Vocabulary) -> list[Table]:
@@ -248,61 +245,6 @@ def _is(cell: str, value: str) -> bool:
     if is_number(cell) and is_number(value):
         return float(cell.replace(",", ".")) == float(value.replace(",", "."))
     return unquoted(cell).casefold() == unquoted(value).casefold()
-
-
-def refuse_pooled(
-    file: LabFile,
-    tables: Sequence[Table],
-    used: Sequence[set[int]],
-    states: Sequence[Sequence[Any]],
-) -> None:
-    """Refuse tables with a column that tells samples, positions or states apart.
-
-    Parameters
-    ----------
-    tables, used
-        The tables that are read, each with the indices of the columns that have a meaning.
-    states : sequence of sequence
-        For each table and row, the state that was measured, such as temperature and frequency.
-
-    Raises
-    ------
-    ValueError
-        If a column that names a sample or a recipe differs, or any other one that is text, or names
-        a position, segment or state, differs between rows of one state.
-    """
-    columns: dict[str, list[tuple[str, Any]]] = {}
-    for table, known, own in zip(tables, used, states, strict=True):
-        for index, heading in enumerate(table.headings):
-            if heading and index not in known and no_unit(table.units[index]):
-                cells = [
-                    (row[index].strip(), at) for (_, row), at in zip(table.rows, own, strict=True)
-                ]
-                columns.setdefault(heading, []).extend(cells)
-    for heading, cells in columns.items():
-        values = dict.fromkeys(cell for cell, _ in cells if cell)
-        text = not any(is_number(cell) or cell[:1] in "-*" or ":" in cell for cell in values)
-        sample, place = _SAMPLE.fullmatch(plain(heading)), _PLACE.fullmatch(plain(heading))
-        # a number of its own in each row counts the points
-        counts = len(values) == len(cells) and not text
-        if (
-            len(values) < 2
-            or counts
-            or not (text or sample or place)
-            or _STATUS.search(plain(heading))
-        ):
-            continue
-        by_state: dict[Any, set[str]] = {}
-        for cell, state in cells:
-            if cell:
-                by_state.setdefault(state, set()).add(cell)
-        if sample or any(len(each) > 1 for each in by_state.values()):
-            first = next(iter(values))
-            raise file.error(
-                f'the column "{heading}" differs between the rows ({", ".join(list(values)[:5])}'
-                f"{', ...' if len(values) > 5 else ''}), which are no test of one material; "
-                f'choose, for example: --where "{heading}={first}"'
-            )
 
 
 def without_waves(table: Table) -> Table:

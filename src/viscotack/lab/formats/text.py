@@ -22,6 +22,7 @@ import csv
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import accumulate
 
 from viscotack.errors import InputError
 
@@ -33,7 +34,7 @@ from .tables import (
     Table,
     holds,
     numbered,
-    numeric,
+    of_columns,
     stated_temperature,
     tabulated,
     under,
@@ -90,12 +91,11 @@ def geometry(rows: Sequence[Sequence[str]]) -> str:
 # ---- plain tables ------------------------------------------------------------------------------
 
 
-def is_plain(file: LabFile) -> str | None:
-    """Return the name of the format, or None if no line looks like headings of a material test."""
-    found = _headings(file, MATERIAL)
-    if found is None:
-        return None
-    return "pyvisco" if _PYVISCO & {heading.strip() for heading in found[2]} else "csv"
+def pyvisco(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table] | None:
+    """Return the tables of a file with the headings of pyvisco; None for other files."""
+    found = _headings(file, words)
+    known = found and _PYVISCO & {heading.strip() for heading in found[2]}
+    return plain(file, words, names) if known else None
 
 
 def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table]:
@@ -155,14 +155,10 @@ def _no_headings(file: LabFile, words: Vocabulary) -> InputError:
     first = next((line.strip() for line in file.lines if line.strip()), "")
     if words.recognise(first.lstrip("#% "), "") is not None:
         return file.error(f"{first!r} is the only column; a test needs two or more in one file")
-    line, _, row = _first_line(file, words, numeric, sure=True) or (0, None, [])
-    choose = ""
-    if len(row) > 1:
-        example = words.example(file.path, row)
-        choose = f"; {len(row)} columns of numbers begin at line {line}: {example}"
     return file.error(
         f"none of the first {LOOKED} lines looks like headings; expected names such as "
-        f"{words.usual} with units beside or below them; the file begins {first[:60]!r}{choose}"
+        f"{words.usual} with units beside or below them; the file begins {first[:60]!r}; choose "
+        f"columns of numbers alone by their number, such as {words.columns}"
     )
 
 
@@ -219,16 +215,11 @@ def upright(file: LabFile, words: Vocabulary) -> LabFile:
 # ---- blocks with a count of points: TRIOS, RheoCompass -----------------------------------------
 
 
-def is_trios(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file has no step."""
-    return "trios" if _steps(file) else None
-
-
-def trios(file: LabFile, *_: object) -> list[Table]:
-    """Return the table of each step of a TRIOS export that has one."""
+def trios(file: LabFile, *_: object) -> list[Table] | None:
+    """Return the table of each step of a TRIOS export that has one; None for other files."""
     starts = _steps(file)
     if not starts:
-        raise file.error(f"expected a line {_STEP!r} before each table")
+        return None
     separator = "\t" if any("\t" in text for text in file.lines) else ","
     rows: list[Row] = [
         (number, cells(file, text, number, separator) if number > starts[0] else [text])
@@ -254,36 +245,20 @@ def _steps(file: LabFile) -> list[int]:
     return starts
 
 
-def is_rheocompass(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file has no interval."""
-    return None if _interval_separator(file) is None else "rheocompass"
-
-
-def rheocompass(file: LabFile, *_: object) -> list[Table]:
-    """Return the table of each interval of a RheoCompass export."""
-    separator = _interval_separator(file)
-    if separator is None:
-        raise file.error(
-            "expected intervals that begin with 'Interval and data points:', a number and a count"
-        )
-    return intervals(
-        file,
-        [(i, cells(file, text, i, separator)) for i, text in enumerate(file.lines, start=1)],
-    )
+def rheocompass(file: LabFile, *_: object) -> list[Table] | None:
+    """Return the table of each interval of a RheoCompass export; None for other files."""
+    for text in filter(lambda text: ":" in text, file.lines):
+        for separator in ("\t", ";", ","):
+            if separator in text and begins_interval(text.split(separator)):
+                lines = enumerate(file.lines, start=1)
+                return intervals(file, [(i, cells(file, x, i, separator)) for i, x in lines])
+    return None
 
 
 def intervals(file: LabFile, rows: Sequence[Row]) -> list[Table]:
     """Return the table of each interval in the rows of a file or a sheet."""
     starts = [i for i, (_, row) in enumerate(rows) if begins_interval(row)]
     return _blocks(file, rows, starts, [row for _, row in rows[: starts[0]]])
-
-
-def _interval_separator(file: LabFile) -> str | None:
-    for text in filter(lambda text: ":" in text, file.lines):
-        for separator in ("\t", ";", ","):
-            if separator in text and begins_interval(text.split(separator)):
-                return separator
-    return None
 
 
 def begins_interval(row: Sequence[str]) -> bool:
@@ -355,7 +330,7 @@ def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Tab
     found -= len(data) - len(without_waves(table).rows)
     if count not in (None, found):
         raise file.error(
-            f"the block states {count} points but has {found}; the file is truncated or edited",
+            f"the block states {count} points but has {found}; it is truncated or edited",
             line,
         )
     return table
@@ -364,16 +339,11 @@ def _block(file: LabFile, rows: Sequence[Row], shared: dict[str, object]) -> Tab
 # ---- sweeps side by side -----------------------------------------------------------------------
 
 
-def is_wide(file: LabFile) -> str | None:
-    """Return the name of the format, or None if there are no side-by-side sweeps."""
-    return "wide" if _side_by_side(file) is not None else None
-
-
-def wide(file: LabFile, *_: object) -> list[Table]:
+def wide(file: LabFile, *_: object) -> list[Table] | None:
     """Return a table for each temperature; columns without one are common to all sweeps."""
     found = _side_by_side(file)
     if found is None:
-        raise file.error("expected columns of several temperatures side by side, under '20 °C'")
+        return None
     line, separator, headings, labels = found
     units, rows = _below(file, range(line, len(file.lines)), separator)
     whole = tabulated(file, MATERIAL, headings, units, rows)
@@ -381,20 +351,8 @@ def wide(file: LabFile, *_: object) -> list[Table]:
     tables = []
     for label in dict.fromkeys(filter(None, labels)):
         own = [i for i, other in enumerate(labels) if other == label]
-        columns = [*shared, *own]
-        tables.append(
-            Table(
-                tuple(whole.headings[i] for i in columns),
-                tuple(whole.units[i] for i in columns),
-                tuple(
-                    (line, tuple(row[i] for i in columns))
-                    for line, row in whole.rows
-                    if any(row[i] for i in own)
-                ),
-                label=label,
-                notes=(f"the columns under {label!r} are a separate sweep",),
-            )
-        )
+        notes = (f"the columns under {label!r} are a separate sweep",)
+        tables.append(of_columns(whole, [*shared, *own], own, label=label, notes=notes))
     return tables
 
 
@@ -429,11 +387,8 @@ def _within(row: list[str]) -> tuple[list[str], list[str]]:
 
 def _above(row: list[str], labels: list[str]) -> list[str]:
     """Return the label above each column, or above the nearest column to the left."""
-    found, current = [], ""
-    for i in range(len(row)):
-        current = (labels[i] if i < len(labels) else "") or current
-        found.append(current)
-    return found
+    padded = [*labels, *[""] * len(row)][: len(row)]
+    return list(accumulate(padded, lambda left, own: own or left))
 
 
 def _each_has_its_own(headings: list[str], labels: list[str]) -> bool:

@@ -18,19 +18,16 @@ from .tables import Table, tabulated
 _STEPS = ("Results Step Id", "Procedure Step Id")
 
 
-def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the text does not begin like JSON."""
-    return "trios-json" if file.is_record else None
-
-
-def tables(file: LabFile, *_: object) -> list[Table]:
-    """Return the table of each step that has one.
+def tables(file: LabFile, *_: object) -> list[Table] | None:
+    """Return the table of each step that has one; None unless the text begins like JSON.
 
     Raises
     ------
     ValueError
         If the text is not JSON, or contains no table of a TRIOS export.
     """
+    if not file.is_record:
+        return None
     # keep numbers as written, so that damaged ones are detected as in text files
     text = "\n".join(file.lines) + file.rest
     try:
@@ -44,8 +41,7 @@ def tables(file: LabFile, *_: object) -> list[Table]:
         ) from None
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise file.error(
-            f"expected tables of a TRIOS export, Results with ColumnHeaders and Rows; {error!r} is "
-            "missing or has another type"
+            f"expected Results of TRIOS with ColumnHeaders and Rows; see {error!r}"
         ) from None
 
 

@@ -17,7 +17,7 @@ from viscotack.files.bounded import check_unpacked
 from .file import LARGEST_UNPACKED, LabFile
 from .headings import MATERIAL, Vocabulary
 from .numbers import is_number
-from .tables import Table, holds, numbered, numeric, stated_temperature, tabulated, under
+from .tables import Table, holds, numbered, stated_temperature, tabulated, under
 from .text import begins_interval, geometry, intervals
 
 _SHEET = "Exported Data"
@@ -27,16 +27,15 @@ MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
 Cells = list[list[str]]
 
 
-def is_workbook(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file is not a workbook."""
-    if not file.is_workbook:
-        return None
+def eplexor(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table] | None:
+    """Return the tables of a workbook of Eplexor; None for other files."""
     # old workbooks store sheet names as plain bytes, new ones compressed
-    return "eplexor" if _SHEET.encode() in file.content else "workbook"
+    known = file.is_workbook and _SHEET.encode() in file.content
+    return tables(file, words, names) if known else None
 
 
-def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table]:
-    """Return the tables of all sheets, first that of the sheet ``Exported Data``.
+def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table] | None:
+    """Return the tables of all sheets, first that of ``Exported Data``; None for other files.
 
     `names` are the headings or numbers of columns given by the caller.
 
@@ -47,6 +46,8 @@ def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[
     ImportError
         If the library for workbooks is not installed.
     """
+    if not file.is_workbook:
+        return None
     found = sheets(file)
     # a sheet of details states the geometry
     details = geometry([row for rows in found.values() for row in rows[:_LOOKED]])
@@ -55,12 +56,9 @@ def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[
         parts = _of_sheet(file, words, found[title], names)
         tables += [replace(each, sheet=title, words=each.words or details) for each in parts]
     if not tables:
-        numbers = (row for rows in found.values() for row in rows[:_LOOKED] if numeric(row))
-        first = next(numbers, [])
-        choose = f"; choose columns by number, {words.example(file.path, first)}"
         raise file.error(
-            f"no sheet has headings such as {words.usual} in its first {_LOOKED} rows; the "
-            f"sheets are {', '.join(map(repr, found))}{choose * (len(first) > 1)}"
+            f"no sheet has headings such as {words.usual} in its first {_LOOKED} rows; the sheets "
+            f"are {', '.join(map(repr, found))}; choose columns by number, such as {words.columns}"
         )
     return tables
 
@@ -82,12 +80,10 @@ def _of_sheet(file: LabFile, words: Vocabulary, rows: Cells, names: Sequence[str
             return _of_sheet(file, words, rows, ()) if names else []
         return [tabulated(file, words, numbered(rows[first]), None, numbered_rows[first:])]
     stated = stated_temperature(rows[:at])
-
-    def begins_again(row: list[str]) -> bool:
-        return sum(map(bool, row)) > 1 and not any(map(is_number, row)) and words.heads(row)
-
     # further rows of headings begin further tables
-    starts = [at, *(i for i in range(at + 1, len(rows)) if begins_again(rows[i]))]
+    later = [(i, row) for i, row in enumerate(rows) if i > at and sum(map(bool, row)) > 1]
+    starts = [i for i, row in later if not any(map(is_number, row)) and words.heads(row)]
+    starts.insert(0, at)
     found = []
     for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
         block = numbered_rows[start + 1 : end]
@@ -169,7 +165,7 @@ def _check_size(rows: int, columns: int) -> None:
     if rows > MOST_ROWS or columns > MOST_COLUMNS or rows * columns > MOST_CELLS:
         raise InputError(
             f"a sheet has more than {MOST_ROWS:,} rows, {MOST_COLUMNS} columns or {MOST_CELLS:,} "
-            "cells; export the relevant part as CSV"
+            "cells; export the part as CSV"
         )
 
 

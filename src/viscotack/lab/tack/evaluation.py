@@ -105,8 +105,7 @@ def evaluate(
         raise InputError(f"compliance must not be negative, got {compliance!r} m/N")
     if not 0 <= compliance_uncertainty < np.inf:
         raise InputError(
-            "the uncertainty of the compliance must not be negative, got "
-            f"{compliance_uncertainty!r} m/N"
+            f"compliance_uncertainty must not be negative, got {compliance_uncertainty!r} m/N"
         )
     try:
         if len(record) < _POINTS:
@@ -116,67 +115,49 @@ def evaluate(
         drive = depth_of(record, into)
         found = segments(record.time, drive)
         sign = force_sign(without_spikes(record.force, point_noise(record.force)), found)
+        if compression and compression != sign:
+            raise InputError("the retraction shows the other sign; correct --compression")
     except InputError as error:
-        raise _named(record, error) from None
-    if compression and compression != sign:
-        raise _named(
-            record,
-            InputError(
-                f"compression was given as {'positive' if compression > 0 else 'negative'}, but "
-                "the retraction shows the opposite sign; correct --compression"
-            ),
-        )
+        path = record.source.path
+        raise InputError(f"{path}: {error}" if path else str(error)) from None
     machine = record.compliance if compliance is None else compliance
     cycles, refused = [], []
     for number, part in enumerate(found, start=1):
         try:
-            cycles.append(
-                _cycle(
-                    record,
-                    part,
-                    number,
-                    drive,
-                    sign,
-                    (machine, compliance_uncertainty),
-                    retraction_only,
-                )
-            )
+            signal = record.time, drive, sign * record.force
+            rig = machine, compliance_uncertainty
+            cycles.append(_cycle(record, part, number, signal, rig, retraction_only))
         except InputError as error:
             refused.append(Refusal(number, str(error)))
     return Evaluation(record, tuple(cycles), tuple(refused))
-
-
-def _named(record: TackRecord, error: InputError) -> InputError:
-    return InputError(f"{record.source.path}: {error}" if record.source.path else str(error))
 
 
 def _cycle(
     record: TackRecord,
     part: Segments,
     number: int,
-    drive: Array,
-    sign: int,
-    machine: tuple[float, float],
+    signal: tuple[Array, Array, Array],
+    rig: tuple[float, float],
     retraction_only: bool,
 ) -> Cycle:
-    """Evaluate one cycle."""
-    compliance, compliance_uncertainty = machine
+    """Evaluate one cycle from time, depth and force, with the compliance of the rig."""
+    compliance, compliance_uncertainty = rig
     span = slice(part.begin, part.end)
     own = Segments(0, part.dwell - part.begin, part.retract - part.begin, part.end - part.begin)
-    time, way, raw = record.time[span], drive[span], sign * record.force[span]
+    time, way, raw = (row[span] for row in signal)
     back = slice(own.retract, own.end)
     if own.end - own.retract < _POINTS:
         raise InputError(
             f"the retraction has {own.end - own.retract} points, fewer than {_POINTS}; record "
-            "at a higher rate"
+            "faster"
         )
-    noise = _noise(raw, raw[back])
+    # 0 is replaced by a small fraction of the range
+    noise = max(point_noise(raw[back]), rounding(raw), _LEAST * float(np.ptp(raw)), 1e-300)
     clean = without_spikes(raw, noise)
     law, touch, leaves = _zero(time, way, clean, own, noise)
     if not (touch or retraction_only):
         raise InputError(
-            "the retraction is not preceded by an approach that begins free of contact; give the "
-            "whole test, or set --retraction-only"
+            "no approach that begins free of contact: give the whole test, or set --retraction-only"
         )
     zeros = law.at(way, time)
     force = clean - zeros
@@ -189,19 +170,27 @@ def _cycle(
     at = own.retract + int(least.at)
     depth = way - compliance * force
     _refuse_compliance(depth[back], way[back], compliance, law.noise)
-    notes = [_words(law, way, time)]
+    notes = [
+        f"subtracted from the force: zero {readable(float(zeros[-1]), 'N')} at the end of the test,"
+        f" which changed by {readable(float(np.ptp(zeros)), 'N')} during it"
+    ]
     if np.any(clean != raw):
         notes.append(f"spikes replaced by the mean of their neighbours: {np.sum(clean != raw)}")
     origin, spread, how = _origin(depth, force, own, touch, law.noise)
     depth = depth - origin
     if touch:
         first = slice(touch.free, touch.free + 1)
-        end = float(depth[own.dwell]), float(force[own.dwell])
-        spread = float(np.hypot(spread, _lifted(law.uncertainty(way[first], time[first]), *end)))
+        unsure = law.uncertainty(way[first], time[first])
+        deep, pressed = float(depth[own.dwell]), float(force[own.dwell])
+        if deep > 0 and pressed > 0:
+            # shift at which a flank of Hertz exceeds the uncertainty of the zero
+            spread = float(np.hypot(spread, deep * min(unsure / pressed, 1.0) ** (2 / 3)))
     notes.append(how)
     if compliance:
         notes.append(f"machine compliance {readable(compliance, 'm/N')} subtracted from the depth")
-    crossing = _crossing(force, own.retract, at)
+    # last point in compression before pull-off, or the start of the retraction
+    pressed = np.flatnonzero(force[own.retract : at] >= 0)
+    crossing = own.retract + (int(pressed[-1]) if pressed.size else 0)
     # at the smallest force the depth goes as the drive; single depths have the noise of the force,
     # and a soft machine may jump behind it
     index = np.arange(way.size) - own.retract
@@ -211,17 +200,16 @@ def _cycle(
     deepest = force[: own.retract + 1]
     top = int(np.argmax(deepest))
     noise = float(np.hypot(law.noise, law.uncertainty(way[top], time[top])))
-    level, unsure = (
-        float(depth[own.retract]),
-        float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract]))),
-    )
+    unsure = float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract])))
     speed = _speed(time, way, crossing, at)
     if speed.uncertainty >= speed.value:
         raise InputError(
             f"the true speed is not determined, {readable(speed.value, 'm/s', digits=2)} +- "
-            f"{readable(speed.uncertainty, 'm/s', digits=2)}: the drive is uneven, or too few "
-            "points were recorded before the pull-off; record faster"
+            f"{readable(speed.uncertainty, 'm/s', digits=2)}: an uneven drive, or too few points "
+            "before the pull-off"
         )
+    curve, softness = (time, way, depth, force), compliance_uncertainty
+    quarter = slice(own.dwell // 4, 3 * own.dwell // 4 + 1)
     size = record.contact_radius
     temperature, changes = _temperature(record, span)
     return Cycle(
@@ -235,25 +223,14 @@ def _cycle(
         pull_off_raw=-float(raw[lowest]),
         pull_off_at=at,
         depth_at_pull_off=Measured(last, place),
-        work_to_pull_off=_work(
-            law,
-            (time, way, depth, force),
-            (crossing, at),
-            compliance_uncertainty,
-            Measured(last, flat),
-        ),
-        work_of_separation=_work(
-            law,
-            (time, way, depth, force),
-            (crossing, own.end - leaves.free),
-            compliance_uncertainty,
-        ),
+        work_to_pull_off=_work(law, curve, (crossing, at), softness, Measured(last, flat)),
+        work_of_separation=_work(law, curve, (crossing, own.end - leaves.free), softness),
         preload=Measured(float(deepest[top]), noise),
-        preload_depth=Measured(level, unsure),
+        preload_depth=Measured(float(depth[own.retract]), unsure),
         dwell_time=float(time[own.retract] - time[own.dwell]),
         speed=speed,
         mean_speed=_speed(time, way, own.retract, own.end - 1),
-        approach_speed=_approach_speed(time, way, own),
+        approach_speed=None if own.dwell < 4 else _slope(time[quarter], way[quarter]),
         noise=law.noise,
         source=record.source.noted(*notes, *changes),
         temperature=temperature,
@@ -310,14 +287,8 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
         if clipped and moved > _MOVED * np.ptp(way) and away:
             raise InputError(
                 f"the force stays at {readable(value, 'N', digits=6)}, its largest {word}, for "
-                f"{len(longest)} points while the drive moves: "
-                "the sensor or its amplifier is saturated"
+                f"{len(longest)} points while the drive moves: the sensor is saturated"
             )
-
-
-def _noise(raw: Array, back: Array) -> float:
-    """Return the noise of single points; 0 is replaced by a small fraction of the range."""
-    return max(point_noise(back), rounding(raw), _LEAST * float(np.ptp(raw)), 1e-300)
 
 
 def _refuse_lone(force: Array) -> None:
@@ -326,8 +297,8 @@ def _refuse_lone(force: Array) -> None:
     value, before, behind = (-float(one) for one in force[[at, at - 1, at + 1]])
     if max(before, behind) < (1 - _LONE) * value:
         raise InputError(
-            f"the pull-off of {_force(value)} is a single point, with neighbours at "
-            f"{_force(before)} and {_force(behind)}: a spike, or a low recording rate"
+            f"the pull-off of {_force(value)} is a single point beside "
+            f"{_force(max(before, behind))}: a spike, or a low recording rate"
         )
 
 
@@ -343,8 +314,7 @@ def _zero(
     most = own.end - own.retract - least - 1
     if outwards is None or min(outwards.free, most) < _FREE:
         raise InputError(
-            "the force does not settle after the pull-off, so no end is certainly free of "
-            "contact: retract further, or the contact has not detached at the end"
+            "the force does not settle after the pull-off: retract further, until free of contact"
         )
     inwards = contact_of(clean[down], way[down], clock[down], noise, 0.5)
     free = [slice(own.end - int(_KEPT * min(outwards.free, most)), own.end)]
@@ -364,22 +334,19 @@ def _least(force: Array, at: int, noise: float, zero: float) -> Extremum:
     """Return the smallest force of the retraction; raise an error if it is no pull-off."""
     value = -float(force[at])
     if value <= _ABOVE * noise:
-        raise InputError(
-            f"no pull-off above the noise: the largest tension is {_force(value)}, the noise "
-            f"{_force(noise)}"
-        )
+        raise InputError(f"no pull-off above the noise: {_force(value)} over {_force(noise)}")
     if at <= 1:
         raise InputError("the force is smallest at the start of the retraction: no pull-off")
     if zero > _ZERO * value:
         raise InputError(
-            f"the uncertainty of the force zero is {_force(zero)}, but the pull-off is "
-            f"{_force(value)}: tilt or drift is too large for the free parts of the curve"
+            f"the force zero is uncertain by {_force(zero)}, too much for a pull-off of "
+            f"{_force(value)}: tilt or drift"
         )
     found = extremum(force, at, noise)
     if np.hypot(found.uncertainty, zero) > _ZERO * value:
         raise InputError(
-            f"the pull-off of {_force(value)} has an uncertainty of {_force(found.uncertainty)}: "
-            "too few points near it for this noise and speed"
+            f"the pull-off of {_force(value)} is uncertain by {_force(found.uncertainty)}: too "
+            "few points near it"
         )
     return found
 
@@ -395,8 +362,8 @@ def _refuse_compliance(depth: Array, way: Array, compliance: float, noise: float
     rise = np.max(depth - np.minimum.accumulate(depth))
     if rise > _SLIDING * np.ptp(way) + _OUT * compliance * noise:
         raise InputError(
-            f"with a compliance of {readable(compliance, 'm/N')} the depth increases while "
-            "the drive retracts: it exceeds the total compliance of rig and sample"
+            f"with a compliance of {readable(compliance, 'm/N')} the depth increases while the "
+            "drive retracts: it exceeds that of rig and sample"
         )
 
 
@@ -416,23 +383,6 @@ def _origin(
         spread + step / 5,
         "no approach before contact: depth is zero where the retraction's force is zero",
     )
-
-
-def _lifted(zero: float, depth: float, force: float) -> float:
-    """Return the shift of the contact point [m] by the uncertainty of the zero there [N].
-
-    A flank of Hertz that reaches a force [N] at a depth [m] exceeds the zero's uncertainty
-    at this shift.
-    """
-    if depth <= 0 or force <= 0:
-        return 0.0
-    return depth * min(zero / force, 1.0) ** (2 / 3)
-
-
-def _crossing(force: Array, begin: int, at: int) -> int:
-    """Return the last point in compression before pull-off, or the start of the retraction."""
-    pressed = np.flatnonzero(force[begin:at] >= 0)
-    return begin + int(pressed[-1]) if pressed.size else begin
 
 
 def _work(
@@ -478,18 +428,3 @@ def _speed(time: Array, way: Array, begin: int, end: int) -> Measured:
 def _slope(t: Array, x: Array) -> float:
     u = t - t.mean()
     return float(u @ x / max(u @ u, 1e-300))
-
-
-def _approach_speed(time: Array, way: Array, own: Segments) -> float | None:
-    if own.dwell < 4:
-        return None
-    quarter = slice(own.dwell // 4, 3 * own.dwell // 4 + 1)
-    return _slope(time[quarter], way[quarter])
-
-
-def _words(law: Baseline, way: Array, time: Array) -> str:
-    zero = law.at(way, time)
-    return (
-        f"subtracted from the force: zero {readable(float(zero[-1]), 'N')} at the end of the test, "
-        f"which changed by {readable(float(np.ptp(zero)), 'N')} during it"
-    )

@@ -17,9 +17,8 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.formats import afm, ibw, jpk, jpk_text, nid, tables, text, workbook
-from viscotack.lab.formats.columns import Columns
-from viscotack.lab.formats.curve import Curve
-from viscotack.lab.formats.file import LabFile, format_of, load
+from viscotack.lab.formats.columns import Columns, refuse_pooled
+from viscotack.lab.formats.file import Curve, LabFile, first_fitting, load
 from viscotack.lab.formats.headings import POSITIONS, TACK
 from viscotack.lab.joining import kelvin_in_name
 from viscotack.lab.options import TackOptions
@@ -30,22 +29,16 @@ from .record import TackRecord
 
 AnyPath = str | PathLike[str]
 
-# formats of microscopes: test whether a file has it, and reader of its curves
-_MICROSCOPES: dict[
-    str, tuple[Callable[[LabFile], str | None], Callable[[LabFile, TackOptions], list[Curve]]]
-] = {
-    "afmformats": (afm.name, afm.curves),
-    "jpk-force": (jpk.name, lambda file, given: jpk.curves(file)),
-    "jpk-text": (jpk_text.name, lambda file, given: jpk_text.curves(file)),
-    "nid": (nid.name, lambda file, given: nid.curves(file)),
-    "ibw": (ibw.name, lambda file, given: ibw.curves(file)),
+# readers of the curves of microscopes, in order of detection
+_MICROSCOPES: dict[str, Callable[[LabFile, TackOptions], list[Curve] | None]] = {
+    "afmformats": afm.curves,
+    "jpk-force": jpk.curves,
+    "jpk-text": jpk_text.curves,
+    "nid": nid.curves,
+    "ibw": ibw.curves,
 }
-# format -> test whether a file has it, in order of detection
-FORMATS: dict[str, Callable[[LabFile], str | None]] = {
-    **{name: recognised for name, (recognised, _) in _MICROSCOPES.items()},
-    "workbook": lambda file: "workbook" if file.is_workbook else None,
-    "text": lambda file: None,
-}
+_TABLES = {"workbook": workbook.tables, "text": text.plain}
+FORMATS = (*_MICROSCOPES, *_TABLES)
 _INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
 # first bytes of formats that are neither text nor workbooks
 _RAW = (nid.MARK, ibw.START, afm.HDF)
@@ -142,8 +135,8 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
         if other.time[0] < one.time[-1]:
             raise InputError(
                 f"{other.source.path}: it begins at {other.time[0]:g} s, before the end of the "
-                f"previous interval at {one.time[-1]:g} s; give the times of all "
-                "intervals from the start of the test"
+                f"previous interval at {one.time[-1]:g} s; count all times from the start of the "
+                "test"
             )
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
     columns: dict[str, Any] = {}
@@ -160,21 +153,25 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
 def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackRecord]:
     """Return the records of a file; one of several intervals may have `few` rows."""
     file = load(path, raw=_RAW)
-    found = format_of(file, FORMATS, given.format, "text")
+    given.check_format(FORMATS)
     # a damaged number may overflow; the record rejects it with its name
     with np.errstate(all="ignore"):
-        if found in _MICROSCOPES:
-            curves = _MICROSCOPES[found][1](file, given)
-            records = [_record(file, found, curve, curve.notes) for curve in curves]
+        found = None
+        if given.format not in _TABLES:
+            found = first_fitting(file, _MICROSCOPES, given.format, given)
+        if found is not None:
+            records = [_record(file, found[0], curve, curve.notes) for curve in found[1]]
         else:
             if not file.lines and not file.is_workbook:
                 raise file.error("the file is neither text nor a workbook; export it as text")
             file = replace(file, notes=(*file.notes, *file.left_out))
             if not given.names:
                 file = text.upright(file, TACK)
-            reader = workbook.tables if found == "workbook" else text.plain
-            read = tables.where(file, reader(file, TACK, given.names), given.where)
-            records = [_from_table(file, table, given, found, few) for table in read]
+            fitting = first_fitting(file, _TABLES, given.format, TACK, given.names)
+            assert fitting is not None, "plain tables raise their own error"
+            name, whole = fitting
+            read = tables.where(file, whole, given.where)
+            records = [_from_table(file, table, given, name, few) for table in read]
     if not given.temperature_in_name:
         return records
     kelvin = kelvin_in_name(file)
@@ -208,8 +205,8 @@ def _from_table(
     """Return the record in a table."""
     columns = Columns(file, table, given, TACK)
     known = ", ".join(repr(text) for text in table.headings if text)
-    if missing := set(given.names) - columns.names - {name.strip() for name in columns.names}:
-        raise file.error(f"no column has the heading {min(missing)!r}; the headings are {known}")
+    if columns.lost:
+        raise file.error(f"no column {min(columns.lost)!r}; the headings are {known}")
     position = ["travel"] if given.position_column else [x for x in POSITIONS if x in columns]
     for word, found in (("force", "force" in columns), ("position", position)):
         if not found:
@@ -227,7 +224,8 @@ def _from_table(
     more = {"contact_radius": _contact_radius(columns), "temperature": _temperature(columns)}
     columns.refuse_contradiction("force", position[0], "time")
     # what differs along a test, such as its parts, is no state that is pooled
-    tables.refuse_pooled(file, [table], [columns.columns_in_use], [range(len(table.rows))])
+    columns.states = range(len(table.rows))
+    refuse_pooled([columns])
     if lost := int(np.sum(~keep)):
         columns.notes.append(f"{lost} rows without a number rejected")
     needed = 1 if few else _NEEDED

@@ -6,8 +6,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.arrays import array, store
-from viscotack.lab.sweeps import Source
+from viscotack.lab.sweeps import Source, array, store
 
 # above the range of all rigs: a damaged number or a wrong unit
 _LARGEST = {"time": ("s", 1e10), "force": ("N", 1e8), "position": ("m", 1e4)}
@@ -59,31 +58,27 @@ class TackRecord:
             length = row.size
             if not np.all(np.abs(row) <= most):
                 raise InputError(
-                    f"{name} must be finite and at most {most:g} {unit}, got {_worst(row):g} "
-                    f"{unit}; check its unit"
+                    f"{name} must be finite and at most {most:g} {unit}, got {_worst(row):g}; "
+                    "check its unit"
                 )
             store(self, name, row)
         steps = np.diff(self.time)
         if np.any(steps < 0):
             at = int(np.argmin(steps))
             raise InputError(
-                f"time must increase, but {self.time[at]:g} s is followed by "
-                f"{self.time[at + 1]:g} s; separate two tests, or sort the rows"
+                f"time must increase, but {self.time[at + 1]:g} s follows {self.time[at]:g} s"
             )
         if self.into not in (-1, 0, 1):
             raise InputError(f"into must be 1, -1 or 0, got {self.into!r}")
         if not 0 <= self.compliance < np.inf:
             raise InputError(f"compliance must not be negative [m/N], got {self.compliance!r}")
-        if self.contact_radius is not None:
-            row = array("contact_radius", self.contact_radius, "m", length)
-            if np.any(row < 0) or np.any(np.isinf(row)):
-                raise InputError(f"contact_radius must not be negative [m], got {np.nanmin(row):g}")
-            store(self, "contact_radius", row)
-        if self.temperature is not None:
-            row = array("temperature", self.temperature, "K", length)
-            if np.any(row <= 0) or np.any(np.isinf(row)):
-                raise InputError(f"temperature must be positive [K], got {np.nanmin(row):g}")
-            store(self, "temperature", row)
+        for name, unit in (("contact_radius", "m"), ("temperature", "K")):
+            if getattr(self, name) is not None:
+                row = array(name, getattr(self, name), unit, length)
+                least = 0.0 if unit == "m" else 1e-300
+                if np.any(row < least) or np.any(np.isinf(row)):
+                    raise InputError(f"{name} must be positive [{unit}], got {np.nanmin(row):g}")
+                store(self, name, row)
 
     def __len__(self) -> int:
         return self.time.size

@@ -71,8 +71,8 @@ def depth_of(record: TackRecord, into: int = 0) -> Array:
     below, above = (np.subtract(*np.percentile(F[part], (98, 2))) for part in (low, high))
     if max(below, above) < _ACTIVE * min(below, above):
         raise InputError(
-            "the force changes equally at both ends of the travel, so the end in contact is "
-            "ambiguous; set --into + (larger positions are deeper) or --into -"
+            "the force changes equally at both ends of the travel; set --into + (larger is "
+            "deeper) or -"
         )
     return x if above > below else -x
 
@@ -95,8 +95,8 @@ def segments(time: Array, depth: Array) -> list[Segments]:
         found.append(_cycle(time, depth, before, at, after))
     if not found:
         raise InputError(
-            "there is no retraction: the drive moves into contact and never back by "
-            f"{_TURN:.0%} of its range; give all intervals of the test together"
+            f"no retraction: the drive never moves back by {_TURN:.0%} of its range; give all "
+            "intervals"
         )
     return found
 
