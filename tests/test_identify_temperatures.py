@@ -16,7 +16,7 @@ from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, StandardSolid
 from viscotack.materials.shift import WLF, TabulatedShift
 from viscotack.operations.parts.records import rates_record
-from viscotack.pictures.identify import draw_rate_series
+from viscotack.plot.interface import draw_rate_series
 
 RADIUS, WORK, PRELOAD = 5.19e-3, 0.1523, 1.5e-3
 RUBBER = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)

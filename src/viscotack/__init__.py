@@ -66,14 +66,14 @@ if TYPE_CHECKING:
     from .pads import Scatter as Scatter
     from .pads import array_yield as array_yield
     from .pads import pull_array as pull_array
-    from .pictures.forecast import draw_prediction as draw_prediction
-    from .pictures.lab import draw_fit as draw_fit
-    from .pictures.plot import draw_energy as draw_energy
-    from .pictures.plot import draw_force as draw_force
-    from .pictures.plot import draw_overview as draw_overview
-    from .pictures.plot import draw_radius as draw_radius
-    from .pictures.plot import draw_regimes as draw_regimes
-    from .pictures.plot import save_figure as save_figure
+    from .plot.material import draw_fit as draw_fit
+    from .plot.prediction import draw_prediction as draw_prediction
+    from .plot.regimes import draw_regimes as draw_regimes
+    from .plot.simulation import draw_energy as draw_energy
+    from .plot.simulation import draw_force as draw_force
+    from .plot.simulation import draw_overview as draw_overview
+    from .plot.simulation import draw_radius as draw_radius
+    from .plot.style import save_figure as save_figure
     from .problem import Groups as Groups
     from .problem import Problem as Problem
     from .problem import PunchScales as PunchScales
@@ -222,15 +222,15 @@ _NAMES = {
         "Prediction",
         "prediction_summary",
     ),
-    "pictures.plot": (
+    "plot.simulation": (
         "draw_energy",
         "draw_force",
         "draw_radius",
         "draw_overview",
-        "draw_regimes",
-        "save_figure",
     ),
-    "pictures.lab": ("draw_fit",),
+    "plot.regimes": ("draw_regimes",),
+    "plot.style": ("save_figure",),
+    "plot.material": ("draw_fit",),
     "series": (
         "which_opens",
         "SeriesOpening",
@@ -251,7 +251,7 @@ _NAMES = {
     ),
     "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
     "forecast.uncertainty": ("uncertainty", "Uncertainty"),
-    "pictures.forecast": ("draw_prediction",),
+    "plot.prediction": ("draw_prediction",),
     "operations": ("ask",),
 }
 _ROOMS = (

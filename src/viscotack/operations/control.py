@@ -114,7 +114,7 @@ class Control(Request):
         """Tabulate, telling ``share``; release on the simulated rig if a force is wanted."""
         from viscotack.control import Release, c_header, fmu, force_table, let_go
         from viscotack.files.whole import write_whole
-        from viscotack.pictures.control import draw_control
+        from viscotack.plot.control import draw_control
 
         from .parts.tables import rows_as_csv
 

@@ -89,7 +89,7 @@ class OfRough(Request):
         """Simulate the test, telling ``share``."""
         if self.theory is not None:
             return self._superposed(caller)
-        from viscotack.pictures.rough import (
+        from viscotack.plot.rough import (
             check_ffmpeg,
             draw_rough,
             film_of_pull,
@@ -140,7 +140,7 @@ class OfRough(Request):
     def _superposed(self, caller: Caller) -> Answer:
         """Answer by superposition of asperities."""
         from viscotack.pads import superposed
-        from viscotack.pictures.rough import draw_superposition
+        from viscotack.plot.rough import draw_superposition
         from viscotack.rough import read_rough
 
         from .parts.tables import rows_as_csv

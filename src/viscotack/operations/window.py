@@ -47,7 +47,7 @@ class OfWindow(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every speed and preload of each map, telling ``share``."""
-        from viscotack.pictures.window import draw_window
+        from viscotack.plot.window import draw_window
         from viscotack.series import read_window, window
 
         from .parts.tables import rows_as_csv

@@ -1,7 +1,6 @@
 """Figures of an identified interface: measured points, fitted curves, residuals."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,12 +18,11 @@ from viscotack.identify.pull_off import same_speeds, temperature_of
 from viscotack.lab.tack import Cycle
 from viscotack.units import readable
 
-from .plot import axis_unit, log_axis_unit, plain_ticks
+from .style import axis_unit, drawing, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 # parameter -> label and scale factor
 _SCALES = {
     "work_of_adhesion": ("work of adhesion [J/m$^2$]", 1.0),
@@ -38,15 +36,11 @@ _MOST = 20.0  # largest difference of the information criterion of a model that 
 
 def draw_slow_test(fit: SlowTestFit) -> "Figure":
     """Draw force against radius or depth, the plausible models, and their residuals."""
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
     test = fit.test
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(8.4, 7.0), layout="constrained")
+    with drawing(8.4, 7.0) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
-        far, far_unit = axis_unit(float(np.max(np.abs(test.at))), "m")
-        load, load_unit = axis_unit(float(np.max(np.abs(test.force))), "N")
+        far, far_unit = axis_unit(test.at, "m")
+        load, load_unit = axis_unit(test.force, "N")
         x = test.at / far
         order = np.argsort(x)
         above.plot(x, test.force / load, "o", ms=3, color="0.4", label="measured")
@@ -55,74 +49,55 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
                 continue
             force = fitted_force(one, test)
             (line,) = above.plot(x[order], force[order] / load, label=one.model.upper())
-            below.plot(
-                x, (test.force - force) / test.force_noise, "o", ms=3, color=line.get_color()
-            )
+            rest = (test.force - force) / test.force_noise
+            below.plot(x, rest, "o", ms=3, color=line.get_color())
         below.axhline(0.0, color="0.6", lw=0.8)
         above.set_ylabel(f"force, compression positive [{load_unit}]")
-        below.set_ylabel("residual / noise")
         what = "contact radius" if test.against == "radius" else "depth"
-        below.set_xlabel(f"{what} [{far_unit}]")
+        below.set(xlabel=f"{what} [{far_unit}]", ylabel="residual / noise")
         above.legend()
     return figure
 
 
 def draw_dwells(fit: DwellFit) -> "Figure":
     """Draw pull-off force against contact time: measured, straight line in ln t, and law."""
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(8.0, 5.4), layout="constrained")
+    with drawing(8.0, 5.4) as figure:
         axes = figure.subplots()
-        load, load_unit = axis_unit(max(fit.forces), "N")
+        load, load_unit = axis_unit(fit.forces, "N")
         axes.semilogx(fit.times, np.array(fit.forces) / load, "o", color="0.4", label="measured")
         at = np.geomspace(fit.times[0], fit.times[-1], 200)
         axes.semilogx(at, fit.line(at) / load, "--", label="straight in the logarithm of the time")
         if fit.law is not None:
             axes.semilogx(at, fit.force(at) / load, label=fit.law.replace("-", " "))
-        plain_ticks(axes.xaxis)
-        axes.set_xlabel("time in contact [s]")
-        axes.set_ylabel(f"pull-off force [{load_unit}]")
+        plain_ticks(axes)
+        axes.set(xlabel="time in contact [s]", ylabel=f"pull-off force [{load_unit}]")
         axes.legend()
     return figure
 
 
 def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -> "Figure":
     """Draw pull-off force against speed: measured, fitted, and forecast with its band."""
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(8.0, 5.4), layout="constrained")
+    with drawing(8.0, 5.4) as figure:
         axes = figure.subplots()
         fastest, speed_unit = log_axis_unit([one.speed for one in fit.series], "m/s")
-        load, load_unit = axis_unit(max(one.force.value for one in fit.series), "N")
+        measured = [one.force.value for one in fit.series]
+        load, load_unit = axis_unit(measured, "N")
         speed = [one.speed / fastest for one in fit.series]
-        axes.errorbar(
-            speed,
-            [one.force.value / load for one in fit.series],
-            yerr=[one.force.uncertainty / load for one in fit.series],
-            fmt="o",
-            color="0.3",
-            label="measured",
-            zorder=3,
-        )
+        bars = [one.force.uncertainty / load for one in fit.series]
+        style = {"fmt": "o", "color": "0.3", "label": "measured", "zorder": 3}
+        axes.errorbar(speed, np.array(measured) / load, yerr=bars, **style)
         work = readable(fit.work_of_adhesion, "J/m^2", digits=3).replace("^2", "$^2$")
         interface = f"{work}, {_range(fit)}"
         fitted = [force / load for force in fit.forces]
         axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
         if forecast is not None:
             _band(axes, forecast, fastest, load)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        plain_ticks(axes.xaxis)
-        plain_ticks(axes.yaxis)
+        axes.set(xscale="log", yscale="log")
+        plain_ticks(axes)
         name, at = "true speed of retraction", fit.passport.temperature
         if at is not None and any(one.shift != 1.0 for one in fit.series):
             name = f"speed $a_T v$ at {at - 273.15:.3g} °C"
-        axes.set_xlabel(f"{name} [{speed_unit}]")
-        axes.set_ylabel(f"pull-off force [{load_unit}]")
+        axes.set(xlabel=f"{name} [{speed_unit}]", ylabel=f"pull-off force [{load_unit}]")
         axes.legend()
     return figure
 
@@ -135,19 +110,15 @@ def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
     tensions scaled to the pull-off with the machine's stiffness. The difference is drawn until
     the pull-off of the fit.
     """
-    import matplotlib.style
     from matplotlib import colormaps
-    from matplotlib.figure import Figure
 
     chosen = np.unique(np.linspace(0, len(fit.series) - 1, _CURVES).round().astype(int))
-    size = max(one.force.value for one in fit.series)
     groups = same_speeds(cycles)
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(8.4, 7.0), layout="constrained")
+    with drawing(8.4, 7.0) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
-        load, load_unit = axis_unit(size, "N")
+        load, load_unit = axis_unit([one.force.value for one in fit.series], "N")
         pairs = [_fitted_pair(fit, int(i), groups) for i in chosen]
-        far, far_unit = axis_unit(max(float(np.ptp(fitted[0])) for _, fitted in pairs), "m")
+        far, far_unit = axis_unit([np.ptp(fitted[0]) for _, fitted in pairs], "m")
         colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(pairs)))
         for i, colour, (measured, fitted) in zip(chosen, colours, pairs, strict=True):
             one = fit.series[i]
@@ -166,8 +137,7 @@ def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
             below.plot(travel[inside] / far, rest / load, lw=1.0, color=colour)
         below.axhline(0.0, color="0.6", lw=0.8)
         above.set_ylabel(f"force, compression positive [{load_unit}]")
-        below.set_ylabel(f"difference [{load_unit}]")
-        below.set_xlabel(f"travel from zero force [{far_unit}]")
+        below.set(xlabel=f"travel from zero force [{far_unit}]", ylabel=f"difference [{load_unit}]")
         above.legend(fontsize="small", loc="lower left")
     return figure
 
@@ -217,14 +187,9 @@ def _range(fit: RateSeriesFit) -> str:
 
 def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> None:
     order = np.argsort(forecast.speed)
-    x, low, high, middle = (
-        values[order] / scale
-        for scale, values in (
-            (fastest, forecast.speed),
-            (load, forecast.low),
-            (load, forecast.high),
-            (load, forecast.force),
-        )
+    x = forecast.speed[order] / fastest
+    low, high, middle = (
+        each[order] / load for each in (forecast.low, forecast.high, forecast.force)
     )
     where = f"forecast at {readable(forecast.preload, 'N', digits=3)}"
     if forecast.temperature is not None:
@@ -245,15 +210,11 @@ def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> Non
 
 def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
     """Draw the posterior of an interface: marginal and pairwise distributions."""
-    import matplotlib.style
     from corner import corner
-    from matplotlib.figure import Figure
 
+    side = 7.0 if len(chain.parameters) == 2 else 11.0
     # the corner library positions the panels
-    own: list[Any] = [_STYLE, {"figure.constrained_layout.use": False}]
-    with matplotlib.style.context(own):
-        side = 7.0 if len(chain.parameters) == 2 else 11.0
-        figure = Figure(figsize=(side, side))
+    with drawing(side, side, **{"figure.constrained_layout.use": False}) as figure:
         columns = [_SCALES.get(one.name, (one.name, 1.0)) for one in chain.parameters]
         scale = np.array([factor for _, factor in columns])
         ends = [(1 - fit.level) / 2, 0.5, (1 + fit.level) / 2]

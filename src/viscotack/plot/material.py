@@ -1,6 +1,5 @@
 """Figure of a material fit: measured points, and the fitted model as a line with its band."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,11 +9,12 @@ from viscotack.lab.fit.report import FitReport
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import FittedShift, TabulatedShift
 
+from .style import drawing
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 _WORDS = {
     "storage": "storage modulus $E'$",
     "loss": "loss modulus $E''$",
@@ -60,24 +60,20 @@ def draw_fit(report: FitReport, passport: Passport | None = None) -> "Figure":
     >>> len(draw_fit(report).axes)
     2
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
     data = report.observed
-    with matplotlib.style.context(_STYLE):
-        shift = None if passport is None else passport.shift
-        if isinstance(shift, TabulatedShift) and passport is not None:
-            figure = Figure(figsize=(8.4, 10.4))
-            above, below, last = figure.subplots(3, 1, height_ratios=(2.6, 1.0, 1.5))
-            below.sharex(above)
-            _shifts(last, shift, passport.fitted_shift)
-        else:
-            figure = Figure(figsize=(8.4, 7.6))
-            above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
+    shift = None if passport is None else passport.shift
+    tabulated = shift if isinstance(shift, TabulatedShift) else None
+    with drawing(8.4, 7.6 if tabulated is None else 10.4) as figure:
+        ratios = (2.6, 1.0) if tabulated is None else (2.6, 1.0, 1.5)
+        above, below, *more = figure.subplots(len(ratios), 1, height_ratios=ratios)
+        below.sharex(above)
+        if tabulated is None:
+            above.tick_params(labelbottom=False)
+        elif passport is not None:
+            _shifts(more[0], tabulated, passport.fitted_shift)
         _law(above, report)
         _points(above, data)
-        above.set_yscale("log")
-        above.set_xscale("log")
+        above.set(yscale="log", xscale="log")
         above.set_ylabel(
             "compliance [1/Pa]" if data.quantity == "creep" else "Young's modulus [Pa]"
         )

@@ -2,23 +2,23 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.design import Conditions, Design, DesignFile
+from viscotack.design import Design, DesignFile
 from viscotack.design.fast import Force
 from viscotack.design.margins import pad_of
 from viscotack.errors import InputError
 
-from .plot import axis_unit, log_axis_unit, plain_ticks
+from .style import BLUE, ORANGE, axis_unit, drawing, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
-_COLOURS = {"hold": "#08519c", "release": "#d94801", "work": "#41ab5d", "dead_load": "#6a51a3"}
+_COLOURS = {"hold": BLUE, "release": ORANGE, "work": "#41ab5d", "dead_load": "#6a51a3"}
+_BELOW = {"frameon": False, "fontsize": 9, "loc": "upper center", "bbox_to_anchor": (0.5, -0.16)}
 # Number of speeds, and factor on both ends of their range.
 _SPEEDS, _WIDER = 25, 2.0
 # Ticks of forces over their targets.
@@ -41,32 +41,32 @@ def draw_design(found: Design, stated: DesignFile) -> "Figure":
         Left the force of all pads by speed with its interval, the targets, and simulations as
         dots; right d ln P/d ln x of the two forces.
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+    with drawing(10.0, 4.6) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.35, 1))
         _draw_forces(left, found, stated)
         _draw_slopes(right, found)
     return figure
 
 
-def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN001
+def _draw_forces(axes: "Axes", found: Design, stated: DesignFile) -> None:
     best, run = found.best, found.simulated[0]
-    stated_speeds = {"hold": best.choice.hold_speed, "release": best.choice.release_speed}
-    speeds = {
-        name: None if v is None else _worst(stated.conditions, name, best.choice.material, v)
-        for name, v in stated_speeds.items()
-    }
-    known = [speed for speed in speeds.values() if speed is not None]
+    # of the stated material that is like the worst of the conditions
+    speeds: dict[str, float] = {}
+    for name, speed, worst in (
+        ("hold", best.choice.hold_speed, min),
+        ("release", best.choice.release_speed, max),
+    ):
+        if speed is not None:
+            speeds[name] = worst(stated.conditions.speeds(name, best.choice.material, speed))
     pad = pad_of(best.choice, 1.0, bonded=stated.space.bonded)
+    known = speeds.values()
     ends = (min(known) / _WIDER, max(known) * _WIDER) if known else (1e-6, 1e-3)
     points = np.geomspace(*ends, _SPEEDS).tolist()
     factor, speed_unit = log_axis_unit(ends, "m/s")
     forces = [found.fast.force(replace(pad, speed=v)) for v in points]
     curve = [(v, f) for v, f in zip(points, forces, strict=True) if isinstance(f, Force)]
-    N, (unit, name) = best.choice.pads, axis_unit(_largest(found), "N")
+    largest = max(force.value for name, force in best.forces.items() if name != "work")
+    N, (unit, newton) = best.choice.pads, axis_unit(largest, "N")
     if curve:
         v = [v / factor for v, _ in curve]
         low, value, high = (
@@ -75,45 +75,25 @@ def _draw_forces(axes, found: Design, stated: DesignFile) -> None:  # noqa: ANN0
         axes.fill_between(v, low, high, color="0.75", lw=0, label="90 % interval")
         axes.plot(v, value, color="0.25", label=f"{N} pad{'s' * (N > 1)}, {found.tier}")
     for target, speed in speeds.items():
-        if speed is None:
-            continue
         axes.axvline(speed / factor, color=_COLOURS[target], lw=0.8, ls=":")
         wanted = getattr(stated.targets, target)
         if wanted is not None:
             words = f"{target}, {'at least' if target == 'hold' else 'at most'}"
             axes.axhline(wanted / unit, color=_COLOURS[target], ls="--", label=words)
-        value = None if run is None else getattr(run, target)
+        value = None if run is None else run.forces.get(target)
         if value is not None:
-            axes.plot(
-                speed / factor,
-                value / unit,
-                "o",
-                color=_COLOURS[target],
-                label=f"{target}, simulated",
-            )
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+            label = f"{target}, simulated"
+            axes.plot(speed / factor, value / unit, "o", color=_COLOURS[target], label=label)
+    axes.set(xscale="log", yscale="log")
+    plain_ticks(axes)
     moved = " of the stated material" if stated.conditions.shifts else ""
-    plain_ticks(axes.xaxis)
-    plain_ticks(axes.yaxis)
-    axes.set_xlabel(f"speed{moved} [{speed_unit}]")
-    axes.set_ylabel(f"pull-off force [{name}]")
+    axes.set(xlabel=f"speed{moved} [{speed_unit}]", ylabel=f"pull-off force [{newton}]")
     met = "met" if best.margin >= 0 else "not met"
     axes.set_title(f"worst target {np.expm1(best.margin):+.0%}: {met}")
-    axes.legend(frameon=False, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    axes.legend(**_BELOW, ncols=3)
 
 
-def _worst(conditions: Conditions, name: str, material: str, speed: float) -> float:
-    """Return the speed of the stated material that is like the worst of the conditions."""
-    ends = conditions.speeds(name, material, speed)
-    return min(ends) if name == "hold" else max(ends)
-
-
-def _largest(found: Design) -> float:
-    return max(force.value for name, force in found.best.forces.items() if name != "work")
-
-
-def _draw_slopes(axes, found: Design) -> None:  # noqa: ANN001
+def _draw_slopes(axes: "Axes", found: Design) -> None:
     names = list(dict.fromkeys(x for each in found.elasticities.values() for x in each))
     several = max(len(found.elasticities), 1)
     height = 0.8 / several
@@ -124,9 +104,8 @@ def _draw_slopes(axes, found: Design) -> None:  # noqa: ANN001
     axes.set_yticks(range(len(names)), [x.replace("_", " ") for x in names])
     axes.set_ylim(len(names) - 0.5, -0.5)
     axes.axvline(0, color="0.4", lw=0.8)
-    axes.set_xlabel("d ln P/d ln x")
-    axes.set_title("what matters")
-    axes.legend(frameon=False, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    axes.set(xlabel="d ln P/d ln x", title="what matters")
+    axes.legend(**_BELOW, ncols=3)
 
 
 def draw_front(found: Design) -> "Figure":
@@ -145,15 +124,11 @@ def draw_front(found: Design) -> "Figure":
         ends. In the upper right quarter, beyond 1, both targets are met. The star is the first
         design.
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
     if not found.front:
         raise InputError("a front needs several targets; this design has one")
     names = list(found.front[0].margins)
     pairs = list(pairwise(names))
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(5.2 * len(pairs), 4.6), layout="constrained")
+    with drawing(5.2 * len(pairs), 4.6) as figure:
         panels = np.ravel(figure.subplots(1, len(pairs), squeeze=False))
         for axes, (x, y) in zip(panels, pairs, strict=True):
             for one in found.front:
@@ -165,14 +140,11 @@ def draw_front(found: Design) -> "Figure":
             axes.plot(*np.exp([best[x], best[y]]), "*", ms=13, color=_COLOURS["release"])
             axes.axhline(1, color="0.4", lw=0.8)
             axes.axvline(1, color="0.4", lw=0.8)
-            axes.set_xscale("log")
-            axes.set_yscale("log")
+            axes.set(xscale="log", yscale="log", xlabel=_over(x), ylabel=_over(y))
             for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
                 ticks = [x for x in _TICKS if ends[0] <= x <= ends[1]]
                 axis.set_ticks(ticks, [f"{x:g}" for x in ticks])
                 axis.set_ticks([], minor=True)
-            axes.set_xlabel(_over(x))
-            axes.set_ylabel(_over(y))
     return figure
 
 

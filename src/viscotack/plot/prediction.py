@@ -5,28 +5,21 @@ Force positive in compression, depth positive into the solid.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.forecast.prediction import Prediction
 from viscotack.problem.outputs import PLANE
 from viscotack.result import Result
 
-from .plot import axis_unit
+from .style import axis_unit, drawing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from viscotack.surrogate.line import Curves
-
-
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 # Line segments between two points of a curve.
 _BETWEEN = 8
 
@@ -62,9 +55,6 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     >>> len(figure.axes)
     1
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
     curve = prediction.curve
     if curve is None:
         raise InputError(f"the theory {prediction.method!r} has no force curve to draw")
@@ -76,47 +66,30 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         units = [f"/ {unit.drawn}" for unit in drawn]
     else:
         length, load = scales.length, getattr(scales, drawn[1].scale)
-        far, name = axis_unit(length * float(np.abs(curve.depth).max()), drawn[0].si)
-        most, load_name = axis_unit(load * float(np.abs(curve.force).max()), drawn[1].si)
-        length, load, units = length / far, load / most, [f"[{name}]", f"[{load_name}]"]
-    with matplotlib.style.context(_STYLE):
-        figure = Figure()
+        far, metre = axis_unit(length * curve.depth, drawn[0].si)
+        most, newton = axis_unit(load * curve.force, drawn[1].si)
+        length, load, units = length / far, load / most, [f"[{metre}]", f"[{newton}]"]
+    with drawing() as figure:
         axes = figure.subplots()
         axes.axhline(0, color="0.6", lw=1, zorder=0)
-        depth, force = _smooth(curve)
+        place = np.arange(len(curve.depth))
+        fine = np.linspace(0, place[-1], place[-1] * _BETWEEN + 1)
+        depth, force = (PchipInterpolator(place, x)(fine) for x in (curve.depth, curve.force))
         axes.plot(depth * length, force * load, color="C1", label="prediction")
         _band(axes, prediction, length, load)
-        low, high = -np.array(prediction.interval)[::-1] * load
-        axes.errorbar(
-            curve.depth[-1] * length,
-            -prediction.pull_off_force * load,
-            yerr=[
-                [-prediction.pull_off_force * load - low],
-                [high + prediction.pull_off_force * load],
-            ],
-            fmt="s",
-            color="C1",
-            capsize=5,
-            label="pull-off, interval"
-            if prediction.confidence is None
-            else f"pull-off, {prediction.confidence:.0%} interval",
-        )
+        low, high = prediction.interval
+        P, share = prediction.pull_off_force, prediction.confidence
+        sides = [[(high - P) * load], [(P - low) * load]]
+        label = "pull-off, interval" if share is None else f"pull-off, {share:.0%} interval"
+        style = {"fmt": "s", "color": "C1", "capsize": 5, "label": label}
+        axes.errorbar(curve.depth[-1] * length, -P * load, yerr=sides, **style)
         if simulated is not None:
             place = {"mfc": "none", "color": "C0", "markevery": 0.04, "zorder": 1}
             depth, force = simulated.depth * length, simulated.force * load
             axes.plot(depth, force, "o", label="simulation", **place)
-        axes.set_xlabel(f"depth {units[0]}")
-        axes.set_ylabel(f"{what} {units[1]}")
+        axes.set(xlabel=f"depth {units[0]}", ylabel=f"{what} {units[1]}")
         axes.legend()
     return figure
-
-
-def _smooth(curve: Curves) -> tuple[Array, Array]:
-    """Interpolate a curve with ``_BETWEEN`` segments between two points."""
-    place = np.arange(len(curve.depth))
-    fine = np.linspace(0, place[-1], place[-1] * _BETWEEN + 1)
-    depth, force = (PchipInterpolator(place, x)(fine) for x in (curve.depth, curve.force))
-    return depth, force
 
 
 def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> None:

@@ -1,7 +1,6 @@
 """Problems, predictions and results as tables with a picture in a notebook.
 
-``%load_ext viscotack.app.notebook`` turns it on. Numbers are those of the command line, in SI where
-the problem is.
+Numbers are those of the command line, in SI where the problem is.
 """
 
 import base64
@@ -19,19 +18,11 @@ from viscotack.result import Result
 from viscotack.result.observables import summary
 from viscotack.units import readable, readable_interval
 
+from .prediction import draw_prediction
+from .simulation import draw_force
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-def load_ipython_extension(shell: Any) -> None:
-    """Register the tables with the HTML formatter of an IPython shell."""
-    html = shell.display_formatter.formatters["text/html"]
-    for kind, shown in (
-        (Problem, html_of_problem),
-        (Prediction, html_of_prediction),
-        (Result, html_of_result),
-    ):
-        html.for_type(kind, shown)
 
 
 def html_of_problem(problem: Problem) -> str:
@@ -73,8 +64,6 @@ def _parts(part: Any, units: Mapping[str, str]) -> list[tuple[str, ...]]:
 
 def html_of_prediction(found: Prediction) -> str:
     """Return a prediction as a table with its intervals, its tier, and its curve if it has one."""
-    from viscotack.pictures.forecast import draw_prediction
-
     record, kind = prediction_summary(found), found.problem.outputs
     intervals = {
         next(iter(kind.observables)): "interval",
@@ -94,8 +83,6 @@ def html_of_prediction(found: Prediction) -> str:
 
 def html_of_result(result: Result) -> str:
     """Return the summary of a simulation as a table, with its numerical errors and its curve."""
-    from viscotack.pictures.plot import draw_force
-
     record = summary(result)
     errors = record["error_estimate"] or {}
     of = {next(iter(result.problem.outputs.observables)): "force", "work_to_pull_off": "work"}

@@ -1,7 +1,6 @@
 """Figure of a window: picking and printing of a stamp, by speed and preload."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,13 +8,12 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.series import CriticalSpeed, Window
 
-from .plot import axis_unit, log_axis_unit, plain_ticks
+from .style import axis_unit, drawing, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 # Colours of the words, distinguishable without colour vision.
 _COLOURS = {
     "pick": "#6baed6",
@@ -58,19 +56,16 @@ def draw_window(*maps: Window, titles: Sequence[str] = ()) -> "Figure":
     >>> draw_window(found).axes[0].get_xlabel()
     'speed of the drive [µm/s]'
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(5.2 + 3.8 * len(maps), 5.6), layout="constrained")
+    with drawing(5.2 + 3.8 * len(maps), 5.6) as figure:
         panels = figure.subplots(1, len(maps), squeeze=False, sharey=True)[0]
         for axes, found in zip(panels, maps, strict=True):
             _draw_map(axes, found)
         for axes, title in zip(panels, titles, strict=False):
             axes.set_title(title)
-        panels[0].set_ylabel(f"preload [{axis_unit(_largest_preload(maps[0]), 'N')[1]}]")
+        panels[0].set_ylabel(f"preload [{axis_unit(maps[0].preloads, 'N')[1]}]")
         present = {cell.word for found in maps for cell in found.cells}
         handles: list[Patch | Line2D] = [
             Patch(fc=colour, ec="0.3", label=word)
@@ -87,16 +82,12 @@ def draw_window(*maps: Window, titles: Sequence[str] = ()) -> "Figure":
     return figure
 
 
-def _largest_preload(found: Window) -> float:
-    return max(map(abs, found.preloads))
-
-
 def _draw_map(axes: "Axes", found: Window) -> None:
     """Draw one map with its critical speeds."""
     from matplotlib.colors import ListedColormap
 
     speed, speed_unit = log_axis_unit(found.speeds, "m/s")
-    load, _ = axis_unit(_largest_preload(found), "N")
+    load, _ = axis_unit(found.preloads, "N")
     words = list(_COLOURS)
     number = np.array([words.index(cell.word) for cell in found.cells])
     axes.pcolormesh(
@@ -114,9 +105,7 @@ def _draw_map(axes: "Axes", found: Window) -> None:
         known = [each for each in found.critical_speeds if each.base == base]
         if known:
             _draw_critical(axes, known, style, speed, load)
-    for axis in (axes.xaxis, axes.yaxis):
-        if axis.get_scale() == "log":
-            plain_ticks(axis)
+    plain_ticks(axes)
     axes.set_xlabel(f"speed of the drive [{speed_unit}]")
     axes.grid(False)
 
@@ -126,11 +115,12 @@ def _edges(values: Sequence[float]) -> Array:
     x = np.array(values, dtype=float)
     positive = bool(np.all(x > 0))
     at = np.log(x) if positive else x
-    half = (
-        np.diff(at) / 2 if x.size > 1 else np.array([np.log(_SINGLE) if positive else abs(at[0])])
-    )
-    half = np.where(half > 0, half, 1.0)
-    edges = np.concatenate([[at[0] - half[0]], at[:-1] + half[: at.size - 1], [at[-1] + half[-1]]])
+    if at.size == 1:
+        half = np.log(_SINGLE) if positive else abs(at[0]) or 1.0
+        edges = np.array([at[0] - half, at[0] + half])
+    else:
+        half = np.diff(at) / 2
+        edges = np.array([at[0] - half[0], *(at[:-1] + half), at[-1] + half[-1]])
     return np.exp(edges) if positive else edges
 
 

@@ -17,12 +17,11 @@ from viscotack.pads.rough_surface import Superposition
 from viscotack.rough.problem import RoughProblem
 from viscotack.rough.result import FieldMap, RoughResult
 
-from .plot import axis_unit
+from .style import BLUE, ORANGE, axis_unit, drawing, style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 # Frames of a film in a second, and dots per inch.
 _PER_SECOND, _DPI = 12, 80
 
@@ -110,12 +109,11 @@ def movie_of_pull(found: RoughResult, target: Target) -> None:
 
 def _frames(found: RoughResult) -> Iterator[Any]:
     """Draw each map of a result in turn; the same canvas."""
-    import matplotlib.style
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     if len(found.maps) < 2:
         raise InputError("a film needs maps of several instants; ask for at least 2")
-    with matplotlib.style.context(_STYLE):
+    with style():
         figure, parts = _figure(found, found.maps[0])
         figure.set_dpi(_DPI)
         canvas = FigureCanvasAgg(figure)
@@ -141,29 +139,23 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     matplotlib.figure.Figure
         Left the force, compression positive, right the heights with the summits.
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
     surface, curve = problem.surface, found.curve
-    length, length_unit = axis_unit(float(np.abs(curve.position).max()), "m")
-    force, force_unit = axis_unit(float(np.abs(curve.force).max()), "N")
+    length, length_unit = axis_unit(curve.position, "m")
+    force, force_unit = axis_unit(curve.force, "N")
     height, height_unit = axis_unit(float(np.ptp(surface.heights)) or 1e-9, "m")
-    side, side_unit = axis_unit(max(surface.size), "m")
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+    side, side_unit = axis_unit(surface.size, "m")
+    with drawing(10.0, 4.4) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(curve.position / length, curve.force / force, color="#08519c")
-        left.set_xlabel(f"position of the plate [{length_unit}]")
-        left.set_ylabel(f"force [{force_unit}]")
+        left.plot(curve.position / length, curve.force / force, color=BLUE)
+        left.set(xlabel=f"position of the plate [{length_unit}]", ylabel=f"force [{force_unit}]")
         left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
         rows, columns = (each / side for each in surface.size)
         image = right.imshow(surface.heights / height, cmap="cividis", extent=(0, columns, rows, 0))
         x, y = found.asperities.positions.T / side
-        right.plot(y, x, ".", color="#d94801", ms=3)
+        right.plot(y, x, ".", color=ORANGE, ms=3)
         right.grid(False)
-        right.set_xlabel(f"x [{side_unit}]")
-        right.set_ylabel(f"y [{side_unit}]")
+        right.set(xlabel=f"x [{side_unit}]", ylabel=f"y [{side_unit}]")
         right.set_title(f"{len(x)} asperities, {found.touching} in contact")
         figure.colorbar(image, ax=right, label=f"height [{height_unit}]")
     return figure
@@ -171,48 +163,31 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
 
 def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, Any]]:
     """Return the figure and the parts that a film changes."""
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    length, length_unit = axis_unit(float(np.abs(found.depth).max()), "m")
-    force, force_unit = axis_unit(float(np.abs(found.force).max()), "N")
-    stress, stress_unit = axis_unit(float(np.abs(found.strongest.pressure).max()), "Pa")
+    length, length_unit = axis_unit(found.depth, "m")
+    force, force_unit = axis_unit(found.force, "N")
+    stress, stress_unit = axis_unit(found.strongest.pressure, "Pa")
     rows, columns = shown.pressure.shape
     side, side_unit = axis_unit(found.pixel * max(rows, columns), "m")
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+    with drawing(10.0, 4.4) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(found.depth / length, found.force / force, color="#08519c", label="force")
-        (mark,) = left.plot(
-            [shown.depth / length], [shown.force / force], "o", color="#d94801", zorder=3
-        )
-        left.set_xlabel(f"depth [{length_unit}]")
-        left.set_ylabel(f"force [{force_unit}]")
+        left.plot(found.depth / length, found.force / force, color=BLUE)
+        at = shown.depth / length, shown.force / force
+        (mark,) = left.plot(*at, "o", color=ORANGE, zorder=3)
+        left.set(xlabel=f"depth [{length_unit}]", ylabel=f"force [{force_unit}]")
         share = left.twinx()
-        share.plot(
-            found.depth / length,
-            100 * found.area / found.nominal_area,
-            color="0.55",
-            lw=1.0,
-            ls="--",
-        )
+        part = 100 * found.area / found.nominal_area
+        share.plot(found.depth / length, part, color="0.55", lw=1.0, ls="--")
         share.set_ylabel("map in contact [%], dashed")
         share.set_ylim(0, None)
         share.grid(False)
         left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
         most = float(np.quantile(np.abs(found.strongest.pressure), 0.999)) / stress
-        image = right.imshow(
-            shown.pressure / stress,
-            cmap="RdBu_r",
-            vmin=-most,
-            vmax=most,
-            extent=(0, columns * found.pixel / side, 0, rows * found.pixel / side),
-            interpolation="nearest",
-        )
+        extent = (0, columns * found.pixel / side, 0, rows * found.pixel / side)
+        colours = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "interpolation": "nearest"}
+        image = right.imshow(shown.pressure / stress, extent=extent, **colours)
         right.grid(False)
-        right.set_xlabel(f"x [{side_unit}]")
-        right.set_ylabel(f"y [{side_unit}]")
+        right.set(xlabel=f"x [{side_unit}]", ylabel=f"y [{side_unit}]")
         right.set_title("pressure at the point")
         figure.colorbar(image, ax=right, label=f"pressure [{stress_unit}]")
     parts = {"image": image, "mark": mark, "stress": stress, "force": force, "length": length}

@@ -1,7 +1,6 @@
 """Figures of tack tests: the retraction curves, and pull-off forces against speed."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,13 +10,12 @@ from viscotack.lab.tack import Cycle
 from viscotack.materials.shift import Shift
 from viscotack.units import readable
 
-from .plot import axis_unit, log_axis_unit, plain_ticks
+from .style import axis_unit, drawing, log_axis_unit, plain_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 _POINTS = 2000  # of one curve
 _LEGEND = 10  # largest number of speeds in the legend
 
@@ -30,11 +28,7 @@ def draw_tests(cycles: Sequence[Cycle], most: int = 40, shift: Shift | None = No
     each. With a shift law the pull-offs are drawn against the speed a_T v at its reference
     temperature. At most `most` evenly chosen curves are drawn, but the pull-offs of all cycles.
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(11.0, 5.0), layout="constrained")
+    with drawing(11.0, 5.0) as figure:
         left, right = figure.subplots(1, 2)
         _curves(left, cycles, most)
         _pull_offs(right, cycles, shift)
@@ -48,8 +42,8 @@ def _curves(axes: "Axes", cycles: Sequence[Cycle], most: int) -> None:
     rows = [(number, cycle) for number, same in enumerate(groups) for cycle in same]
     chosen = [rows[i] for i in _evenly(len(rows), most)]
     shown = [cycle for _, cycle in chosen]
-    forces, force_unit = axis_unit(max(c.pull_off_force.value for c in shown), "N")
-    depths, depth_unit = axis_unit(max(float(np.ptp(c.depth[c.retraction])) for c in shown), "m")
+    forces, force_unit = axis_unit([c.pull_off_force.value for c in shown], "N")
+    depths, depth_unit = axis_unit([np.ptp(c.depth[c.retraction]) for c in shown], "m")
     # the last colours are too light for lines
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(groups)))
     for number, cycle in chosen:
@@ -58,20 +52,14 @@ def _curves(axes: "Axes", cycles: Sequence[Cycle], most: int) -> None:
         colour = colours[number]
         depth, force = cycle.depth[back][::every], cycle.force[back][::every]
         axes.plot(depth / depths, force / forces, lw=1.0, color=colour)
-        axes.plot(
-            cycle.depth_at_pull_off.value / depths,
-            -cycle.pull_off_force.value / forces,
-            "o",
-            ms=4,
-            color=colour,
-        )
+        at = cycle.depth_at_pull_off.value / depths, -cycle.pull_off_force.value / forces
+        axes.plot(*at, "o", ms=4, color=colour)
     several = len(same_temperatures(cycles)) > 1
     for number in _evenly(len(groups), _LEGEND):
         axes.plot([], [], color=colours[number], label=_label(groups[number], several))
     axes.legend(fontsize="small")
     axes.axhline(0.0, color="0.6", lw=0.8)
-    axes.set_xlabel(f"depth [{depth_unit}]")
-    axes.set_ylabel(f"force, compression positive [{force_unit}]")
+    axes.set(xlabel=f"depth [{depth_unit}]", ylabel=f"force, compression positive [{force_unit}]")
 
 
 def _evenly(count: int, most: int) -> list[int]:
@@ -101,7 +89,7 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle], shift: Shift | None) -> No
 
     groups = same_temperatures(cycles)
     factors = [_factor(same, shift) for same in groups]
-    force, unit = axis_unit(max(cycle.pull_off_force.value for cycle in cycles), "N")
+    force, unit = axis_unit([cycle.pull_off_force.value for cycle in cycles], "N")
     pairs = list(zip(groups, factors, strict=True))
     speed, speed_unit = log_axis_unit([a * c.speed.value for same, a in pairs for c in same], "m/s")
     colours = colormaps["plasma"](np.linspace(0.0, 0.85, len(groups)))
@@ -119,15 +107,14 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle], shift: Shift | None) -> No
         )
     if all(cycle.speed.value > 0 for cycle in cycles):
         axes.set_xscale("log")
-        plain_ticks(axes.xaxis)
+        plain_ticks(axes)
     if len(groups) > 1:
         axes.legend(fontsize="small")
     axes.set_ylim(bottom=0.0)
     name = "true speed of retraction"
     if shift is not None:
         name = f"speed $a_T v$ at {shift.reference_temperature - 273.15:.3g} °C"
-    axes.set_xlabel(f"{name} [{speed_unit}]")
-    axes.set_ylabel(f"pull-off force [{unit}]")
+    axes.set(xlabel=f"{name} [{speed_unit}]", ylabel=f"pull-off force [{unit}]")
 
 
 def _factor(same: Sequence[Cycle], shift: Shift | None) -> float:

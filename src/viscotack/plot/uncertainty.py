@@ -1,14 +1,13 @@
 """Figure of the shares of inputs in the variance of a force."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from viscotack.forecast.uncertainty import Uncertainty
 
+from .style import drawing
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 
 
 def draw_uncertainty(found: Uncertainty) -> "Figure":
@@ -19,12 +18,8 @@ def draw_uncertainty(found: Uncertainty) -> "Figure":
     found : Uncertainty
         Result of :func:`viscotack.uncertainty`.
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    with matplotlib.style.context(_STYLE):
-        names = sorted(found.total, key=found.total.__getitem__)
-        figure = Figure(figsize=(7.0, 1.4 + 0.42 * len(names)), layout="constrained")
+    names = sorted(found.total, key=found.total.__getitem__)
+    with drawing(7.0, 1.4 + 0.42 * len(names)) as figure:
         axes = figure.subplots()
         axes.barh(names, [found.total[x] for x in names], color="0.8", label="with other inputs")
         axes.barh(names, [found.first[x] for x in names], height=0.45, label="alone")

@@ -1,6 +1,5 @@
 """Figure of an array of pads: force by travel of the drive, and the order of detachment."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,12 +7,11 @@ import numpy as np
 from viscotack.pads import ArrayPull, PadArray
 from viscotack.pads.payload import Hold
 
-from .plot import axis_unit
+from .style import BLUE, ORANGE, axis_unit, drawing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_STYLE = Path(__file__).with_name("viscotack.mplstyle")
 # Largest number of pads that carry the number of their turn.
 _NUMBERED = 60
 
@@ -52,26 +50,21 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
     >>> draw_array(array, found).axes[0].get_xlabel()
     'travel of the drive [µm]'
     """
-    import matplotlib.style
-    from matplotlib.figure import Figure
-
-    travel, length = axis_unit(float(-found.drive[-1]), "m")
-    largest = max(abs(float(found.force.min())), abs(float(found.force.max())))
-    unit, force_unit = axis_unit(largest, "N")
+    travel, length = axis_unit(found.drive[-1], "m")
+    unit, force_unit = axis_unit(found.force, "N")
     places = np.array(array.positions, dtype=float)
     across, place_unit = axis_unit(max(float(np.ptp(places)), 1e-9), "m")
     turn = np.full(len(places), np.nan)
     for number, (when, _) in enumerate(found.jumps):
         turn[np.isclose(found.released, when, rtol=1e-6, atol=1e-9 * -found.drive[-1])] = number + 1
-    with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+    with drawing(10.0, 4.6) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.35, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(-found.drive / travel, found.force / unit, color="#08519c")
+        left.plot(-found.drive / travel, found.force / unit, color=BLUE)
         low, high = (-end / unit for end in found.interval)
-        left.axhspan(low, high, color="#08519c", alpha=0.15, lw=0, label="pull-off, interval")
+        left.axhspan(low, high, color=BLUE, alpha=0.15, lw=0, label="pull-off, interval")
         if load is not None:
-            left.axhline(-load.force / unit, color="#d94801", ls="--", label="load")
+            left.axhline(-load.force / unit, color=ORANGE, ls="--", label="load")
         left.set_xlabel(f"travel of the drive [{length}]")
         left.set_ylabel(f"force on the array [{force_unit}]")
         left.set_title(
@@ -79,20 +72,17 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
             f"load sharing {found.load_sharing:.2f}"
         )
         left.legend(loc="best", frameon=False)
-        apart = np.isnan(turn)
         x, y = (places / across).T
-        if apart.any():
-            right.scatter(
-                x[apart], y[apart], s=260, facecolors="none", edgecolors="0.5", label="no contact"
-            )
+        touched = ~np.isnan(turn)
+        if not touched.all():
+            style = {"s": 260, "facecolors": "none", "edgecolors": "0.5", "label": "no contact"}
+            right.scatter(x[~touched], y[~touched], **style)
             right.legend(loc="upper left", bbox_to_anchor=(0, -0.12), frameon=False)
-        drawn = right.scatter(
-            x[~apart], y[~apart], s=260, c=turn[~apart], cmap="viridis_r", edgecolors="0.3"
-        )
+        style = {"s": 260, "c": turn[touched], "cmap": "viridis_r", "edgecolors": "0.3"}
+        drawn = right.scatter(x[touched], y[touched], **style)
         if len(places) <= _NUMBERED:
-            middle = (1 + len(found.jumps)) / 2
-            for at_x, at_y, number in zip(x[~apart], y[~apart], turn[~apart], strict=True):
-                colour = "white" if number > middle else "black"
+            for at_x, at_y, number in zip(x[touched], y[touched], turn[touched], strict=True):
+                colour = "white" if number > (1 + len(found.jumps)) / 2 else "black"
                 style = {"ha": "center", "va": "center", "color": colour, "fontsize": 9}
                 right.annotate(f"{number:.0f}", (at_x, at_y), **style)
         else:
@@ -100,7 +90,6 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
         right.set_aspect("equal")
         right.margins(0.15)
         right.grid(False)
-        right.set_xlabel(f"x [{place_unit}]")
-        right.set_ylabel(f"y [{place_unit}]")
+        right.set(xlabel=f"x [{place_unit}]", ylabel=f"y [{place_unit}]")
         right.set_title("order in which the pads detach")
     return figure
