@@ -1,13 +1,10 @@
 """Figure and film of a pull on a rough surface: force curve, contact and gap."""
 
-import io
-import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator
-from itertools import chain
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -40,88 +37,57 @@ def draw_rough(found: RoughResult) -> "Figure":
         Left the force, compression positive, with the share of the map in contact; right the
         pressure at pull-off, tension in blue, compression in red.
     """
-    figure, _ = _figure(found, found.strongest)
+    figure, show = _figure(found)
+    show(found.strongest)
     return figure
-
-
-def film_of_pull(found: RoughResult, target: Target) -> None:
-    """Write the detachment as a film (GIF): the pressure over the map beside the force curve.
-
-    Raises
-    ------
-    ValueError
-        If the result has fewer than two maps; ask :func:`viscotack.rough.pull` for some.
-    """
-    from PIL import Image
-
-    frames = [
-        Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("P") for canvas in _frames(found)
-    ]
-    held, each = io.BytesIO(), 1000 // _PER_SECOND
-    frames[0].save(held, "gif", save_all=True, append_images=frames[1:], duration=each, loop=0)
-    write_whole(target, held.getvalue())
 
 
 def check_ffmpeg() -> None:
     """Raise InputError with a remedy if ffmpeg is missing."""
-    if shutil.which("ffmpeg") is None:
+    from matplotlib.animation import FFMpegWriter
+
+    if not FFMpegWriter.isAvailable():
         raise InputError(
             "an .mp4 film needs the program ffmpeg; install it (Debian: apt install ffmpeg, macOS: "
             "brew install ffmpeg, conda install ffmpeg), or write a .gif by --film"
         )
 
 
-def movie_of_pull(found: RoughResult, target: Target) -> None:
-    """Write the film of :func:`film_of_pull` as MP4 (H.264), by the program ffmpeg.
+def film_of_pull(found: RoughResult, target: Target, ending: str = ".gif") -> None:
+    """Write the detachment as a film: the pressure over the map beside the force curve.
+
+    Parameters
+    ----------
+    found : RoughResult
+        With two maps or more; :func:`viscotack.rough.pull` makes them if asked.
+    target : path or binary file
+        Where to write.
+    ending : str
+        ".gif", or ".mp4" for H.264 by the program ffmpeg.
 
     Raises
     ------
     ValueError
         If the result has fewer than two maps, or ffmpeg is missing or fails.
     """
-    check_ffmpeg()
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "film.mp4"
-        frames = (np.asarray(canvas.buffer_rgba()) for canvas in _frames(found))
-        first = next(frames)
-        size = f"{first.shape[1]}x{first.shape[0]}"
-        raw = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", str(_PER_SECOND), "-i", "-"]
-        # what players read: H.264 with halved colours
-        coded = ["-c:v", "libx264", "-pix_fmt", "yuv420p", str(path)]
-        with subprocess.Popen(
-            ["ffmpeg", "-loglevel", "error", *raw, *coded],
-            stdin=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        ) as process:
-            assert process.stdin is not None and process.stderr is not None
-            try:
-                for frame in chain([first], frames):
-                    process.stdin.write(frame.tobytes())
-                process.stdin.close()
-            except BrokenPipeError:  # ffmpeg has ended and said why
-                pass
-            words = process.stderr.read().decode(errors="replace").strip()
-        if process.returncode or not path.exists():
-            raise InputError(f"ffmpeg did not write the film: {words or process.returncode}")
-        content = path.read_bytes()
-    write_whole(target, content)
-
-
-def _frames(found: RoughResult) -> Iterator[Any]:
-    """Draw each map of a result in turn; the same canvas."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.animation import FFMpegWriter, PillowWriter
 
     if len(found.maps) < 2:
         raise InputError("a film needs maps of several instants; ask for at least 2")
-    with style():
-        figure, parts = _figure(found, found.maps[0])
-        figure.set_dpi(_DPI)
-        canvas = FigureCanvasAgg(figure)
-        for each in found.maps:
-            parts["image"].set_data(each.pressure / parts["stress"])
-            parts["mark"].set_data([each.depth / parts["length"]], [-each.force / parts["force"]])
-            canvas.draw()
-            yield canvas
+    if ending == ".mp4":
+        check_ffmpeg()
+    writer = (FFMpegWriter if ending == ".mp4" else PillowWriter)(fps=_PER_SECOND)
+    with style(), tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"film{ending}"
+        figure, show = _figure(found)
+        try:
+            with writer.saving(figure, str(path), _DPI):
+                for each in found.maps:
+                    show(each)
+                    writer.grab_frame()
+        except subprocess.CalledProcessError as error:
+            raise InputError(f"ffmpeg did not write the film: {error.stderr}") from None
+        write_whole(target, path.read_bytes())
 
 
 def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
@@ -161,19 +127,18 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     return figure
 
 
-def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, Any]]:
-    """Return the figure and the parts that a film changes."""
+def _figure(found: RoughResult) -> tuple["Figure", Callable[[FieldMap], None]]:
+    """Return the figure, and a function that shows a map in it."""
     length, length_unit = axis_unit(found.depth, "m")
     force, force_unit = axis_unit(found.force, "N")
     stress, stress_unit = axis_unit(found.strongest.pressure, "Pa")
-    rows, columns = shown.pressure.shape
+    rows, columns = found.strongest.pressure.shape
     side, side_unit = axis_unit(found.pixel * max(rows, columns), "m")
     with drawing(10.0, 4.4) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
         left.plot(found.depth / length, found.force / force, color=BLUE)
-        at = shown.depth / length, shown.force / force
-        (mark,) = left.plot(*at, "o", color=ORANGE, zorder=3)
+        (mark,) = left.plot([], [], "o", color=ORANGE, zorder=3)
         left.set(xlabel=f"depth [{length_unit}]", ylabel=f"force [{force_unit}]")
         share = left.twinx()
         part = 100 * found.area / found.nominal_area
@@ -185,10 +150,14 @@ def _figure(found: RoughResult, shown: FieldMap) -> tuple["Figure", dict[str, An
         most = float(np.quantile(np.abs(found.strongest.pressure), 0.999)) / stress
         extent = (0, columns * found.pixel / side, 0, rows * found.pixel / side)
         colours = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "interpolation": "nearest"}
-        image = right.imshow(shown.pressure / stress, extent=extent, **colours)
+        image = right.imshow(found.strongest.pressure / stress, extent=extent, **colours)
         right.grid(False)
         right.set(xlabel=f"x [{side_unit}]", ylabel=f"y [{side_unit}]")
         right.set_title("pressure at the point")
         figure.colorbar(image, ax=right, label=f"pressure [{stress_unit}]")
-    parts = {"image": image, "mark": mark, "stress": stress, "force": force, "length": length}
-    return figure, parts
+
+    def show(shown: FieldMap) -> None:
+        image.set_data(shown.pressure / stress)
+        mark.set_data([shown.depth / length], [shown.force / force])
+
+    return figure, show

@@ -33,15 +33,12 @@ def style(**settings: Any) -> AbstractContextManager[Any]:
 
 
 @contextmanager
-def drawing(*size: float, **settings: Any) -> Iterator["Figure"]:
-    """Enter the style of the package with a new figure of a width and height [inch]."""
+def drawing(width: float = 7.2, height: float = 5.0, **settings: Any) -> Iterator["Figure"]:
+    """Enter the style of the package with a new figure of a size [inch]."""
     from matplotlib.figure import Figure
 
     with style(**settings):
-        figure = Figure()
-        if size:
-            figure.set_size_inches(*size)
-        yield figure
+        yield Figure(figsize=(width, height))
 
 
 def axis_unit(values: npt.ArrayLike, unit: str) -> tuple[float, str]:
