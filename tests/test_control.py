@@ -14,14 +14,14 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.control import (
+from viscotack.design.control import (
     Release,
     c_header,
     fmu,
     force_table,
     let_go,
 )
-from viscotack.control.table import checked
+from viscotack.design.control.table import checked
 from viscotack.errors import InputError, OutOfRange
 
 PAD = vt.Problem(

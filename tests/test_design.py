@@ -8,11 +8,11 @@ import pytest
 
 import viscotack as vt
 from viscotack.design import Bounds, Choice, DesignSpace, Targets, find_design
+from viscotack.design.arrays import grid
 from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, FastTier, Force, Pad
 from viscotack.design.limits import solid_limits
 from viscotack.design.margins import Judge
-from viscotack.pads import grid
 
 RUBBER = vt.RetardationPowerLaw(
     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.6, tau0=0.1, poisson_ratio=0.5

@@ -5,7 +5,7 @@ import pytest
 import scipy
 
 import viscotack as vt
-from viscotack.pads.interacting import interactions
+from viscotack.design.arrays.interacting import interactions
 
 HEXAGON = [(0.0, 0.0), *((np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6))]
 PAIR = [(0.0, 0.0), (1.0, 0.0)]

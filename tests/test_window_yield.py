@@ -13,15 +13,15 @@ import viscotack as vt
 from test_window import ELASTIC, contact, with_work
 from test_window_file import CONTACT, PULL, SMALL
 from viscotack.app.cli import application
-from viscotack.materials.passport_file import read_passport
-from viscotack.operations import ask
-from viscotack.series import (
+from viscotack.design.window import (
     ContactScatter,
     aged,
     drawn_openings,
     opening_chance,
     read_window,
 )
+from viscotack.materials.passport_file import read_passport
+from viscotack.operations import ask
 from viscotack.traction import SaturatingAgeing
 
 PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"

@@ -25,6 +25,20 @@ if TYPE_CHECKING:
     from .design import Targets as Targets
     from .design import find_design as find_design
     from .design import read_design as read_design
+    from .design.arrays import ArrayPull as ArrayPull
+    from .design.arrays import ArrayYield as ArrayYield
+    from .design.arrays import Backing as Backing
+    from .design.arrays import PadArray as PadArray
+    from .design.arrays import Scatter as Scatter
+    from .design.arrays import array_yield as array_yield
+    from .design.arrays import pull_array as pull_array
+    from .design.window import CriticalSpeed as CriticalSpeed
+    from .design.window import SeriesOpening as SeriesOpening
+    from .design.window import SeriesResult as SeriesResult
+    from .design.window import Window as Window
+    from .design.window import simulate_in_series as simulate_in_series
+    from .design.window import which_opens as which_opens
+    from .design.window import window as window
     from .errors import InputError as InputError
     from .errors import NotInstalled as NotInstalled
     from .errors import OutOfRange as OutOfRange
@@ -59,13 +73,6 @@ if TYPE_CHECKING:
     from .methods import crack_contact as crack_contact
     from .methods import solve as solve
     from .operations import ask as ask
-    from .pads import ArrayPull as ArrayPull
-    from .pads import ArrayYield as ArrayYield
-    from .pads import Backing as Backing
-    from .pads import PadArray as PadArray
-    from .pads import Scatter as Scatter
-    from .pads import array_yield as array_yield
-    from .pads import pull_array as pull_array
     from .plot.material import draw_fit as draw_fit
     from .plot.prediction import draw_prediction as draw_prediction
     from .plot.regimes import draw_regimes as draw_regimes
@@ -121,13 +128,6 @@ if TYPE_CHECKING:
     from .result.observables import summary as summary
     from .result.observables import work_of_separation as work_of_separation
     from .result.observables import work_to_pull_off as work_to_pull_off
-    from .series import CriticalSpeed as CriticalSpeed
-    from .series import SeriesOpening as SeriesOpening
-    from .series import SeriesResult as SeriesResult
-    from .series import Window as Window
-    from .series import simulate_in_series as simulate_in_series
-    from .series import which_opens as which_opens
-    from .series import window as window
     from .traction import Dugdale as Dugdale
     from .traction import Exponential as Exponential
     from .traction import Eyring as Eyring
@@ -231,7 +231,7 @@ _NAMES = {
     "plot.regimes": ("draw_regimes",),
     "plot.style": ("save_figure",),
     "plot.material": ("draw_fit",),
-    "series": (
+    "design.window": (
         "which_opens",
         "SeriesOpening",
         "simulate_in_series",
@@ -240,7 +240,7 @@ _NAMES = {
         "Window",
         "CriticalSpeed",
     ),
-    "pads": (
+    "design.arrays": (
         "PadArray",
         "Backing",
         "pull_array",
@@ -262,7 +262,7 @@ _ROOMS = (
     "campaign",
     "datasets",
     "operations",
-    "control",
+    "design",
 )
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 

@@ -134,9 +134,8 @@ class OfRough(Request):
 
     def _superposed(self, caller: Caller) -> Answer:
         """Answer by superposition of asperities."""
-        from viscotack.pads import superposed
         from viscotack.plot.rough import draw_superposition
-        from viscotack.rough import read_rough
+        from viscotack.rough import read_rough, superposed
 
         from .parts.tables import rows_as_csv
 

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.pads import ArrayPull, PadArray
-from viscotack.pads.payload import Hold
+from viscotack.design.arrays import ArrayPull, PadArray
+from viscotack.design.arrays.load import Hold
 
 from .style import BLUE, ORANGE, axis_unit, drawing
 
@@ -38,7 +38,7 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
     Examples
     --------
     >>> from viscotack import AtForce, Elastic, LennardJones, Problem, Retraction, Sphere
-    >>> from viscotack.pads import grid, pull_array
+    >>> from viscotack.design.arrays import grid, pull_array
     >>> pad = Problem(
     ...     material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
     ...     traction=LennardJones(work_of_adhesion=0.1, equilibrium_gap=1e-8),

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.control import ForceTable, Released
+from viscotack.design.control import ForceTable, Released
 
 from .style import BLUE, ORANGE, axis_unit, drawing
 

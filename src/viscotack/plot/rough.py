@@ -10,9 +10,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
-from viscotack.pads.rough_surface import Superposition
 from viscotack.rough.problem import RoughProblem
 from viscotack.rough.result import FieldMap, RoughResult
+from viscotack.rough.superposition import Superposition
 
 from .style import BLUE, ORANGE, axis_unit, drawing, style
 
@@ -98,7 +98,7 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     problem : RoughProblem
         The surface.
     found : Superposition
-        Result of :func:`viscotack.pads.superposed`.
+        Result of :func:`viscotack.rough.superposed`.
 
     Returns
     -------

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.series import CriticalSpeed, Window
+from viscotack.design.window import CriticalSpeed, Window
 
 from .style import axis_unit, drawing, log_axis_unit, plain_ticks
 

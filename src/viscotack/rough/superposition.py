@@ -35,17 +35,17 @@ from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import Elastic
 from viscotack.methods import solve
+from viscotack.methods.curve import Curve, side_by_side
+from viscotack.methods.family import Family, Pull, pad_curve
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import Apart, Approach, AtDepth, Retraction
-from viscotack.rough import RoughProblem
-from viscotack.rough.criteria import stickiness
 from viscotack.surfaces import Asperities, summits
 from viscotack.theory.elastic import jkr
 from viscotack.traction import has_rest
 
-from .curve import Curve, side_by_side
-from .family import Family, Pull, pad_curve
+from .criteria import stickiness
+from .problem import RoughProblem
 
 # Largest share of the surface for which results are given (research/grid.py superposition).
 LARGEST_SHARE = 0.15

@@ -5,9 +5,8 @@ tilt and curvature. Each follows the curve of one pad. The derivation is in docs
 """
 
 from .array_file import ArrayFile, read_array
-from .payload import Hold, Holding, holding, preload_after
+from .load import Hold, Holding, holding, preload_after
 from .pulling import ArrayPull, Backing, PadArray, grid, pull_array
-from .rough_surface import Superposition, superposed
 from .scatter import ArrayYield, Scatter, array_yield
 
 __all__ = [
@@ -19,12 +18,10 @@ __all__ = [
     "Holding",
     "PadArray",
     "Scatter",
-    "Superposition",
     "array_yield",
     "grid",
     "holding",
     "preload_after",
     "pull_array",
     "read_array",
-    "superposed",
 ]

@@ -20,7 +20,7 @@ from viscotack.problem.nouns import known
 from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
 from viscotack.protocol.moves import Speed
 
-from .payload import Hold
+from .load import Hold
 from .pulling import MOST_PADS, Backing, PadArray, grid
 from .scatter import Scatter, check_draws
 

@@ -11,10 +11,10 @@ from viscotack.arrays import Array
 from viscotack.bem.settings import Settings
 from viscotack.bem.stepwise import SteppedSimulation
 from viscotack.clock import TimeUp, limited
+from viscotack.design.window.simulated import part_of, posed_contact
 from viscotack.errors import InputError
 from viscotack.problem import Problem, Scales
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.series.simulated import part_of, posed_contact
 from viscotack.threads import one_blas_thread
 
 from .release import Release
