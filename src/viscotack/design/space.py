@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from math import exp, inf, log
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
+from viscotack.geometry import Bonded
+from viscotack.problem.tables import Read
+
+from .files import ends
 
 HOLD, RELEASE, RATIO, WORK, LOAD = "hold", "release", "ratio", "work", "dead_load"
 RADIUS, PRELOAD, PADS = "radius", "preload", "pads"
@@ -212,6 +216,20 @@ class Bounds:
 
 
 @dataclass(frozen=True)
+class Between:
+    """Marks a field of a table that has bounds: a quantity, or a range "1 mm..10 mm"."""
+
+    unit: str
+    example: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        """Read the bounds."""
+        return Read(
+            lambda value, reading: Bounds(*ends(value, reading, self.unit, self.example))
+        ).__get_pydantic_core_schema__(source, handler)
+
+
+@dataclass(frozen=True)
 class Choice:
     """One design: a value of each variable, in SI.
 
@@ -270,8 +288,8 @@ class DesignSpace:
     modulus, thickness, exponent, backing : Bounds or None
         As in :class:`Choice`; None leaves a sphere of the stated material on a half-space and a
         rigid backing.
-    bonded : bool
-        Whether a layer is bonded to its base; otherwise it slides.
+    base : str
+        Whether a layer is "bonded" to its base or slides, "frictionless".
 
     Examples
     --------
@@ -284,17 +302,24 @@ class DesignSpace:
     1
     """
 
-    radius: Bounds
-    preload: Bounds
-    hold_speed: Bounds | None = None
-    release_speed: Bounds | None = None
-    pads: Bounds = Bounds(1)
-    area: float | None = None
-    modulus: Bounds | None = None
-    thickness: Bounds | None = None
-    exponent: Bounds | None = None
-    backing: Bounds | None = None
-    bonded: bool = False
+    radius: Annotated[Bounds, Between("m", "1 mm..10 mm")]
+    preload: Annotated[Bounds, Between("N", "1 mN..20 mN")]
+    hold_speed: Annotated[Bounds | None, Between("m/s", "100 um/s..10 mm/s")] = None
+    release_speed: Annotated[Bounds | None, Between("m/s", "0.1 um/s..10 um/s")] = None
+    pads: Annotated[Bounds, Between("1", "1..12")] = Bounds(1)
+    area: (
+        Annotated[float, Quantity("m^2", "A", "largest area", above=0, example="4 cm^2")] | None
+    ) = None
+    modulus: Annotated[Bounds | None, Between("Pa", "0.5 MPa..5 MPa")] = None
+    thickness: Annotated[Bounds | None, Between("m", "100 um..2 mm")] = None
+    exponent: Annotated[Bounds | None, Between("1", "2..4")] = None
+    backing: Annotated[Bounds | None, Between("N/m", "100 N/m..10 kN/m")] = None
+    base: Literal["frictionless", "bonded"] = "frictionless"
+
+    @property
+    def bonded(self) -> bool:
+        """Whether a layer is bonded to its base."""
+        return self.base == Bonded.word
 
     def __post_init__(self) -> None:
         if any(end != int(end) or end > MOST_PADS for end in (self.pads.low, self.pads.top)):

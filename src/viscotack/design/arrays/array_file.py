@@ -14,19 +14,16 @@ from typing import Annotated, Any
 
 from viscotack.cards import Exact, Pairs, Quantity, cards
 from viscotack.errors import InputError
-from viscotack.files.toml import read_toml
-from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.nouns import known
-from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
+from viscotack.problem.tables import Read, Reading, read_as, refuse_named
 from viscotack.protocol.moves import Speed
 
+from ..files import at, contact, opened
 from .load import Hold
 from .pulling import MOST_PADS, Backing, PadArray, grid
 from .scatter import Scatter, check_draws
 
 _TABLES = ("pad", "array", "backing", "pull", "hold")
-# Names of what is not computed, and of a viscoelastic base.
-_ALONG = ("shear", "peel")
+# Names of a viscoelastic base, which is not computed.
 _VISCOELASTIC = ("base_material", "base_glassy", "base_tau", "base_exponent", "base_rubbery")
 
 
@@ -148,44 +145,23 @@ def read_array(
     ValueError
         If it is not TOML, or a table or key is missing, unknown or invalid.
     """
-    path = Path(path)
-    tables = read_toml(path)
-    refuse_named(
-        f"{path}", tables, _ALONG, "the plate is pulled along its normal, without shear and peeling"
-    )
-    refuse_named(
-        f"{path}",
-        tables.get("backing", {}) if isinstance(tables.get("backing"), Mapping) else {},
-        _VISCOELASTIC,
-        "the common base is elastic, because point loads have no memory here; base_modulus may be "
-        "the relaxed modulus for a slow pull, or the glassy one for a fast pull",
-    )
-    refuse_unknown(f"{path}", tables, _TABLES, "table")
-    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
+    tables, reading = opened(path, _TABLES, also, beside, not_computed=("shear", "peel"))
+    backing = tables.get("backing", {})
+    if isinstance(backing, Mapping):
+        refuse_named(
+            reading.where,
+            backing,
+            _VISCOELASTIC,
+            "the common base is elastic, because point loads have no memory here; base_modulus may "
+            "be the relaxed modulus for a slow pull, or the glassy one for a fast pull",
+        )
     pull = read_as(_Pull, tables.get("pull"), reading, "pull")
-    pad = tables.get("pad")
-    if not isinstance(pad, Mapping):
-        raise InputError(f"{path}: the table [pad] is missing; write [pad.material] and others")
-    if "protocol" in pad:
-        raise InputError(f"{path}: [pad.protocol] is stated by [pull]; remove it")
-    # speed and preload of the pull replace these
-    protocol = {"preload_force": f"{pull.preload!r} N", "speed": f"{pull.speed!r} m/s"}
-    problem = case_of_tables(
-        {**pad, "protocol": protocol}, where=f"{path}, [pad]", also=also, beside=reading.beside
-    )
+    pad = contact(tables, "pad", reading, also, preload=pull.preload, speed=pull.speed)
     layout = read_as(_Layout, tables.get("array"), reading, "array")
-    try:
+    carried = read_as(Backing, backing, reading, "backing")
+    with at(f"{path}, [array]"):
         places, scatter = layout.places, layout.scatter
         check_draws(layout.draws, len(places))
-        array = PadArray(
-            problem,
-            places,
-            heights=layout.heights,
-            works=layout.works,
-            backing=read_as(Backing, tables.get("backing", {}), reading, "backing"),
-        )
-    except InputError as error:
-        already = str(error).startswith(f"{path}")
-        raise InputError(str(error) if already else f"{path}, [array] {error}") from None
+        array = PadArray(pad, places, heights=layout.heights, works=layout.works, backing=carried)
     hold = read_as(Hold, tables["hold"], reading, "hold") if "hold" in tables else None
     return ArrayFile(array, pull.speed, pull.preload, scatter, layout.draws, hold, pull.hold_time)

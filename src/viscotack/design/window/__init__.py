@@ -14,8 +14,7 @@ from .chances import (
     opening_chance,
     window_yield,
 )
-from .contact_time import aged
-from .opening import SeriesOpening, which_opens
+from .opening import SeriesOpening, aged, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
 from .window_file import WindowFile, read_window

@@ -19,7 +19,7 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY
 
 from .opening import CRACKS, SIMULATION, SeriesOpening, posed, which_opens
 
-DONOR, RECEIVER = "donor", "receiver"
+STAMP, DONOR, RECEIVER = "stamp", "donor", "receiver"
 PICK, PRINT, BOTH, NEITHER, UNDECIDED = "pick", "print", "pick and print", "neither", "undecided"
 # Tolerance of ln of a critical speed by steady cracks, of its interval, and of one by simulation.
 _RESOLUTION, _OF_INTERVAL, _SIMULATED = 5e-3, 0.03, 0.1
@@ -248,7 +248,7 @@ def _critical_speeds(
     found: list[SeriesOpening],
 ) -> Iterator[CriticalSpeed]:
     """Yield the critical speeds of a base at a preload."""
-    words = (name, "stamp")
+    words = (name, STAMP)
     for change in _changes(speeds, [x.nominal for x in found]):
         ends = [found[speeds.index(speed)].method for speed in (change.low, change.high)]
         method = SIMULATION if SIMULATION in ends else CRACKS

@@ -17,38 +17,33 @@ from typing import Annotated, Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.files.toml import read_toml
 from viscotack.materials import Elastic
 from viscotack.problem import Problem
-from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.nouns import known
-from viscotack.problem.tables import Read, Reading, read_as, refuse_named, refuse_unknown
+from viscotack.problem.tables import Read, Reading, read_as
 from viscotack.protocol.moves import Stiffness
 from viscotack.traction import ages
 
+from ..files import at, contact, ends, opened
 from .chances import WindowScatter
-from .contact_time import aged
+from .opening import aged
+from .picking import DONOR, RECEIVER, STAMP
 
-STAMP, DONOR, RECEIVER, PULL, SCATTER = "stamp", "donor", "receiver", "pull", "scatter"
-# Between the ends of a range of numbers.
-_TO = ".."
 _PER_DECADE, _MOST = 3, 1000
-# Tables of what is not computed.
-_ALONG = ("shear", "peel", "tilt")
 
 
 def _numbers(value: Any, reading: Reading, unit: str) -> tuple[float, ...]:
     """Return a quantity, a list of them, or the numbers of a range "1 um/s..1 mm/s"."""
-    if isinstance(value, str) and _TO in value:
-        low, high = (reading.parsed(end.strip(), unit) for end in value.split(_TO, 1))
-        if not 0 < low < high:
-            raise InputError(f"a range begins above 0, got {value!r:.60}")
-        count = min(1 + round(_PER_DECADE * np.log10(high / low)), _MOST)
-        return tuple(float(x) for x in np.geomspace(low, high, max(count, 2)))
-    several = value if isinstance(value, list) else [value]
-    if not several:
-        raise InputError("must not be empty")
-    return tuple(reading.parsed(each, unit) for each in several)
+    if isinstance(value, list):
+        if not value:
+            raise InputError("must not be empty")
+        return tuple(reading.parsed(each, unit) for each in value)
+    low, *high = ends(value, reading, unit)
+    if not high:
+        return (low,)
+    if not 0 < low < high[0]:
+        raise InputError(f"a range begins above 0, got {value!r:.60}")
+    count = min(1 + round(_PER_DECADE * np.log10(high[0] / low)), _MOST)
+    return tuple(float(x) for x in np.geomspace(low, high[0], max(count, 2)))
 
 
 def _of(unit: str) -> Read:
@@ -116,52 +111,42 @@ def read_window(
     ValueError
         If it is not TOML, or a table or key is missing, unknown or invalid.
     """
-    path = Path(path)
-    tables = read_toml(path)
-    refuse_named(
-        f"{path}",
-        tables,
-        _ALONG,
-        "both contacts of a window are pulled along their axis, without shear, peeling and tilt",
-    )
-    refuse_unknown(f"{path}", tables, (STAMP, DONOR, RECEIVER, PULL, SCATTER), "table")
-    reading = Reading(str(path), known(also), beside or path.parent.joinpath)
-    pull = read_as(_Pull, tables.get(PULL), reading, PULL)
-    scatter = (
-        read_as(WindowScatter, tables[SCATTER], reading, SCATTER) if SCATTER in tables else None
-    )
-    # speed and preload of the map replace these
-    protocol = {"preload_force": f"{pull.preloads[0]!r} N", "speed": f"{pull.speeds[0]!r} m/s"}
-
-    def contact(name: str, temperature: float | None) -> Problem:
-        if not isinstance(tables[name], Mapping):
-            raise InputError(f"{path}: {name} must be a table, such as [{name}.material]")
-        if "protocol" in tables[name]:
-            raise InputError(f"{path}: [{name}.protocol] is stated by [pull]; remove it")
-        return case_of_tables(
-            {**tables[name], "protocol": protocol},
-            where=f"{path}, [{name}]",
-            also=also,
-            beside=reading.beside,
-            temperature=temperature if _has_passport(tables[name]) else None,
-        )
-
-    if STAMP not in tables or not {DONOR, RECEIVER} & tables.keys():
-        raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
+    known = (STAMP, DONOR, RECEIVER, "pull", "scatter")
+    tables, reading = opened(path, known, also, beside, not_computed=("shear", "peel", "tilt"))
+    pull = read_as(_Pull, tables.get("pull"), reading, "pull")
+    scatter = None
+    if "scatter" in tables:
+        scatter = read_as(WindowScatter, tables["scatter"], reading, "scatter")
     names = [name for name in (STAMP, DONOR, RECEIVER) if name in tables]
-    for base in {DONOR, RECEIVER} & tables.keys():
+    if STAMP not in names or len(names) == 1:
+        raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
+    for base in names[1:]:
         if scatter is not None:
-            try:
+            with at(f"{path}, [scatter]"):
                 scatter.of(base)
-            except InputError as error:
-                raise InputError(f"{path}, [{SCATTER}] {error}") from None
     if pull.temperatures != (None,):
-        _check_shifted(path, tables, names)
+        _check_shifted(reading.where, tables, names)
     variants = []
     for temperature, dwell in product(pull.temperatures, pull.dwells):
-        contacts = {name: contact(name, temperature) for name in names}
+        contacts = {
+            name: contact(
+                tables,
+                name,
+                reading,
+                also,
+                # speed and preload of the map replace these
+                preload=pull.preloads[0],
+                speed=pull.speeds[0],
+                temperature=temperature if _has_passport(tables[name]) else None,
+            )
+            for name in names
+        }
         if dwell is not None:
-            _check_aged(path, contacts.values())
+            if not any(ages(each.traction) for each in contacts.values()):
+                raise InputError(
+                    f"{path}: dwells need an interface that ages, for example [stamp.interface] "
+                    'law = "logarithmic-ageing"'
+                )
             contacts = {name: aged(each, dwell) for name, each in contacts.items()}
         bases = contacts.get(DONOR), contacts.get(RECEIVER)
         file = WindowFile(
@@ -174,21 +159,12 @@ def read_window(
     return replace(first, variants=tuple(variants))
 
 
-def _check_aged(path: Path, contacts: Iterable[Problem]) -> None:
-    """Raise an InputError unless a dwell changes one of the contacts."""
-    if not any(ages(each.traction) for each in contacts):
-        raise InputError(
-            f"{path}: dwells need an interface that ages, for example [stamp.interface] law = "
-            '"logarithmic-ageing"'
-        )
-
-
 def _has_passport(tables: Any) -> bool:
     material = tables.get("material") if isinstance(tables, Mapping) else None
     return isinstance(material, Mapping) and "passport" in material
 
 
-def _check_shifted(path: Path, tables: Mapping[str, Any], names: list[str]) -> None:
+def _check_shifted(path: str, tables: Mapping[str, Any], names: list[str]) -> None:
     """Raise an InputError unless temperatures change all viscoelastic contacts."""
     for name in names:
         material = tables[name].get("material", {}) if isinstance(tables[name], Mapping) else {}
