@@ -18,7 +18,7 @@ from viscotack.result import Outcome
 from viscotack.result.observables import pull_off
 from viscotack.units import readable
 
-from .table import ForceTable, checked
+from .table import ForceTable
 
 # Parts of the way to the pull-off, from there to half of it, and to the end.
 _PARTS = 64, 16, 32
@@ -126,16 +126,14 @@ def force_table(
                     f"force changes too much for a table of {_MOST} speeds: the interpolation "
                     f"misses it by {100 * miss:.2g} %; take a coarser tolerance or fewer decades"
                 )
-    return checked(
-        ForceTable(
-            start_depth=pulls[0].start,
-            speed=np.array([x.speed for x in pulls]),
-            travel=np.array([x.travel for x in pulls]),
-            share=_shares(),
-            force=np.array([x.force for x in pulls]),
-            error=missed + max(x.error for x in pulls),
-            of=_words(problem),
-        )
+    return ForceTable(
+        start_depth=pulls[0].start,
+        speed=np.array([x.speed for x in pulls]),
+        travel=np.array([x.travel for x in pulls]),
+        share=_shares(),
+        force=np.array([x.force for x in pulls]),
+        error=missed + max(x.error for x in pulls),
+        of=_words(problem),
     )
 
 

@@ -19,7 +19,7 @@ from math import log, nan
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError, OutOfRange
+from viscotack.errors import OutOfRange
 from viscotack.units import readable
 
 
@@ -168,31 +168,3 @@ class ForceTable:
         width = self.share[j + 1] - self.share[j]
         rise = (row[j + 1] - row[j]) / width
         return float(row[j] + (u - self.share[j]) * rise), float(-rise / way)
-
-
-def checked(table: ForceTable) -> ForceTable:
-    """Return a table, checked.
-
-    Raises
-    ------
-    ValueError
-        If shapes, order or signs are not those of a force table.
-    """
-    m, n = len(table.speed), len(table.share)
-    numbers = np.concatenate([table.travel.ravel(), table.force.ravel(), table.speed, table.share])
-    if (
-        m < 2
-        or table.travel.shape != (m, 3)
-        or table.force.shape != (m, n)
-        or not np.all(np.isfinite(numbers))
-        or not (np.all(np.diff(table.speed) > 0) and table.speed[0] > 0)
-        or not (np.all(np.diff(table.share) > 0) and table.share[0] == 0 and table.share[-1] == 3)
-        or not {1.0, 2.0} <= set(table.share.tolist())
-        or not np.all(np.diff(table.travel, axis=1, prepend=0.0) > 0)
-    ):
-        raise InputError(
-            "a force table needs two or more speeds, ascending; travels to the pull-off, to half "
-            "of its force and to the end, ascending; and a force at each speed and share from 0 "
-            "over 1 and 2 to 3"
-        )
-    return table

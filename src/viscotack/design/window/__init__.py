@@ -5,16 +5,17 @@ The object has two contacts that carry the same force, and the one that opens de
 derivation is in docs/pick_and_print.md.
 """
 
+from viscotack.methods.in_series import SeriesOpening
+
 from .chances import (
     CellYield,
     ContactScatter,
     OpeningChance,
     WindowScatter,
-    drawn_openings,
     opening_chance,
     window_yield,
 )
-from .opening import SeriesOpening, aged, which_opens
+from .opening import aged, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
 from .window_file import WindowFile, read_window
@@ -31,7 +32,6 @@ __all__ = [
     "WindowFile",
     "WindowScatter",
     "aged",
-    "drawn_openings",
     "opening_chance",
     "read_window",
     "simulate_in_series",

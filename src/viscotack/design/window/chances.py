@@ -8,9 +8,9 @@ order :math:`c = c_0 + \alpha y + \beta p`, so
 .. math:: P = \Phi\!\left(\frac{c_0}{\sqrt{\sigma_1^2 + \alpha^2 \sigma_2^2 +
           \beta^2 \sigma_p^2}}\right).
 
-The critical work comes from bisection with steady cracks in series. :func:`drawn_openings` counts
-instead, by Monte Carlo. Two elastic spheres of equal range open by their pull-off forces, which are
-proportional to the works, so there :math:`\alpha = 1` and :math:`\beta = 0`.
+The critical work comes from bisection with steady cracks in series. Two elastic spheres of equal
+range open by their pull-off forces, which are proportional to the works, so there
+:math:`\alpha = 1` and :math:`\beta = 0`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ import numpy as np
 
 from viscotack.cards import Quantity
 from viscotack.errors import InputError
-from viscotack.methods.in_series import Opening, opening_by_cracks
+from viscotack.methods.in_series import SeriesOpening, opening_by_cracks
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce
 
@@ -129,7 +129,7 @@ def opening_chance(first: Problem, second: Problem, scatter: ContactScatter) -> 
             ends = [_critical(opens, reach, **{"yp"[place]: sign * step}) for sign in (-1.0, 1.0)]
             known = [each if np.isfinite(each) else center for each in ends]
             variance += ((known[1] - known[0]) / (2 * step) * deviation) ** 2
-    band = sum(middle.bands)
+    band = sum(middle.bands or ())
     at = [
         center / sqrt(variance),
         (center - band) / sqrt(variance),
@@ -250,28 +250,6 @@ def window_yield(
     return tuple(cells)
 
 
-def drawn_openings(
-    first: Problem, second: Problem, scatter: ContactScatter, *, draws: int = 100, seed: int = 0
-) -> float:
-    """Return the share of drawn pairs whose first contact opens, by steady cracks.
-
-    Parameters
-    ----------
-    first, second : Problem
-        Both contacts.
-    scatter : ContactScatter
-        Scatter of works and preload.
-    draws, seed : int
-        Number of pairs, and seed of the random numbers.
-    """
-    check_pair(first, second)
-    random = np.random.default_rng(seed)
-    deviations = np.array([scatter.first, scatter.second, scatter.preload])
-    moved = random.standard_normal((draws, 3)) * deviations
-    found = [_opens(first, second, *(float(x) for x in row)).nominal for row in moved]
-    return sum(each == 0 for each in found) / draws
-
-
 def _critical(opens: Any, reach: float, y: float = 0.0, p: float = 0.0) -> float:
     """Return ln of the critical work of the first contact; infinite beyond the reach."""
     low, high = -reach, reach
@@ -285,7 +263,7 @@ def _critical(opens: Any, reach: float, y: float = 0.0, p: float = 0.0) -> float
     return (low + high) / 2
 
 
-def _opens(first: Problem, second: Problem, x: float, y: float, p: float) -> Opening:
+def _opens(first: Problem, second: Problem, x: float, y: float, p: float) -> SeriesOpening:
     """Return which contact opens with factors exp(x) and exp(y) on the works, exp(p) on preload."""
     return opening_by_cracks(_moved(first, x, p), _moved(second, y, p))
 

@@ -2,56 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from math import isnan
 from typing import Any
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.methods.in_series import Opening, opening_by_cracks
+from viscotack.methods.in_series import SIMULATION, SeriesOpening, opening_by_cracks
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.protocol import AtForce, Retraction
 from viscotack.traction import ages
 
 from .simulated import simulate_in_series
-
-CRACKS, SIMULATION = "steady cracks", "simulation"
-
-
-@dataclass(frozen=True)
-class SeriesOpening:
-    """Answer to which of two contacts in series opens.
-
-    Attributes
-    ----------
-    opened : int or None
-        The contact that opens, 0 or 1; None if it is undecided.
-    tension : float or None
-        Largest common tension [N], the pull-off force of the pair; None if unknown.
-    held : float or None
-        Radius of the contact that holds after the largest tension, over that at the start; None if
-        unknown.
-    method : str
-        "steady cracks" or "simulation".
-    bands : tuple of float, or None
-        Relative half widths of the intervals of the strengths of both contacts; None for a
-        simulation and where steady cracks do not apply.
-    nominal : int or None
-        The contact that opens without regard to bands.
-    corners : tuple of (int or None)
-        The contact that opens if the first is weaker and the second stronger by their bands, and
-        the reverse.
-    why : str
-        Reason for an undecided answer, and for a simulation.
-    """
-
-    opened: int | None
-    tension: float | None
-    held: float | None
-    method: str
-    bands: tuple[float, float] | None
-    nominal: int | None
-    corners: tuple[int | None, int | None]
-    why: str
 
 
 def which_opens(
@@ -107,45 +69,25 @@ def which_opens(
     try:
         found = opening_by_cracks(first, second)
     except OutOfRange as reason:
-        if not simulate:
-            return SeriesOpening(None, None, None, CRACKS, None, None, (None, None), str(reason))
-        why = str(reason)
-    else:
-        if found.opened is not None or not simulate:
-            return _by_cracks(found)
-        why = _OVERLAP
+        found = SeriesOpening(why=str(reason))
+    if found.opened is not None or not simulate:
+        return found
     try:
         result = simulate_in_series(first, second, accuracy=accuracy, time_limit=time_limit)
     except OutOfRange as reason:
-        words = f"{why}; {reason}"
-        return SeriesOpening(None, None, None, SIMULATION, None, None, (None, None), words)
-    opened = result.opened
-    if opened is None:
-        why = f"both contacts open together, or the run stopped: {result.status}"
+        return SeriesOpening(method=SIMULATION, why=f"{found.why}; {reason}")
+    opened, held = result.opened, result.held
     return SeriesOpening(
-        opened, result.tension, _known(result.held), SIMULATION, None, opened, (opened, opened), why
+        opened,
+        result.tension,
+        None if isnan(held) else held,
+        nominal=opened,
+        corners=(opened, opened),
+        method=SIMULATION,
+        why=found.why
+        if opened is not None
+        else f"both contacts open together, or the run stopped: {result.status}",
     )
-
-
-_OVERLAP = "the intervals of both strengths overlap"
-
-
-def _by_cracks(found: Opening) -> SeriesOpening:
-    """Return the answer of steady cracks."""
-    return SeriesOpening(
-        found.opened,
-        found.tension,
-        _known(found.held),
-        CRACKS,
-        found.bands,
-        found.nominal,
-        found.corners,
-        "" if found.opened is not None else _OVERLAP,
-    )
-
-
-def _known(number: float) -> float | None:
-    return float(number) if number == number else None
 
 
 def posed(

@@ -14,10 +14,11 @@ from itertools import pairwise
 from math import isfinite, log, sqrt
 
 from viscotack.errors import InputError
+from viscotack.methods.in_series import CRACKS, SIMULATION, SeriesOpening
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 
-from .opening import CRACKS, SIMULATION, SeriesOpening, posed, which_opens
+from .opening import posed, which_opens
 
 STAMP, DONOR, RECEIVER = "stamp", "donor", "receiver"
 PICK, PRINT, BOTH, NEITHER, UNDECIDED = "pick", "print", "pick and print", "neither", "undecided"
@@ -216,7 +217,7 @@ def _tried(opening: Callable[[float], SeriesOpening], speed: float) -> SeriesOpe
     try:
         return opening(speed)
     except InputError as reason:
-        return SeriesOpening(None, None, None, CRACKS, None, None, (None, None), str(reason))
+        return SeriesOpening(why=str(reason))
 
 
 def _ascending(name: str, values: Sequence[float]) -> tuple[float, ...]:
