@@ -72,9 +72,10 @@ def test_hold_and_release_bind_together_with_both_speeds(found):
 
 def test_margins_count_the_less_favourable_ends(found):
     best = found.best
-    assert best.margins["hold"] == pytest.approx(log(best.hold.low / 5e-3), rel=1e-12)
-    assert best.margins["release"] == pytest.approx(log(2.5e-3 / best.release.high), rel=1e-12)
-    assert best.best_margins["hold"] == pytest.approx(log(best.hold.high / 5e-3), rel=1e-12)
+    hold, release = best.forces["hold"], best.forces["release"]
+    assert best.margins["hold"] == pytest.approx(log(hold.low / 5e-3), rel=1e-12)
+    assert best.margins["release"] == pytest.approx(log(2.5e-3 / release.high), rel=1e-12)
+    assert best.best_margins["hold"] == pytest.approx(log(hold.high / 5e-3), rel=1e-12)
     ratio = Judge(Targets(ratio=2.0)).margins(best.choice, {"hold": 0.0, "release": 1.0})
     assert ratio["ratio"] == -inf
 
@@ -85,8 +86,8 @@ def test_two_pads_on_a_rigid_plate_hold_what_the_array_holds(found, run):
     array = vt.PadArray(one, grid(1, 2, 0.1))
     pulled = vt.pull_array(array, speed=choice.hold_speed, preload=choice.preload, accuracy=0.01)
     # another tier, with its own interval
-    assert pulled.interval[0] < run.hold < pulled.interval[1]
-    assert found.best.hold.low < run.hold < found.best.hold.high
+    assert pulled.interval[0] < run.forces["hold"] < pulled.interval[1]
+    assert found.best.forces["hold"].low < run.forces["hold"] < found.best.forces["hold"].high
 
 
 def test_elasticities_are_those_of_other_steps_and_of_scale(found):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from functools import partial
 from math import exp, inf, log
 from typing import Annotated, Any, Literal
 
@@ -38,6 +39,7 @@ INTERFACE = ("work_of_adhesion", "equilibrium_gap")
 MOST_PADS = 10_000
 # Largest relative standard deviation of a tolerance.
 _LARGEST = 0.5
+_Above = partial(Quantity, above=0)
 
 
 @dataclass(frozen=True)
@@ -67,30 +69,20 @@ class Targets:
     5.0
     """
 
-    hold: (
-        Annotated[float, Quantity("N", "F", "least pull-off force", above=0, example="5 mN")] | None
-    ) = None
-    release: (
-        Annotated[float, Quantity("N", "F", "largest pull-off force", above=0, example="1 mN")]
-        | None
-    ) = None
-    ratio: (
-        Annotated[float, Quantity("1", "q", "least ratio of both forces", above=0, example="4")]
-        | None
-    ) = None
-    work: (
-        Annotated[float, Quantity("J", "W", "least work to pull-off", above=0, example="20 nJ")]
-        | None
-    ) = None
-    dead_load: (
-        Annotated[float, Quantity("N", "G", "weight that hangs", above=0, example="2 mN")] | None
-    ) = None
-    preload: (
-        Annotated[float, Quantity("N", "P", "largest preload", above=0, example="10 mN")] | None
-    ) = None
+    hold: Annotated[float, _Above("N", "F", "least pull-off force", example="5 mN")] | None = None
+    release: Annotated[float, _Above("N", "F", "largest pull-off force", example="1 mN")] | None = (
+        None
+    )
+    ratio: Annotated[float, _Above("1", "q", "least ratio of both forces", example="4")] | None = (
+        None
+    )
+    work: Annotated[float, _Above("J", "W", "least work to pull-off", example="20 nJ")] | None = (
+        None
+    )
+    dead_load: Annotated[float, _Above("N", "G", "weight that hangs", example="2 mN")] | None = None
+    preload: Annotated[float, _Above("N", "P", "largest preload", example="10 mN")] | None = None
     holding_time: (
-        Annotated[float, Quantity("s", "t", "time of the dead load", above=0, example="60 s")]
-        | None
+        Annotated[float, _Above("s", "t", "time of the dead load", example="60 s")] | None
     ) = None
 
     def __post_init__(self) -> None:
@@ -307,9 +299,7 @@ class DesignSpace:
     hold_speed: Annotated[Bounds | None, Between("m/s", "100 um/s..10 mm/s")] = None
     release_speed: Annotated[Bounds | None, Between("m/s", "0.1 um/s..10 um/s")] = None
     pads: Annotated[Bounds, Between("1", "1..12")] = Bounds(1)
-    area: (
-        Annotated[float, Quantity("m^2", "A", "largest area", above=0, example="4 cm^2")] | None
-    ) = None
+    area: Annotated[float, _Above("m^2", "A", "largest area", example="4 cm^2")] | None = None
     modulus: Annotated[Bounds | None, Between("Pa", "0.5 MPa..5 MPa")] = None
     thickness: Annotated[Bounds | None, Between("m", "100 um..2 mm")] = None
     exponent: Annotated[Bounds | None, Between("1", "2..4")] = None

@@ -201,14 +201,7 @@ def _built(sources: dict[str, str], library: str, compiler: str | None) -> bytes
     with tempfile.TemporaryDirectory() as folder:
         for name, text in sources.items():
             write_whole(Path(folder) / name, text.encode())
-        options = [
-            "-std=c99",
-            "-O2",
-            "-shared",
-            "-fPIC",
-            "-fvisibility=hidden",
-            "-ffp-contract=off",
-        ]
+        options = "-std=c99 -O2 -shared -fPIC -fvisibility=hidden -ffp-contract=off".split()
         done = subprocess.run(
             [command, *options, "fmu.c", "-o", library, "-lm"],
             cwd=folder,
