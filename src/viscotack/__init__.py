@@ -262,7 +262,6 @@ _ROOMS = (
     "campaign",
     "datasets",
     "operations",
-    "design",
 )
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
