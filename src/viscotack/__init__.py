@@ -12,7 +12,6 @@ from .version import __version__
 if TYPE_CHECKING:
     from . import bem as bem
     from . import campaign as campaign
-    from . import control as control
     from . import datasets as datasets
     from . import lab as lab
     from . import materials as materials
