@@ -58,7 +58,7 @@ def draw(loads, times, path: Path) -> None:
 
     elastic = elastic_pull_off()
     fine = np.geomspace(1.03, loads[-1], 60)
-    with matplotlib.style.context("viscotack.pictures.viscotack"):
+    with matplotlib.style.context("viscotack.plot.viscotack"):
         figure, axes = plt.subplots(figsize=(8.0, 5.2))
         jkr_force = jkr.pull_off_force(radius=RADIUS, work_of_adhesion=WORK)
         theory = [crack_time(x * jkr_force) for x in fine]

@@ -43,7 +43,7 @@ def draw(dwells, forces, relaxed: float, path: Path) -> None:
     import matplotlib.pyplot as plt
     import matplotlib.style
 
-    with matplotlib.style.context("viscotack.pictures.viscotack"):
+    with matplotlib.style.context("viscotack.plot.viscotack"):
         figure, axes = plt.subplots(figsize=(8.0, 5.2))
         axes.semilogx(dwells, forces, "o-", mfc="white", label="simulation")
         axes.axhline(relaxed, ls="--", color="0.4", label="relaxed contact")

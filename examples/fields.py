@@ -39,7 +39,7 @@ def draw(result: vt.Result, path: Path) -> None:
         "going": lowest + int(np.argmin(np.abs(result.force[lowest:] + 0.5 * found.force))),
     }
     colors = mpl.colormaps["viridis"](np.linspace(0.0, 0.8, len(moments)))
-    with matplotlib.style.context("viscotack.pictures.viscotack"):
+    with matplotlib.style.context("viscotack.plot.viscotack"):
         figure = Figure(figsize=(13.0, 5.6))
         left, right = figure.subplots(1, 2)
         for (words, step), color in zip(moments.items(), colors, strict=True):

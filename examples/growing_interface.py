@@ -38,7 +38,7 @@ def draw(series, forecast, path: Path) -> None:
     import matplotlib.pyplot as plt
     import matplotlib.style
 
-    with matplotlib.style.context("viscotack.pictures.viscotack"):
+    with matplotlib.style.context("viscotack.plot.viscotack"):
         figure, axes = plt.subplots(figsize=(8.0, 5.2))
         speed = forecast.speed * 1e6
         axes.fill_between(speed, 1e3 * forecast.low, 1e3 * forecast.high, alpha=0.3, label="band")

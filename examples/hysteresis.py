@@ -45,7 +45,7 @@ def draw(results: list[vt.Result], path: Path) -> None:
     import matplotlib.style
 
     colors = mpl.colormaps["viridis"](np.linspace(0.0, 0.8, len(results)))
-    with matplotlib.style.context("viscotack.pictures.viscotack"):
+    with matplotlib.style.context("viscotack.plot.viscotack"):
         figure, axes = plt.subplots(figsize=(8.5, 5.6))
         for result, color in zip(results, colors, strict=True):
             table = vt.columns(result)

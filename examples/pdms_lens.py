@@ -113,7 +113,7 @@ def draw(
     forces = np.array([vt.summary(r)["pull_off_force_N"] for r in results])
     slow = vt.summary(elastic)["pull_off_force_N"]
     colors = mpl.colormaps["viridis"](np.linspace(0.0, 0.8, len(results)))
-    with matplotlib.style.context("viscotack.pictures.viscotack"):
+    with matplotlib.style.context("viscotack.plot.viscotack"):
         figure = Figure(figsize=(13.0, 5.6))
         left, right = figure.subplots(1, 2)
         for (gap, found), style in zip(others.items(), ("C3s-", "C2D-"), strict=False):

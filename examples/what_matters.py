@@ -6,7 +6,8 @@ Time: 6 s. Writes what_matters.png.
 from pathlib import Path
 
 import viscotack as vt
-from viscotack.pictures.plot import draw_sensitivities, save_figure
+from viscotack.plot.simulation import draw_sensitivities
+from viscotack.plot.style import save_figure
 
 
 def main(picture: Path = Path("what_matters.png"), accuracy: float = 2e-3) -> vt.Result:

@@ -21,10 +21,9 @@ from scipy.signal import resample
 import viscotack as vt
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, HalfSpace, Layer
-from viscotack.pads import superposed
 from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
 from viscotack.result.observables import work_of_separation
-from viscotack.rough import RoughProblem, pull, stickiness
+from viscotack.rough import RoughProblem, pull, stickiness, superposed
 from viscotack.surfaces import roughness, self_affine, sphere
 
 RADIUS, GAP = 5e-3, 1.5e-6

@@ -12,11 +12,11 @@ from typer.testing import CliRunner
 import viscotack as vt
 from picture_units import in_si
 from viscotack.app.cli import application
+from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array, read_array
 from viscotack.design.holding import held_load
 from viscotack.errors import InputError
 from viscotack.operations import ask
-from viscotack.pads import Hold, PadArray, grid, holding, pull_array, read_array
-from viscotack.pictures.array import draw_array
+from viscotack.plot.array import draw_array
 from viscotack.theory import jkr
 from viscotack.traction import GentSchultz
 

@@ -14,14 +14,13 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.control import (
+from viscotack.design.control import (
     Release,
     c_header,
     fmu,
     force_table,
     let_go,
 )
-from viscotack.control.table import checked
 from viscotack.errors import InputError, OutOfRange
 
 PAD = vt.Problem(
@@ -121,7 +120,6 @@ PUNCH = replace(
         (lambda t: force_table(at(1e-4, stiffness=9.0), 1e-5, 1e-4), "controller"),
         (lambda t: force_table(PAD, 1e-4, 1e-5), "slowest"),
         (lambda t: Release(t, 4e-3, 0.0, 1e-3), "stiffness"),
-        (lambda t: checked(replace(t, share=t.share[::-1])), "ascending"),
     ],
 )
 def test_what_cannot_be_is_refused(table, make, words):

@@ -8,11 +8,11 @@ import pytest
 
 import viscotack as vt
 from viscotack.design import Bounds, Choice, DesignSpace, Targets, find_design
+from viscotack.design.arrays import grid
 from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, FastTier, Force, Pad
 from viscotack.design.limits import solid_limits
 from viscotack.design.margins import Judge
-from viscotack.pads import grid
 
 RUBBER = vt.RetardationPowerLaw(
     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.6, tau0=0.1, poisson_ratio=0.5
@@ -72,9 +72,10 @@ def test_hold_and_release_bind_together_with_both_speeds(found):
 
 def test_margins_count_the_less_favourable_ends(found):
     best = found.best
-    assert best.margins["hold"] == pytest.approx(log(best.hold.low / 5e-3), rel=1e-12)
-    assert best.margins["release"] == pytest.approx(log(2.5e-3 / best.release.high), rel=1e-12)
-    assert best.best_margins["hold"] == pytest.approx(log(best.hold.high / 5e-3), rel=1e-12)
+    hold, release = best.forces["hold"], best.forces["release"]
+    assert best.margins["hold"] == pytest.approx(log(hold.low / 5e-3), rel=1e-12)
+    assert best.margins["release"] == pytest.approx(log(2.5e-3 / release.high), rel=1e-12)
+    assert best.best_margins["hold"] == pytest.approx(log(hold.high / 5e-3), rel=1e-12)
     ratio = Judge(Targets(ratio=2.0)).margins(best.choice, {"hold": 0.0, "release": 1.0})
     assert ratio["ratio"] == -inf
 
@@ -85,8 +86,8 @@ def test_two_pads_on_a_rigid_plate_hold_what_the_array_holds(found, run):
     array = vt.PadArray(one, grid(1, 2, 0.1))
     pulled = vt.pull_array(array, speed=choice.hold_speed, preload=choice.preload, accuracy=0.01)
     # another tier, with its own interval
-    assert pulled.interval[0] < run.hold < pulled.interval[1]
-    assert found.best.hold.low < run.hold < found.best.hold.high
+    assert pulled.interval[0] < run.forces["hold"] < pulled.interval[1]
+    assert found.best.forces["hold"].low < run.forces["hold"] < found.best.forces["hold"].high
 
 
 def test_elasticities_are_those_of_other_steps_and_of_scale(found):

@@ -11,7 +11,7 @@ from viscotack.app.cli import application
 from viscotack.design import read_design
 from viscotack.errors import InputError
 from viscotack.operations import ask
-from viscotack.pictures.design import draw_design
+from viscotack.plot.design import draw_design
 
 SMALL = """
 [targets]

@@ -51,9 +51,9 @@ def test_the_worst_speed_and_temperature_count(fast):
     choice = replace(CHOICE, radius=2e-3)
     found = Judge(FORCES, wide).judged(choice, fast)
     pad = Pad("rubber", 2e-3, 2e-3, 0.5e-3)
-    assert found.hold.value == pytest.approx(2 * fast.force(pad).value, rel=1e-12)
+    assert found.forces["hold"].value == pytest.approx(2 * fast.force(pad).value, rel=1e-12)
     slow = fast.force(replace(pad, speed=1.5e-6))
-    assert found.release.value == pytest.approx(2 * slow.value, rel=1e-12)
+    assert found.forces["release"].value == pytest.approx(2 * slow.value, rel=1e-12)
     alone = Judge(FORCES).judged(choice, fast)
     assert all(found.margins[name] < alone.margins[name] for name in found.margins)
 

@@ -16,7 +16,7 @@ from viscotack.lab.tack import Measured
 from viscotack.materials import Passport
 from viscotack.materials.shift import WLF, TabulatedShift
 from viscotack.operations.parts.records import rates_record
-from viscotack.pictures.identify import draw_rate_series
+from viscotack.plot.interface import draw_rate_series
 
 WARM = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)
 PASSPORT = Passport(name="rubber", material=RUBBER, temperature=293.15, shift=WARM)

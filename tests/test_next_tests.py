@@ -15,7 +15,7 @@ from viscotack.identify.forward import Forward
 from viscotack.identify.ranked_tests import noise_of
 from viscotack.materials import Passport
 from viscotack.materials.shift import WLF
-from viscotack.pictures.next_tests import draw_next_tests
+from viscotack.plot.next_tests import draw_next_tests
 
 SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5

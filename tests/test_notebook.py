@@ -2,29 +2,20 @@
 
 import base64
 import re
+import sys
 from html import unescape
 from types import SimpleNamespace
 
 import pytest
 
 import viscotack as vt
-from viscotack.app.notebook import load_ipython_extension
+from synthetic import SI, jkr_result
+from viscotack.errors import NotInstalled
 from viscotack.operations.parts.examples import FIRST
 from viscotack.problem.case_file import case_of_tables
 from viscotack.units import readable
 
 PROBLEM = case_of_tables(FIRST)
-
-
-@pytest.fixture
-def shown():
-    """Return what a shell of IPython shows; it asks the formatter of the type."""
-    known = {}
-    html = SimpleNamespace(for_type=known.__setitem__)
-    load_ipython_extension(
-        SimpleNamespace(display_formatter=SimpleNamespace(formatters={"text/html": html}))
-    )
-    return lambda thing: known[type(thing)](thing)
 
 
 def rows(text):
@@ -38,9 +29,9 @@ def picture(text):
     return base64.b64decode(re.search('src="data:image/svg[+]xml;base64,([^"]+)"', text)[1])
 
 
-def test_a_prediction_is_shown_with_its_interval_its_tier_and_its_curve(shown):
+def test_a_prediction_is_shown_with_its_interval_its_tier_and_its_curve():
     found = vt.predict(PROBLEM)
-    text, force = shown(found), PROBLEM.scales().force
+    text, force = found._repr_html_(), PROBLEM.scales().force
     words, value, band = rows(text)[0]
     assert (words, value) == ("pull-off force", readable(found.pull_off_force * force, "N"))
     low, high = (float(x) * 1e-3 / force for x in band.removesuffix(" mN").split(" to "))
@@ -49,5 +40,19 @@ def test_a_prediction_is_shown_with_its_interval_its_tier_and_its_curve(shown):
     assert "<th>90 % of cases</th>" in text
     assert f"by the {found.method}: {found.why}" in unescape(text)
     assert picture(text).lstrip().startswith(b"<?xml")
-    words, value, _ = rows(shown(vt.predict(PROBLEM.groups())))[0]
+    words, value, _ = rows(vt.predict(PROBLEM.groups())._repr_html_())[0]
     assert value == f"{found.pull_off_force:.4g} x 1.5 pi R dg0"
+    assert value.partition(" ")[0] in repr(vt.predict(PROBLEM.groups()))
+    assert readable(found.pull_off_force * force, "N") in repr(found)
+
+
+def test_a_result_is_shown_short_and_its_series_as_a_frame(monkeypatch):
+    result = jkr_result(problem=SI)
+    assert len(repr(result)) < 200 and result.status in repr(result)
+    assert picture(result._repr_html_()).lstrip().startswith(b"<?xml")
+    table = SimpleNamespace(DataFrame=dict)
+    monkeypatch.setitem(sys.modules, "pandas", table)
+    assert result.to_frame()["force_N"] == pytest.approx(result.force * result.scales.force)
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(NotInstalled):
+        result.to_frame()

@@ -5,7 +5,7 @@ import pytest
 import scipy
 
 import viscotack as vt
-from viscotack.pads.interacting import interactions
+from viscotack.design.arrays.interacting import interactions
 
 HEXAGON = [(0.0, 0.0), *((np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6))]
 PAIR = [(0.0, 0.0), (1.0, 0.0)]
@@ -80,13 +80,20 @@ def test_interacting_pads_pull_off_as_the_solved_equations_say(places):
         (F0, d0), (F1, d1) = jkr(abs(state[0])), jkr(abs(state[1]))
         return [d0 + n * c[0, 1] * F1 - z, d1 + c[1, 0] * F0 + around * F1 - z]
 
-    least, state = 0.0, np.full(2, 1.3e-4)
+    solved, state = [], np.full(2, 1.3e-4)
     for z in np.linspace(2e-6, -6e-6, 1500):
         state, _, ok, _ = scipy.optimize.fsolve(missing, state, (z,), full_output=True)
         if ok != 1:
             break
-        least = min(least, jkr(abs(state[0]))[0] + n * jkr(abs(state[1]))[0])
-    assert found.pull_off_force == pytest.approx(-least, rel=1e-3)
+        solved.append((z, jkr(abs(state[0]))[0] + n * jkr(abs(state[1]))[0]))
+    z, force = np.array(solved).T
+    assert found.pull_off_force == pytest.approx(-force.min(), rel=1e-3)
+    # travel in which half of that tension builds up, which the other pads lengthen
+    parts = [0.0, -0.5 * found.pull_off_force]
+    expected = np.interp(parts, force[::-1], z[::-1])
+    before = slice(np.argmin(found.force) + 1)
+    travel = np.interp(parts, found.force[before][::-1], found.drive[before][::-1])
+    assert np.diff(travel) == pytest.approx(np.diff(expected), rel=5e-3)
 
 
 def test_pads_closer_than_four_radii_are_refused():

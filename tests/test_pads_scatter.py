@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.pads import grid
+from viscotack.design.arrays import grid
 
 E, R, WORK, LOAD = 2e6, 5e-3, 0.15, 2e-3
 PAD = vt.Problem(

@@ -4,14 +4,8 @@ from matplotlib.figure import Figure
 
 from picture_units import in_si
 from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
-from viscotack.pictures.plot import (
-    axis_unit,
-    draw_force,
-    draw_radius,
-    log_axis_unit,
-    plain_ticks,
-    save_figure,
-)
+from viscotack.plot.simulation import draw_force, draw_radius
+from viscotack.plot.style import axis_unit, log_axis_unit, plain_ticks, save_figure
 
 
 def curve(axes):
@@ -64,7 +58,7 @@ def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
     axes = Figure().subplots()
     (speed, speed_unit), (force, force_unit) = log_axis_unit(speeds, "m/s"), axis_unit(2e-2, "N")
     axes.semilogx(np.divide(speeds, speed), np.divide(forces, force), label="simulation")
-    plain_ticks(axes.xaxis)
+    plain_ticks(axes)
     axes.set_xlabel(f"speed [{speed_unit}]")
     axes.set_ylabel(f"force [{force_unit}]")
     assert in_si(axes.xaxis, curve(axes).get_xdata()) == pytest.approx(speeds)
@@ -73,7 +67,7 @@ def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
 
 def test_axes_of_a_regime_map_have_units_of_their_size():
     from viscotack import StandardSolid
-    from viscotack.pictures.plot import draw_regimes
+    from viscotack.plot.regimes import draw_regimes
     from viscotack.theory.punch import Frictionless, Pad
     from viscotack.theory.punch.map import regime_map
 

@@ -80,9 +80,6 @@ def test_the_command_writes_a_table_maps_a_picture_and_a_film(small):
     assert Path("a.gif").read_bytes()[:6] == b"GIF89a"
 
 
-# Stands for ffmpeg: counts the bytes of the frames.
-
-
 def test_the_examples_are_read_and_bumps_pull_off():
     assert read_rough(EXAMPLES / "rough_rubber.toml").zone.pixels > 1.5
     record = ask("rough", file=str(EXAMPLES / "bumps.toml"), accuracy=0.01).record()

@@ -8,10 +8,10 @@ from typer.testing import CliRunner
 
 from picture_units import in_si
 from viscotack.app.cli import application
+from viscotack.design.window import read_window
 from viscotack.errors import InputError
 from viscotack.operations import ask
-from viscotack.pictures.window import draw_window
-from viscotack.series import read_window
+from viscotack.plot.window import draw_window
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "window" / "kinetic_stamp.toml"
 CONTACT = """

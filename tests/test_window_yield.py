@@ -13,15 +13,14 @@ import viscotack as vt
 from test_window import ELASTIC, contact, with_work
 from test_window_file import CONTACT, PULL, SMALL
 from viscotack.app.cli import application
-from viscotack.materials.passport_file import read_passport
-from viscotack.operations import ask
-from viscotack.series import (
+from viscotack.design.window import (
     ContactScatter,
     aged,
-    drawn_openings,
     opening_chance,
     read_window,
 )
+from viscotack.materials.passport_file import read_passport
+from viscotack.operations import ask
 from viscotack.traction import SaturatingAgeing
 
 PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
@@ -46,7 +45,12 @@ def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(
 def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs(seed):
     stamp = contact(ELASTIC, work=0.2)
     pair, scatter = (stamp, with_work(stamp, 0.21)), ContactScatter(0.1, 0.1, 0.1)
-    share = drawn_openings(*pair, scatter, draws=300, seed=seed)
+    drawn = np.exp(0.1 * np.random.default_rng(seed).standard_normal((300, 3)))
+    opened = [
+        vt.which_opens(*(contact(ELASTIC, work=w, force=2e-3 * P) for w in (0.2 * x, 0.21 * y)))
+        for x, y, P in drawn
+    ]
+    share = [each.nominal for each in opened].count(0) / 300
     chance = opening_chance(*pair, scatter).first
     assert share == pytest.approx(chance, abs=3 * sqrt(chance * (1 - chance) / 300))
 

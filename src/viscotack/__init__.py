@@ -12,7 +12,6 @@ from .version import __version__
 if TYPE_CHECKING:
     from . import bem as bem
     from . import campaign as campaign
-    from . import control as control
     from . import datasets as datasets
     from . import lab as lab
     from . import materials as materials
@@ -25,6 +24,20 @@ if TYPE_CHECKING:
     from .design import Targets as Targets
     from .design import find_design as find_design
     from .design import read_design as read_design
+    from .design.arrays import ArrayPull as ArrayPull
+    from .design.arrays import ArrayYield as ArrayYield
+    from .design.arrays import Backing as Backing
+    from .design.arrays import PadArray as PadArray
+    from .design.arrays import Scatter as Scatter
+    from .design.arrays import array_yield as array_yield
+    from .design.arrays import pull_array as pull_array
+    from .design.window import CriticalSpeed as CriticalSpeed
+    from .design.window import SeriesOpening as SeriesOpening
+    from .design.window import SeriesResult as SeriesResult
+    from .design.window import Window as Window
+    from .design.window import simulate_in_series as simulate_in_series
+    from .design.window import which_opens as which_opens
+    from .design.window import window as window
     from .errors import InputError as InputError
     from .errors import NotInstalled as NotInstalled
     from .errors import OutOfRange as OutOfRange
@@ -49,21 +62,14 @@ if TYPE_CHECKING:
     from .methods import crack_contact as crack_contact
     from .methods import solve as solve
     from .operations import ask as ask
-    from .pads import ArrayPull as ArrayPull
-    from .pads import ArrayYield as ArrayYield
-    from .pads import Backing as Backing
-    from .pads import PadArray as PadArray
-    from .pads import Scatter as Scatter
-    from .pads import array_yield as array_yield
-    from .pads import pull_array as pull_array
-    from .pictures.forecast import draw_prediction as draw_prediction
-    from .pictures.lab import draw_fit as draw_fit
-    from .pictures.plot import draw_energy as draw_energy
-    from .pictures.plot import draw_force as draw_force
-    from .pictures.plot import draw_overview as draw_overview
-    from .pictures.plot import draw_radius as draw_radius
-    from .pictures.plot import draw_regimes as draw_regimes
-    from .pictures.plot import save_figure as save_figure
+    from .plot.material import draw_fit as draw_fit
+    from .plot.prediction import draw_prediction as draw_prediction
+    from .plot.regimes import draw_regimes as draw_regimes
+    from .plot.simulation import draw_energy as draw_energy
+    from .plot.simulation import draw_force as draw_force
+    from .plot.simulation import draw_overview as draw_overview
+    from .plot.simulation import draw_radius as draw_radius
+    from .plot.style import save_figure as save_figure
     from .prediction import Advice as Advice
     from .prediction import Estimate as Estimate
     from .prediction import Prediction as Prediction
@@ -121,13 +127,6 @@ if TYPE_CHECKING:
     from .result.observables import summary as summary
     from .result.observables import work_of_separation as work_of_separation
     from .result.observables import work_to_pull_off as work_to_pull_off
-    from .series import CriticalSpeed as CriticalSpeed
-    from .series import SeriesOpening as SeriesOpening
-    from .series import SeriesResult as SeriesResult
-    from .series import Window as Window
-    from .series import simulate_in_series as simulate_in_series
-    from .series import which_opens as which_opens
-    from .series import window as window
     from .traction import Dugdale as Dugdale
     from .traction import Exponential as Exponential
     from .traction import Eyring as Eyring
@@ -222,16 +221,16 @@ _NAMES = {
         "prediction_summary",
         "threshold_contact_radius",
     ),
-    "pictures.plot": (
+    "plot.simulation": (
         "draw_energy",
         "draw_force",
         "draw_radius",
         "draw_overview",
-        "draw_regimes",
-        "save_figure",
     ),
-    "pictures.lab": ("draw_fit",),
-    "series": (
+    "plot.regimes": ("draw_regimes",),
+    "plot.style": ("save_figure",),
+    "plot.material": ("draw_fit",),
+    "design.window": (
         "which_opens",
         "SeriesOpening",
         "simulate_in_series",
@@ -240,7 +239,7 @@ _NAMES = {
         "Window",
         "CriticalSpeed",
     ),
-    "pads": (
+    "design.arrays": (
         "PadArray",
         "Backing",
         "pull_array",
@@ -251,7 +250,7 @@ _NAMES = {
     ),
     "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
     "prediction.uncertainty": ("uncertainty", "Uncertainty"),
-    "pictures.forecast": ("draw_prediction",),
+    "plot.prediction": ("draw_prediction",),
     "operations": ("ask",),
 }
 _ROOMS = (
@@ -262,7 +261,6 @@ _ROOMS = (
     "campaign",
     "datasets",
     "operations",
-    "control",
 )
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 

@@ -6,9 +6,8 @@ import pytest
 import viscotack as vt
 from viscotack.errors import InputError
 from viscotack.geometry import Layer
-from viscotack.pads import superposed
 from viscotack.protocol import Apart, AtForce, Retraction
-from viscotack.rough import RoughProblem, pull
+from viscotack.rough import RoughProblem, pull, superposed
 from viscotack.surfaces import HeightMap, bumps, drawn_asperities, sphere, summits
 from viscotack.theory import jkr
 

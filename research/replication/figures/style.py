@@ -70,7 +70,7 @@ def saved(
 ) -> Path:
     """Draw numbers into a file, PNG or SVG by its ending, with a note below the picture."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with matplotlib.style.context("viscotack.pictures.viscotack"), matplotlib.style.context(_SMALL):
+    with matplotlib.style.context("viscotack.plot.viscotack"), matplotlib.style.context(_SMALL):
         figure = Figure(figsize=size)
         draw(numbers, figure)
         if note:

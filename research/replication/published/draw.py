@@ -20,7 +20,7 @@ def draw(rows: Sequence[dict[str, Any]], folder: Path) -> None:
     work = np.array([row["work_difference"] for row in rows])
     exponent, tabor = (np.array([row[name] for row in rows]) for name in ("exponent", "tabor"))
     rate = np.array([row["rate"] for row in rows])
-    with plt.style.context("viscotack.pictures.viscotack"):
+    with plt.style.context("viscotack.plot.viscotack"):
         figure, axes = plt.subplots(1, 2, figsize=(8, 3), sharey=True)
         for axis, values, words in zip(axes, (force, work), ("force", "work"), strict=True):
             sizes = np.abs(values[np.isfinite(values)])

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.files.frame import frame
 from viscotack.files.text import read_text
 
 from .case import CaseSettings
@@ -270,6 +271,10 @@ class Rows:
                     )
                 )
             yield from (json.loads(found[number]) for number in some if number in found)
+
+    def to_frame(self) -> Any:
+        """Return the rows as a pandas DataFrame."""
+        return frame(list(self))
 
     def __len__(self) -> int:
         with self.store.database() as db:

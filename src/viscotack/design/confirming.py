@@ -53,16 +53,6 @@ class Simulated:
     time: float | None = None
 
     @property
-    def hold(self) -> float | None:
-        """Pull-off force at the hold speed [N]."""
-        return self.forces.get(HOLD)
-
-    @property
-    def release(self) -> float | None:
-        """Pull-off force at the release speed [N]."""
-        return self.forces.get(RELEASE)
-
-    @property
     def margin(self) -> float | None:
         """Margin of the worst target; None if a run failed."""
         return min(self.margins.values(), default=None)

@@ -85,11 +85,11 @@ class Pad:
 class Forces(Protocol):
     """What predicts the forces of pads."""
 
-    def force(self, pad: Pad) -> Force | str:
+    def force(self, pad: Pad, /) -> Force | str:
         """Return the force of a pad, or a reason."""
         ...
 
-    def held(self, pad: Pad, time: float) -> Force | str:
+    def held(self, pad: Pad, time: float, /) -> Force | str:
         """Return the dead load that a pad holds for a time [s], or a reason."""
         ...
 

@@ -41,6 +41,7 @@ from .space import (
     RATIO,
     RELEASE,
     RELEASE_SPEED,
+    UNITS,
     WORK,
     Choice,
     Conditions,
@@ -179,9 +180,16 @@ def find_design(
         If a target needs a speed without bounds.
     """
     judge = Judge(targets, conditions or Conditions(), space.bonded)
-    check_stated(materials, space, targets)
-    fast, tried = _covering(materials, traction, space, judge, seed)
-    needed = _needed(tried, fast, judge)
+    if not materials:
+        raise InputError("a design needs at least one material")
+    for name, needed in (
+        (HOLD_SPEED, judge.targets.needs_hold),
+        (RELEASE_SPEED, judge.targets.needs_release),
+    ):
+        if needed and getattr(space, name) is None:
+            raise InputError(f"the targets need bounds of the {name}")
+    work = _Search.begun(materials, traction, space, judge, seed)
+    fast, by_surrogates = work.fast, work.fast.budget == SURROGATES
     several = len(targets.stated) > 1
     share = 0.6 / len(materials)
     seen: dict[Choice, Candidate] = {}
@@ -190,158 +198,269 @@ def find_design(
         def tell(done: float, i: int = i) -> None:
             progress((i + done) * share)
 
-        if fast.budget != SURROGATES:
-            seen |= _suggested(fast, space, judge, needed, name, seed, tell)
+        if not by_surrogates:
+            seen |= work.suggested(name, tell)
             continue
-        seen |= _searched(fast, space, judge, _over(needed), name, seed, tell)
+        seen |= work.searched(fast, work.over_needed, name, seed, tell)
         if several:
-            seen |= _ends(fast, space, judge, name, seed)
+            seen |= work.ends(name)
     if not seen:
-        raise OutOfRange(f"no fast tier predicts a design between the bounds: {_reason(fast)}")
-    candidates = _apart(seen, space, needed)
+        reasons = [each for each in fast.known.values() if isinstance(each, str)]
+        why = max(reasons, key=reasons.count, default="the area has no room for a pad")
+        raise OutOfRange(f"no fast tier predicts a design between the bounds: {why}")
+    candidates = work.apart(seen)
     limits = solid_limits(fast, space, targets)
     if not candidates[0].is_possible and not any(each.excludes for each in limits):
-        limits += _reached(fast, space, judge, seed)
+        limits += work.reached()
     progress(0.6)
-
-    def again(rate: Callable[[Candidate], float], material: str) -> None:
-        if fast.budget == SURROGATES:
-            found = _searched(fast, space, judge, rate, material, seed, effort=_REACH)
-            seen.update(found)
-
     with limited(time_limit):
-        tested = _simulated(
-            candidates, seen, again, fast, judge, needed, confirm, accuracy, progress
-        )
-    yields = [_yield(one, run, fast, judge) for one, run in tested]
-    order = sorted(range(len(tested)), key=lambda i: _rank(*tested[i], yields[i]))
-    best, run = tested[order[0]]
+        tested = work.simulated(candidates, seen, confirm, accuracy, progress)
+    tested.sort(key=lambda each: each.rank)
+    best = tested[0].candidate
     slopes = slopes_of(best.choice, fast, judge)
     return Design(
-        candidates=tuple(tested[i][0] for i in order),
-        simulated=tuple(tested[i][1] for i in order),
-        meets=_meets(best, run, yields[order[0]], judge),
+        candidates=tuple(each.candidate for each in tested),
+        simulated=tuple(each.run for each in tested),
+        meets=tested[0].meets,
         binding=_binding(best, space, slopes),
         elasticities=slopes,
         limits=limits,
         fast=fast,
         front=front_of(seen.values()) if several else (),
-        yields=tuple(yields[i] for i in order),
+        yields=tuple(each.part for each in tested),
         judge=judge,
     )
 
 
-def check_stated(materials: Mapping[str, Material], space: DesignSpace, targets: Targets) -> None:
-    """Raise an InputError without a material, or without the speed of a target."""
-    if not materials:
-        raise InputError("a design needs at least one material")
-    for name, needed in ((HOLD_SPEED, targets.needs_hold), (RELEASE_SPEED, targets.needs_release)):
-        if needed and getattr(space, name) is None:
-            raise InputError(f"the targets need bounds of the {name}")
+@dataclass(frozen=True)
+class _Tested:
+    """A candidate with its simulation, and the share of the parts that meet the targets."""
+
+    candidate: Candidate
+    run: Simulated | None
+    part: float | None
+    wanted: float
+
+    @property
+    def meets(self) -> bool | None:
+        """Whether every target is met by simulation; None if that is open."""
+        if self.run is None:
+            return None if self.candidate.is_possible else False
+        if self.run.meets is None or not self.wanted:
+            return self.run.meets
+        return None if self.part is None else self.part >= self.wanted
+
+    @property
+    def rank(self) -> tuple[float, float]:
+        """Order of a candidate: by its simulated yield and margin, then the others."""
+        margin = None if self.run is None else self.run.margin
+        if margin is None:
+            return inf, -self.candidate.margin
+        return -round(self.part or 0.0, 3), -margin
 
 
-def _covering(
-    materials: Mapping[str, Material],
-    traction: Any,
-    space: DesignSpace,
-    judge: Judge,
-    seed: int,
-) -> tuple[FastTier, list[Candidate]]:
-    """Return the surrogates if they predict enough of the space, otherwise the theories.
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Tier, bounds and targets of a search, and the margins that the yield needs."""
 
-    Also return the designs that were tried.
-    """
-    fast = FastTier(materials, traction, SURROGATES)
-    tried = [
-        judge.judged(choice, fast)
-        for name in materials
-        for choice in _drawn(space, name, _TRIED, seed)
-    ]
-    known = [each for each in tried if not isinstance(each, str)]
-    if len(known) >= _COVERED * len(tried):
-        return fast, known
-    return FastTier(materials, traction, THEORIES), known
+    fast: FastTier
+    space: DesignSpace
+    judge: Judge
+    seed: int
+    needed: Mapping[str, float]
 
+    @classmethod
+    def begun(
+        cls,
+        materials: Mapping[str, Material],
+        traction: Any,
+        space: DesignSpace,
+        judge: Judge,
+        seed: int,
+    ) -> _Search:
+        """Return a search by surrogates if they predict enough of the space, else by theories."""
+        fast = FastTier(materials, traction, SURROGATES)
+        tried = [
+            judge.judged(choice, fast)
+            for name in materials
+            for choice in _drawn(space, name, _TRIED, seed)
+        ]
+        known = [each for each in tried if not isinstance(each, str)]
+        if len(known) < _COVERED * len(tried):
+            fast = FastTier(materials, traction, THEORIES)
+        names, conditions = tuple(judge.targets.stated), judge.conditions
+        needed = dict.fromkeys(names, 0.0)
+        if known and conditions.deviations:
+            best = max(known, key=lambda each: each.margin)
+            slopes = slopes_of(best.choice, fast, judge)
+            needed = allowances(names, slopes, conditions.deviations, conditions.share)
+        return cls(fast, space, judge, seed, needed)
 
-def _needed(tried: list[Candidate], fast: FastTier, judge: Judge) -> dict[str, float]:
-    """Return the margins that the yield needs, by the slopes of the best design that was tried."""
-    conditions, names = judge.conditions, tuple(judge.targets.stated)
-    best = max(tried, key=lambda each: each.margin, default=None)
-    if best is None or not conditions.deviations:
-        return dict.fromkeys(names, 0.0)
-    slopes = slopes_of(best.choice, fast, judge)
-    return allowances(names, slopes, conditions.deviations, conditions.share)
+    def rated(self, margins: Mapping[str, float]) -> float:
+        """Return the smallest margin over what is needed."""
+        return min(margin - self.needed[name] for name, margin in margins.items())
 
+    def over_needed(self, one: Candidate) -> float:
+        """Return the rating of a candidate by its smallest margin over what is needed."""
+        return self.rated(one.margins)
 
-def rated(margins: Mapping[str, float], needed: Mapping[str, float]) -> float:
-    """Return the smallest margin over what is needed."""
-    return min(margin - needed[name] for name, margin in margins.items())
+    def searched(
+        self,
+        forces: Forces,
+        rate: Callable[[Candidate], float],
+        material: str,
+        seed: int,
+        tell: Callable[[float], None] = lambda share: None,
+        effort: Effort = _EFFORT,
+    ) -> dict[Choice, Candidate]:
+        """Return the designs of a search for the largest rate, with their forces."""
+        seen: dict[Choice, Candidate] = {}
 
+        def rating(choice: Choice) -> float:
+            found = self.judge.judged(choice, forces)
+            if isinstance(found, str):
+                return NONE
+            seen[choice] = found
+            return max(rate(found), NONE)
 
-def _over(needed: Mapping[str, float]) -> Callable[[Candidate], float]:
-    """Return the rating of a candidate by its smallest margin over what is needed."""
-    return lambda one: rated(one.margins, needed)
+        search(rating, self.space, material, effort=effort, seed=seed, tell=tell)
+        return seen
 
+    def ends(self, material: str) -> dict[Choice, Candidate]:
+        """Return designs of shorter searches towards each end of the front."""
+        names = tuple(self.judge.targets.stated)
+        effort = replace(_END, generations=_END.generations / len(names))
+        seen: dict[Choice, Candidate] = {}
+        for number, target in enumerate(names):
+            needed = {name: -_BONUS * (name != target) for name in names}
+            towards = replace(self, needed=needed)
+            own = self.seed + number + 1
+            seen |= towards.searched(self.fast, towards.over_needed, material, own, effort=effort)
+        return seen
 
-def _searched(
-    forces: Forces,
-    space: DesignSpace,
-    judge: Judge,
-    rate: Callable[[Candidate], float],
-    material: str,
-    seed: int,
-    tell: Callable[[float], None] = lambda share: None,
-    effort: Effort = _EFFORT,
-) -> dict[Choice, Candidate]:
-    """Return the designs of a search for the largest rate, with their forces."""
-    seen: dict[Choice, Candidate] = {}
+    def suggested(self, material: str, tell: Callable[[float], None]) -> dict[Choice, Candidate]:
+        """Return designs that theories predict: some drawn, others that interpolation suggests."""
+        many = ceil(_SAMPLED * (len(self.space.free) + 1))
+        choices = _drawn(self.space, material, many, self.seed)
+        seen: dict[Choice, Candidate] = {}
+        for number in range(_ROUNDS + 1):
+            tried = {choice: self.judge.judged(choice, self.fast) for choice in choices}
+            seen |= {choice: found for choice, found in tried.items() if not isinstance(found, str)}
+            tell((number + 1) / (_ROUNDS + 1))
+            between = interpolation(self.fast, material)
+            if between is None or number == _ROUNDS:
+                break
+            likely = self.searched(between, self.over_needed, material, self.seed + number)
+            choices = [each.choice for each in self.apart(likely)]
+        return seen
 
-    def rating(choice: Choice) -> float:
-        found = judge.judged(choice, forces)
-        if isinstance(found, str):
-            return NONE
-        seen[choice] = found
-        return max(rate(found), NONE)
+    def apart(self, seen: Mapping[Choice, Candidate]) -> tuple[Candidate, ...]:
+        """Return up to three of the best candidates that differ in a variable or the material."""
+        low, high = np.array(self.space.ends()).reshape(-1, 2).T
+        found: list[Candidate] = []
 
-    search(rating, space, material, effort=effort, seed=seed, tell=tell)
-    return seen
+        def near(one: Choice, other: Choice) -> bool:
+            away = np.abs(self.space.places(one) - self.space.places(other))
+            return one.material == other.material and bool(np.all(away <= _APART * (high - low)))
 
+        # a wide interval may hide a design that meets the targets behind one that surely does not
+        order = sorted(seen.values(), key=lambda x: (not x.is_possible, -self.over_needed(x)))
+        for each in order:
+            # a worse design is of use only if it may meet the targets too
+            if len(found) == 3 or (found and not each.is_possible):
+                break
+            if not any(near(each.choice, other.choice) for other in found):
+                found.append(each)
+        return tuple(found)
 
-def _ends(
-    fast: FastTier, space: DesignSpace, judge: Judge, material: str, seed: int
-) -> dict[Choice, Candidate]:
-    """Return designs of shorter searches towards each end of the front."""
-    effort = replace(_END, generations=_END.generations / len(judge.targets.stated))
-    seen: dict[Choice, Candidate] = {}
-    for number, target in enumerate(judge.targets.stated):
-        needed = {name: -_BONUS * (name != target) for name in judge.targets.stated}
-        rate, own = _over(needed), seed + number + 1
-        seen |= _searched(fast, space, judge, rate, material, own, effort=effort)
-    return seen
+    def tested(self, one: Candidate, run: Simulated | None) -> _Tested:
+        """Return a candidate with its simulation and yield, by simulated forces if there are."""
+        deviations, part = self.judge.conditions.deviations, None
+        if deviations:
+            margins = one.margins if run is None or not run.margins else run.margins
+            part = share_of(margins, slopes_of(one.choice, self.fast, self.judge), deviations)
+        return _Tested(one, run, part, self.judge.conditions.share)
 
+    def simulated(
+        self,
+        candidates: tuple[Candidate, ...],
+        seen: dict[Choice, Candidate],
+        confirm: int,
+        accuracy: float,
+        progress: Callable[[float], None],
+    ) -> list[_Tested]:
+        """Return candidates with their simulations, until one meets the targets.
 
-def _suggested(
-    fast: FastTier,
-    space: DesignSpace,
-    judge: Judge,
-    needed: Mapping[str, float],
-    material: str,
-    seed: int,
-    tell: Callable[[float], None],
-) -> dict[Choice, Candidate]:
-    """Return designs that theories predict: some are drawn, and others interpolation suggests."""
-    choices = _drawn(space, material, ceil(_SAMPLED * (len(space.free) + 1)), seed)
-    seen: dict[Choice, Candidate] = {}
-    for number in range(_ROUNDS + 1):
-        tried = {choice: judge.judged(choice, fast) for choice in choices}
-        seen |= {choice: found for choice, found in tried.items() if not isinstance(found, str)}
-        tell((number + 1) / (_ROUNDS + 1))
-        between = interpolation(fast, material)
-        if between is None or number == _ROUNDS:
-            break
-        likely = _searched(between, space, judge, _over(needed), material, seed + number)
-        choices = [each.choice for each in _apart(likely, space, needed)]
-    return seen
+        The next one is the best by corrected predictions, which a further search adds to those that
+        were seen, or else the next candidate.
+        """
+        tested: list[_Tested] = []
+        waiting = [each for each in candidates[:confirm] if each.is_possible]
+        most = len(waiting) + _CORRECTED if waiting else 0
+        while len(tested) < most and not (tested and tested[-1].meets):
+            known = [(x.candidate, x.run) for x in tested if x.run is not None and x.run.margins]
+            likely = []
+            if known:
+
+                def rate(one: Candidate, known: list[tuple[Candidate, Simulated]] = known) -> float:
+                    return self.rated(self.corrected(one, known))
+
+                if self.fast.budget == SURROGATES:
+                    material = known[-1][0].choice.material
+                    seen |= self.searched(self.fast, rate, material, self.seed, effort=_REACH)
+                likely = [max(seen.values(), key=rate)]
+            done = {each.candidate.choice for each in tested}
+            fresh = [each for each in (*likely, *waiting) if each.choice not in done]
+            if not fresh:
+                break
+            run = simulate(fresh[0], self.fast, self.judge, accuracy=accuracy)
+            tested.append(self.tested(fresh[0], run))
+            progress(0.6 + 0.4 * len(tested) / most)
+        done = {each.candidate.choice for each in tested}
+        return [*tested, *(self.tested(x, None) for x in candidates if x.choice not in done)]
+
+    def corrected(
+        self, one: Candidate, known: list[tuple[Candidate, Simulated]]
+    ) -> dict[str, float]:
+        """Return the margins by predictions times the ratio of the nearest simulation to its."""
+
+        def distance(other: Candidate) -> float:
+            ratios = (x.value / other.forces[name].value for name, x in one.forces.items())
+            return sum(log(ratio) ** 2 for ratio in ratios)
+
+        near, run = min(known, key=lambda pair: distance(pair[0]))
+        forces = {
+            name: x.value * run.forces[name] / near.forces[name].value
+            for name, x in one.forces.items()
+        }
+        return self.judge.margins(one.choice, forces)
+
+    def reached(self) -> tuple[Limit, ...]:
+        """Return the largest or smallest force or ratio between the bounds, each target alone."""
+        found = []
+        for target, value in wanted(self.judge.targets).items():
+            time = self.judge.targets.holding_time if target == LOAD else None
+            judge = replace(self.judge, targets=Targets(**{target: 1.0}, holding_time=time))
+
+            def alone(choice: Choice, forces: Forces, judge: Judge = judge) -> float:
+                """Return ln of the force or ratio by the favourable ends; NONE without one."""
+                one = judge.judged(choice, forces)
+                return NONE if isinstance(one, str) else max(min(one.best_margins.values()), NONE)
+
+            tried = []
+            for name in self.fast.materials:
+                forces: Forces = self.fast
+                if self.fast.budget != SURROGATES:
+                    forces = interpolation(self.fast, name) or self.fast
+                rating = partial(alone, forces=forces)
+                choice = search(rating, self.space, name, effort=_REACH, seed=self.seed)
+                # of a theory, if it predicts what the interpolation suggests
+                most = alone(choice, self.fast)
+                tried.append((rating(choice) if most <= NONE else most, choice))
+            most, best = max(tried, key=lambda pair: pair[0])
+            reach = exp(-most) if target == RELEASE else exp(most)
+            found.append(Limit(target, value, reach, SPEEDS, _of_speeds(best, target)))
+        return tuple(found)
 
 
 def _drawn(space: DesignSpace, material: str, count: int, seed: int) -> list[Choice]:
@@ -351,178 +470,18 @@ def _drawn(space: DesignSpace, material: str, count: int, seed: int) -> list[Cho
     return [space.choice(material, low + point * (high - low)) for point in points]
 
 
-def _reason(fast: FastTier) -> str:
-    """Return the most frequent reason why no tier predicts a pad."""
-    reasons = [each for each in fast.known.values() if isinstance(each, str)]
-    return max(reasons, key=reasons.count, default="the area has no room for a pad")
-
-
-def _apart(
-    seen: Mapping[Choice, Candidate], space: DesignSpace, needed: Mapping[str, float]
-) -> tuple[Candidate, ...]:
-    """Return up to three of the best candidates that differ in a variable or in the material."""
-    ends = np.array(space.ends()).reshape(-1, 2)
-    found: list[Candidate] = []
-    # a wide interval may hide a design that meets the targets behind one that surely does not
-    order = sorted(
-        seen.values(), key=lambda one: (not one.is_possible, -rated(one.margins, needed))
-    )
-    for each in order:
-        near = any(
-            each.choice.material == other.choice.material
-            and np.all(
-                np.abs(space.places(each.choice) - space.places(other.choice))
-                <= _APART * (ends[:, 1] - ends[:, 0])
-            )
-            for other in found
-        )
-        # a worse design is of use only if it may meet the targets too
-        if len(found) == 3 or (found and not each.is_possible):
-            break
-        if not near:
-            found.append(each)
-    return tuple(found)
-
-
-# Simulation -------------------------------------------------------------------------------------
-
-
-def _simulated(
-    candidates: tuple[Candidate, ...],
-    seen: Mapping[Choice, Candidate],
-    again: Callable[[Callable[[Candidate], float], str], None],
-    fast: FastTier,
-    judge: Judge,
-    needed: Mapping[str, float],
-    confirm: int,
-    accuracy: float,
-    progress: Callable[[float], None],
-) -> list[tuple[Candidate, Simulated | None]]:
-    """Return candidates with their simulations, until one meets the targets.
-
-    The next one is the best by corrected predictions, which a further search adds to those that
-    were seen, or else the next candidate.
-    """
-    tested: list[tuple[Candidate, Simulated]] = []
-    waiting = [each for each in candidates[:confirm] if each.is_possible]
-    most = len(waiting) + _CORRECTED if waiting else 0
-    while len(tested) < most and not any(
-        _meets(one, run, _yield(one, run, fast, judge), judge) for one, run in tested[-1:]
-    ):
-        known = [(one, run) for one, run in tested if run.margins]
-        done = {one.choice for one, _ in tested}
-        waiting = [each for each in waiting if each.choice not in done]
-        likely = []
-        if known:
-
-            def rate(one: Candidate, known: list[tuple[Candidate, Simulated]] = known) -> float:
-                return rated(_corrected(one, known, judge), needed)
-
-            again(rate, known[-1][0].choice.material)
-            likely = [max(seen.values(), key=rate)]
-        fresh = [each for each in (*likely, *waiting) if each.choice not in done]
-        if not fresh:
-            break
-        tested.append((fresh[0], simulate(fresh[0], fast, judge, accuracy=accuracy)))
-        progress(0.6 + 0.4 * len(tested) / most)
-    simulated = {one.choice for one, _ in tested}
-    return [*tested, *((x, None) for x in candidates if x.choice not in simulated)]
-
-
-def _corrected(
-    one: Candidate, known: list[tuple[Candidate, Simulated]], judge: Judge
-) -> dict[str, float]:
-    """Return the margins by predictions times the ratio of the nearest simulation to its own."""
-
-    def distance(other: Candidate) -> float:
-        return sum(
-            log(force.value / other.forces[name].value) ** 2 for name, force in one.forces.items()
-        )
-
-    near, run = min(known, key=lambda pair: distance(pair[0]))
-    forces = {
-        name: x.value * run.forces[name] / near.forces[name].value for name, x in one.forces.items()
-    }
-    return judge.margins(one.choice, forces)
-
-
-def _rank(one: Candidate, run: Simulated | None, part: float | None) -> tuple[float, float]:
-    """Return the order of a candidate: by its simulated yield and margin, then the others."""
-    margin = None if run is None else run.margin
-    if margin is None:
-        return inf, -one.margin
-    return -round(part or 0.0, 3), -margin
-
-
-def _yield(one: Candidate, run: Simulated | None, fast: FastTier, judge: Judge) -> float | None:
-    """Return the share of parts that meet the targets; None without tolerances."""
-    deviations = judge.conditions.deviations
-    if not deviations:
-        return None
-    margins = one.margins if run is None or not run.margins else run.margins
-    return share_of(margins, slopes_of(one.choice, fast, judge), deviations)
-
-
-def _meets(best: Candidate, run: Simulated | None, part: float | None, judge: Judge) -> bool | None:
-    if run is None:
-        return None if best.is_possible else False
-    if run.meets is None or not judge.conditions.deviations:
-        return run.meets
-    return None if part is None else part >= judge.conditions.share
-
-
-def _reached(fast: FastTier, space: DesignSpace, judge: Judge, seed: int) -> tuple[Limit, ...]:
-    """Return the largest or smallest force or ratio between the bounds, each target alone."""
-    found = []
-    for target, value in wanted(judge.targets).items():
-        rating = partial(_alone, judge=_judge_of(target, judge))
-        tried = []
-        for name in fast.materials:
-            forces = fast if fast.budget == SURROGATES else interpolation(fast, name) or fast
-            alone = partial(rating, fast=forces)
-            choice = search(alone, space, name, effort=_REACH, seed=seed)
-            # of a theory, if it predicts what the interpolation suggests
-            known = rating(choice, fast=fast)
-            tried.append((alone(choice) if known <= NONE else known, choice))
-        most, best = max(tried, key=lambda pair: pair[0])
-        reach = exp(most)
-        reach = 1 / reach if target == RELEASE else reach
-        found.append(Limit(target, value, reach, SPEEDS, _of_speeds(best, target)))
-    return tuple(found)
-
-
-def _judge_of(target: str, judge: Judge) -> Judge:
-    """Return the judge of one target alone, with the force 1."""
-    time = judge.targets.holding_time if target == LOAD else None
-    return replace(judge, targets=Targets(**{target: 1.0}, holding_time=time))
-
-
-def _alone(choice: Choice, *, fast: Forces, judge: Judge) -> float:
-    """Return ln of the force or ratio of a design by the favourable ends; NONE without one."""
-    found = judge.judged(choice, fast)
-    if isinstance(found, str):
-        return NONE
-    return max(min(found.best_margins.values()), NONE)
-
-
 def _of_speeds(best: Choice, target: str) -> str:
     """Return the design that reaches most, in words."""
-    needed = {
-        HOLD: (HOLD_SPEED,),
-        WORK: (HOLD_SPEED,),
-        RELEASE: (RELEASE_SPEED,),
-        RATIO: (HOLD_SPEED, RELEASE_SPEED),
-        LOAD: (),
-    }
-    said = {HOLD_SPEED: "hold", RELEASE_SPEED: "release"}
-    speeds = " and ".join(
-        f"a {said[name]} speed of {readable(getattr(best, name), 'm/s', digits=3)}"
-        for name in needed[target]
+    words = []
+    if target in (HOLD, WORK, RATIO):
+        words.append(f"a hold speed of {readable(best.hold_speed or 0.0, 'm/s', digits=3)}")
+    if target in (RELEASE, RATIO):
+        words.append(f"a release speed of {readable(best.release_speed or 0.0, 'm/s', digits=3)}")
+    pads = (
+        f"pads: {best.pads}, R = {readable(best.radius, 'm', digits=3)}, preload "
+        f"{readable(best.preload, 'N', digits=3)}"
     )
-    return (
-        f"{speeds + ', ' if speeds else ''}pads: {best.pads}, R = "
-        f"{readable(best.radius, 'm', digits=3)}, preload {readable(best.preload, 'N', digits=3)}"
-    )
+    return ", ".join([" and ".join(words), pads] if words else [pads])
 
 
 # What matters ---------------------------------------------------------------------------------
@@ -533,22 +492,19 @@ _OWN = {HOLD: HOLD_SPEED, WORK: HOLD_SPEED, RELEASE: RELEASE_SPEED}
 
 def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
     """Return d ln P/d ln x of the forces of a design by central differences of the fast tier."""
-    modulus = getattr(fast.materials[choice.material], "rubbery_modulus", None)
-    scatters = judge.conditions.deviations
-    if MODULUS in scatters and choice.modulus is None:
+    if MODULUS in judge.conditions.deviations and choice.modulus is None:
+        modulus = getattr(fast.materials[choice.material], "rubbery_modulus", None)
         choice = replace(choice, modulus=modulus)
-    names = [x for x in _variables(choice) if x != PADS]
     ends: dict[str, list[Any]] = {}
-    for name in (*names, *(x for x in INTERFACE if hasattr(fast.traction, x))):
-        for step in (-_STEP, _STEP):
-            if name in INTERFACE:
-                law = replace(fast.traction, **{name: getattr(fast.traction, name) * exp(step)})
-                tier = FastTier(fast.materials, law, fast.budget)
-                found = judge.forces(choice, tier)
-            else:
-                moved = replace(choice, **{name: getattr(choice, name) * exp(step)})
-                found = judge.forces(moved, fast)
-            ends.setdefault(name, []).append(found)
+    for name in UNITS:
+        if name != PADS and (value := getattr(choice, name)) is not None:
+            both = (replace(choice, **{name: value * exp(step)}) for step in (-_STEP, _STEP))
+            ends[name] = [judge.forces(each, fast) for each in both]
+    for name in INTERFACE:
+        if (value := getattr(fast.traction, name, None)) is not None:
+            laws = (replace(fast.traction, **{name: value * exp(x)}) for x in (-_STEP, _STEP))
+            tiers = (FastTier(fast.materials, law, fast.budget) for law in laws)
+            ends[name] = [judge.forces(choice, each) for each in tiers]
     forces = judge.forces(choice, fast)
     slopes: dict[str, dict[str, float | None]] = {}
     for force in () if isinstance(forces, str) else forces:
@@ -556,26 +512,16 @@ def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
         for name, (low, high) in ends.items():
             if name in (HOLD_SPEED, RELEASE_SPEED) and name != _OWN.get(force):
                 continue
-            own[name] = _difference(low, high, force)
+            # none where no tier predicts
+            slope = None
+            if not isinstance(low, str) and not isinstance(high, str):
+                slope = log(high[force].value / low[force].value) / (2 * _STEP)
+            own[name] = slope
             if name == PRELOAD:
                 # N pads under the preload F are N times one under F/N
-                by_preload = own[name]
-                own[PADS] = None if by_preload is None else 1 - by_preload
+                own[PADS] = None if slope is None else 1 - slope
         slopes[force] = own
     return slopes
-
-
-def _difference(low: Any, high: Any, force: str) -> float | None:
-    """Return d ln P/d ln x of a force between two steps; None where no tier predicts."""
-    if isinstance(low, str) or isinstance(high, str):
-        return None
-    return log(high[force].value / low[force].value) / (2 * _STEP)
-
-
-def _variables(choice: Choice) -> list[str]:
-    """Return the names of the variables that a design has."""
-    names = DesignSpace.__dataclass_fields__.keys() & choice.__dataclass_fields__.keys()
-    return [x for x in choice.__dataclass_fields__ if x in names and getattr(choice, x) is not None]
 
 
 def _binding(best: Candidate, space: DesignSpace, slopes: Slopes) -> tuple[str, ...]:

@@ -29,39 +29,14 @@ class Interpolation:
 
     Attributes
     ----------
-    pads : ndarray, shape (n, 7)
-        ln of radius, preload, speed and of what else a pad has, of the known pads.
-    reasons : tuple of (str or None)
-        Reason why a theory does not predict a pad; such pads refuse those nearest to them.
-    spans : ndarray, shape (7,)
-        Ranges of the logarithms, 1 for those that do not vary.
-    logarithms : callable
-        Returns ln of force and of the ends of its interval over the radius.
-    method : str
-        Name of the tier.
-    fast : FastTier
-        The theories, which give held loads fast enough.
+    force : callable
+        Returns the interpolated force of a pad, or the reason of the nearest known pad.
+    held : callable
+        Returns the dead load that a pad holds for a time [s]: of the theories, which are fast.
     """
 
-    pads: Array
-    reasons: tuple[str | None, ...]
-    spans: Array
-    logarithms: Callable[[Array], Array]
-    method: str
-    fast: FastTier
-
-    def held(self, pad: Pad, time: float) -> Force | str:
-        """Return the dead load that a pad holds for a time [s], or a reason."""
-        return self.fast.held(pad, time)
-
-    def force(self, pad: Pad) -> Force | str:
-        """Return the interpolated force of a pad, or the reason of the nearest known pad."""
-        at = _logarithms(pad)
-        nearest = int(np.argmin(np.sum(((self.pads - at) / self.spans) ** 2, axis=1)))
-        if (reason := self.reasons[nearest]) is not None:
-            return reason
-        value, low, high = (pad.radius * np.exp(self.logarithms(at[None])[0])).tolist()
-        return Force(value, low, high, self.method)
+    force: Callable[[Pad], Force | str]
+    held: Callable[[Pad, float], Force | str]
 
 
 def interpolation(fast: FastTier, material: str) -> Interpolation | None:
@@ -76,20 +51,26 @@ def interpolation(fast: FastTier, material: str) -> Interpolation | None:
     if len(answered) < np.count_nonzero(varied) + _MORE:
         return None
     spans = np.where(varied, spans, 1.0)
-    at = np.array([_logarithms(pad) for pad in answered])
+    places = np.array([_logarithms(pad) for pad in answered])
     forces = np.array(
         [[f.value / p.radius, f.low / p.radius, f.high / p.radius] for p, f in answered.items()]
     )
     # cubic functions with linear terms
-    fitted = RBFInterpolator((at / spans)[:, varied], np.log(forces), kernel="cubic", degree=1)
-    return Interpolation(
-        pads,
-        tuple(None if pad in answered else str(force) for pad, force in known.items()),
-        spans,
-        lambda x: fitted((x / spans)[:, varied]),
-        next(iter(answered.values())).method,
-        fast,
-    )
+    fitted = RBFInterpolator((places / spans)[:, varied], np.log(forces), kernel="cubic", degree=1)
+    # pads that a theory does not predict refuse those nearest to them
+    reasons = [None if pad in answered else str(force) for pad, force in known.items()]
+    method = next(iter(answered.values())).method
+
+    def force(pad: Pad) -> Force | str:
+        at = _logarithms(pad)
+        reason = reasons[int(np.argmin(np.sum(((pads - at) / spans) ** 2, axis=1)))]
+        if reason is not None:
+            return reason
+        logarithms = fitted((at[None] / spans)[:, varied])[0]
+        value, low, high = (pad.radius * np.exp(logarithms)).tolist()
+        return Force(value, low, high, method)
+
+    return Interpolation(force, fast.held)
 
 
 def _logarithms(pad: Pad) -> Array:

@@ -46,16 +46,6 @@ class Candidate:
     best_margins: Mapping[str, float]
 
     @property
-    def hold(self) -> Force | None:
-        """Pull-off force at the hold speed."""
-        return self.forces.get(HOLD)
-
-    @property
-    def release(self) -> Force | None:
-        """Pull-off force at the release speed."""
-        return self.forces.get(RELEASE)
-
-    @property
     def margin(self) -> float:
         """Margin of the worst target, which the search maximises."""
         return min(self.margins.values())

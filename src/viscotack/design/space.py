@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from functools import partial
 from math import exp, inf, log
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
+from viscotack.geometry import Bonded
+from viscotack.problem.tables import Read
+
+from .files import ends
 
 HOLD, RELEASE, RATIO, WORK, LOAD = "hold", "release", "ratio", "work", "dead_load"
 RADIUS, PRELOAD, PADS = "radius", "preload", "pads"
@@ -34,6 +39,7 @@ INTERFACE = ("work_of_adhesion", "equilibrium_gap")
 MOST_PADS = 10_000
 # Largest relative standard deviation of a tolerance.
 _LARGEST = 0.5
+_Above = partial(Quantity, above=0)
 
 
 @dataclass(frozen=True)
@@ -63,30 +69,20 @@ class Targets:
     5.0
     """
 
-    hold: (
-        Annotated[float, Quantity("N", "F", "least pull-off force", above=0, example="5 mN")] | None
-    ) = None
-    release: (
-        Annotated[float, Quantity("N", "F", "largest pull-off force", above=0, example="1 mN")]
-        | None
-    ) = None
-    ratio: (
-        Annotated[float, Quantity("1", "q", "least ratio of both forces", above=0, example="4")]
-        | None
-    ) = None
-    work: (
-        Annotated[float, Quantity("J", "W", "least work to pull-off", above=0, example="20 nJ")]
-        | None
-    ) = None
-    dead_load: (
-        Annotated[float, Quantity("N", "G", "weight that hangs", above=0, example="2 mN")] | None
-    ) = None
-    preload: (
-        Annotated[float, Quantity("N", "P", "largest preload", above=0, example="10 mN")] | None
-    ) = None
+    hold: Annotated[float, _Above("N", "F", "least pull-off force", example="5 mN")] | None = None
+    release: Annotated[float, _Above("N", "F", "largest pull-off force", example="1 mN")] | None = (
+        None
+    )
+    ratio: Annotated[float, _Above("1", "q", "least ratio of both forces", example="4")] | None = (
+        None
+    )
+    work: Annotated[float, _Above("J", "W", "least work to pull-off", example="20 nJ")] | None = (
+        None
+    )
+    dead_load: Annotated[float, _Above("N", "G", "weight that hangs", example="2 mN")] | None = None
+    preload: Annotated[float, _Above("N", "P", "largest preload", example="10 mN")] | None = None
     holding_time: (
-        Annotated[float, Quantity("s", "t", "time of the dead load", above=0, example="60 s")]
-        | None
+        Annotated[float, _Above("s", "t", "time of the dead load", example="60 s")] | None
     ) = None
 
     def __post_init__(self) -> None:
@@ -212,6 +208,20 @@ class Bounds:
 
 
 @dataclass(frozen=True)
+class Between:
+    """Marks a field of a table that has bounds: a quantity, or a range "1 mm..10 mm"."""
+
+    unit: str
+    example: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        """Read the bounds."""
+        return Read(
+            lambda value, reading: Bounds(*ends(value, reading, self.unit, self.example))
+        ).__get_pydantic_core_schema__(source, handler)
+
+
+@dataclass(frozen=True)
 class Choice:
     """One design: a value of each variable, in SI.
 
@@ -270,8 +280,8 @@ class DesignSpace:
     modulus, thickness, exponent, backing : Bounds or None
         As in :class:`Choice`; None leaves a sphere of the stated material on a half-space and a
         rigid backing.
-    bonded : bool
-        Whether a layer is bonded to its base; otherwise it slides.
+    base : str
+        Whether a layer is "bonded" to its base or slides, "frictionless".
 
     Examples
     --------
@@ -284,17 +294,22 @@ class DesignSpace:
     1
     """
 
-    radius: Bounds
-    preload: Bounds
-    hold_speed: Bounds | None = None
-    release_speed: Bounds | None = None
-    pads: Bounds = Bounds(1)
-    area: float | None = None
-    modulus: Bounds | None = None
-    thickness: Bounds | None = None
-    exponent: Bounds | None = None
-    backing: Bounds | None = None
-    bonded: bool = False
+    radius: Annotated[Bounds, Between("m", "1 mm..10 mm")]
+    preload: Annotated[Bounds, Between("N", "1 mN..20 mN")]
+    hold_speed: Annotated[Bounds | None, Between("m/s", "100 um/s..10 mm/s")] = None
+    release_speed: Annotated[Bounds | None, Between("m/s", "0.1 um/s..10 um/s")] = None
+    pads: Annotated[Bounds, Between("1", "1..12")] = Bounds(1)
+    area: Annotated[float, _Above("m^2", "A", "largest area", example="4 cm^2")] | None = None
+    modulus: Annotated[Bounds | None, Between("Pa", "0.5 MPa..5 MPa")] = None
+    thickness: Annotated[Bounds | None, Between("m", "100 um..2 mm")] = None
+    exponent: Annotated[Bounds | None, Between("1", "2..4")] = None
+    backing: Annotated[Bounds | None, Between("N/m", "100 N/m..10 kN/m")] = None
+    base: Literal["frictionless", "bonded"] = "frictionless"
+
+    @property
+    def bonded(self) -> bool:
+        """Whether a layer is bonded to its base."""
+        return self.base == Bonded.word
 
     def __post_init__(self) -> None:
         if any(end != int(end) or end > MOST_PADS for end in (self.pads.low, self.pads.top)):

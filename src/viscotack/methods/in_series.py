@@ -10,6 +10,7 @@ the second stronger, and the reverse.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -42,33 +43,45 @@ _COUPLING_BAND = 0.01
 _LEAST_ZONES, _SLOW = 1.5, 1.1
 
 
+CRACKS, SIMULATION = "steady cracks", "simulation"
+OVERLAP = "the intervals of both strengths overlap"
+
+
 @dataclass(frozen=True)
-class Opening:
-    """Which of two contacts in series opens, by steady cracks.
+class SeriesOpening:
+    """Answer to which of two contacts in series opens.
 
     Attributes
     ----------
     opened : int or None
-        The contact that opens, 0 or 1; None if the bands overlap.
-    tension : float
-        Largest common tension [N].
-    bands : tuple of float
-        Relative half widths of the 90 % intervals of the strengths of both contacts.
-    held : float
-        Radius of the contact that holds when the tension has fallen to half, over that at the
-        start; nan for an elastic one.
+        The contact that opens, 0 or 1; None if it is undecided.
+    tension : float or None
+        Largest common tension [N], the pull-off force of the pair; None if unknown.
+    held : float or None
+        Radius of the contact that holds after the largest tension, over that at the start; None if
+        unknown.
+    bands : tuple of float, or None
+        Relative half widths of the 90 % intervals of the strengths of both contacts; None for a
+        simulation and where steady cracks do not apply.
     nominal : int or None
-        The contact that opens without regard to bands; None if both open together.
+        The contact that opens without regard to bands.
     corners : tuple of (int or None)
-        The contact that opens in both corners of the bands.
+        The contact that opens if the first is weaker and the second stronger by their bands, and
+        the reverse.
+    method : str
+        "steady cracks" or "simulation".
+    why : str
+        Reason for an undecided answer, and for a simulation.
     """
 
-    opened: int | None
-    tension: float
-    bands: tuple[float, float]
-    held: float
-    nominal: int | None
-    corners: tuple[int | None, int | None]
+    opened: int | None = None
+    tension: float | None = None
+    held: float | None = None
+    bands: tuple[float, float] | None = None
+    nominal: int | None = None
+    corners: tuple[int | None, int | None] = (None, None)
+    method: str = CRACKS
+    why: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +93,7 @@ class _Side:
     contact: Receding | Elastic
 
 
-def opening_by_cracks(first: Problem, second: Problem) -> Opening:
+def opening_by_cracks(first: Problem, second: Problem) -> SeriesOpening:
     """Return which of two contacts in series opens, by steady cracks.
 
     Parameters
@@ -111,8 +124,14 @@ def opening_by_cracks(first: Problem, second: Problem) -> Opening:
     opened = found.opened, weaker.opened, stronger.opened
     nominal, *corners = (None if each < 0 else each for each in opened)
     decided = nominal if corners == [nominal] * 2 else None
-    return Opening(
-        decided, found.tension, (bands[0], bands[1]), found.held, nominal, (corners[0], corners[1])
+    return SeriesOpening(
+        decided,
+        found.tension,
+        None if isnan(found.held) else float(found.held),
+        (bands[0], bands[1]),
+        nominal,
+        (corners[0], corners[1]),
+        why="" if decided is not None else OVERLAP,
     )
 
 

@@ -43,8 +43,14 @@ class OfArray(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""
-        from viscotack.pads import array_yield, holding, preload_after, pull_array, read_array
-        from viscotack.pictures.array import draw_array
+        from viscotack.design.arrays import (
+            array_yield,
+            holding,
+            preload_after,
+            pull_array,
+            read_array,
+        )
+        from viscotack.plot.array import draw_array
 
         from .parts.tables import rows_as_csv
 

@@ -24,7 +24,7 @@ from .request import (
 from .simulate import Accuracy
 
 if TYPE_CHECKING:
-    from viscotack.control import ForceTable, Released
+    from viscotack.design.control import ForceTable, Released
 
 # Part of the progress that the table takes, where a release follows.
 _TABLE = 0.7
@@ -112,9 +112,9 @@ class Control(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Tabulate, telling ``share``; release on the simulated rig if a force is wanted."""
-        from viscotack.control import Release, c_header, fmu, force_table, let_go
+        from viscotack.design.control import Release, c_header, fmu, force_table, let_go
         from viscotack.files.whole import write_whole
-        from viscotack.pictures.control import draw_control
+        from viscotack.plot.control import draw_control
 
         from .parts.tables import rows_as_csv
 

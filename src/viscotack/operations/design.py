@@ -54,7 +54,7 @@ class OfDesign(Request):
     def answer(self, caller: Caller) -> Answer:
         """Search and simulate, telling ``share``."""
         from viscotack.design import find_design, read_design
-        from viscotack.pictures.design import draw_design, draw_front
+        from viscotack.plot.design import draw_design, draw_front
 
         from .parts.tables import rows_as_csv
 

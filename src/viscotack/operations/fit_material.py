@@ -93,7 +93,7 @@ class FitMaterial(Dma, Shifting):
         """Read the files, build the master curve and fit the model."""
         from viscotack.materials.passport_file import write_passport
         from viscotack.materials.passport_words import shift_lines
-        from viscotack.pictures.lab import draw_fit
+        from viscotack.plot.material import draw_fit
 
         from .parts.records import fit_record
 

@@ -119,7 +119,7 @@ class Forecast(Wish):
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the series of the study and forecast from it."""
-        from viscotack.pictures.identify import draw_rate_series
+        from viscotack.plot.interface import draw_rate_series
 
         from .parts.tables import rows_as_csv
 

@@ -82,7 +82,7 @@ class IdentifySlow(Rig):
     def answer(self, caller: Caller) -> Answer:
         """Fit the elastic models to one cycle."""
         from viscotack.identify import fitted_force, identify_slow, slow_test
-        from viscotack.pictures.identify import draw_slow_test
+        from viscotack.plot.interface import draw_slow_test
 
         from .parts.json_data import drawn
         from .parts.records import slow_record
@@ -247,7 +247,7 @@ class IdentifyRates(Rig):
         from viscotack.clock import limited
         from viscotack.identify import posterior
         from viscotack.identify.study import answer
-        from viscotack.pictures.identify import draw_posterior, draw_rate_series
+        from viscotack.plot.interface import draw_posterior, draw_rate_series
 
         from .parts.records import rates_record
 

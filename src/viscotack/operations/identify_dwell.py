@@ -32,7 +32,7 @@ class IdentifyDwell(Rig):
         """Fit the growth to the pull-off forces of all cycles."""
         from viscotack.identify.contact_time import check_relaxed, identify_dwell, tests_by_dwell
         from viscotack.materials.passport import Passport
-        from viscotack.pictures.identify import draw_dwells
+        from viscotack.plot.interface import draw_dwells
 
         found = self.survey(caller)
         times, forces, uncertainty = tests_by_dwell(found.cycles)

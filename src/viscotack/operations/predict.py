@@ -416,6 +416,6 @@ def _write_curve(found: "Prediction", target: Any) -> None:
 
 
 def _draw(found: "Prediction", result: "Result | None") -> Any:
-    from viscotack.pictures.forecast import draw_prediction
+    from viscotack.plot.prediction import draw_prediction
 
     return draw_prediction(found, result)

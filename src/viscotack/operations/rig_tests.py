@@ -67,7 +67,7 @@ class ReadTests(Rig, ShiftLaw):
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
         from viscotack.identify.speed_table import speed_table
-        from viscotack.pictures.tack import draw_tests
+        from viscotack.plot.tack import draw_tests
 
         from .parts.drawn import retraction
         from .parts.records import (

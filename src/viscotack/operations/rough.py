@@ -89,12 +89,7 @@ class OfRough(Request):
         """Simulate the test, telling ``share``."""
         if self.theory is not None:
             return self._superposed(caller)
-        from viscotack.pictures.rough import (
-            check_ffmpeg,
-            draw_rough,
-            film_of_pull,
-            movie_of_pull,
-        )
+        from viscotack.plot.rough import check_ffmpeg, draw_rough, film_of_pull
         from viscotack.result import Outcome
         from viscotack.rough import pull, read_rough, stickiness
 
@@ -130,7 +125,7 @@ class OfRough(Request):
                 "csv": rows_as_csv(found.rows()),
                 "maps": found.save_maps,
                 "film": lambda target: film_of_pull(found, target),
-                "movie": lambda target: movie_of_pull(found, target),
+                "movie": lambda target: film_of_pull(found, target, ".mp4"),
             },
             pictures={"plot": lambda: draw_rough(found)},
             notes=(*problem.surface.notes, *found.warnings),
@@ -139,9 +134,8 @@ class OfRough(Request):
 
     def _superposed(self, caller: Caller) -> Answer:
         """Answer by superposition of asperities."""
-        from viscotack.pads import superposed
-        from viscotack.pictures.rough import draw_superposition
-        from viscotack.rough import read_rough
+        from viscotack.plot.rough import draw_superposition
+        from viscotack.rough import read_rough, superposed
 
         from .parts.tables import rows_as_csv
 

@@ -208,7 +208,7 @@ def saved(file: Path, caller: Caller) -> "Result":
 
 
 def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
-    from viscotack.pictures import plot
+    from viscotack.plot import simulation as plot
     from viscotack.problem.nouns import known
     from viscotack.result import Outcome, write_csv
     from viscotack.result.cycles import write_cycles

@@ -118,7 +118,7 @@ class OfPad(Reduced):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate the theory."""
-        from viscotack.pictures.plot import draw_regimes
+        from viscotack.plot.regimes import draw_regimes
 
         pad, solid, wanted = self._pad(caller)
         # overflow must raise an error rather than return nan

@@ -130,7 +130,7 @@ class OfUncertainty(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Predict the drawn problems, telling ``share``."""
-        from viscotack.pictures.uncertainty import draw_uncertainty
+        from viscotack.plot.uncertainty import draw_uncertainty
         from viscotack.prediction.uncertainty import uncertainty
 
         from .parts.tables import rows_as_csv

@@ -47,8 +47,8 @@ class OfWindow(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every speed and preload of each map, telling ``share``."""
-        from viscotack.pictures.window import draw_window
-        from viscotack.series import read_window, window
+        from viscotack.design.window import read_window, window
+        from viscotack.plot.window import draw_window
 
         from .parts.tables import rows_as_csv
 
@@ -113,7 +113,7 @@ def _contacts(stated: Any) -> dict[str, Any]:
 
 def _chances(stated: Any, found: Any) -> tuple[Any, ...]:
     """Return the yield of each cell of a map; nothing without scatter."""
-    from viscotack.series import window_yield
+    from viscotack.design.window import window_yield
 
     if stated.scatter is None:
         return ()

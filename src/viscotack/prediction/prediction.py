@@ -17,6 +17,7 @@ from viscotack.arrays import Array
 from viscotack.problem import Case
 from viscotack.problem.record import run_id, to_dict
 from viscotack.result.trajectory import PRESSED
+from viscotack.units import readable, readable_interval
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ MEASURED, NOT_MEASURED = "measured", "not measured"
 THEORY_CONFIDENCE = 0.9
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Prediction:
     """Predicted pull-off force, work and unloading curve, with intervals.
 
@@ -97,6 +98,22 @@ class Prediction:
     depth_interval: tuple[float, float] | None = None
     joint: bool = False
     warn: Callable[[], tuple[str, ...]] = field(default=tuple, repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        unit = next(iter(self.problem.outputs.observables.values())).unit
+        scales = self.problem.scales()
+        factor = 1.0 if scales is None else getattr(scales, unit.scale)
+        low, high = (factor * x for x in self.interval)
+        si, more = ("1", f" x {unit.text}") if scales is None else (unit.si, "")
+        value = readable(factor * self.pull_off_force, si)
+        interval = readable_interval(low, high, si)
+        return f"<Prediction by the {self.method}: {value} ({interval}){more}>"
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows."""
+        from viscotack.plot.notebook import html_of_prediction
+
+        return html_of_prediction(self)
 
     @property
     def pull_off_stress(self) -> float:

@@ -125,6 +125,12 @@ class Problem:
     protocol: Retraction
     body: Body = HalfSpace()
 
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows."""
+        from viscotack.plot.notebook import html_of_problem
+
+        return html_of_problem(self)
+
     def __post_init__(self) -> None:
         _check_material(self.material)
         _check_traction(self.traction)

@@ -30,6 +30,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import open_regular
+from viscotack.files.frame import frame
 from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchScales, Scales
 from viscotack.problem.record import from_dict, to_dict
@@ -168,7 +169,7 @@ def _versions() -> dict[str, str]:
     return {"viscotack": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """A simulated detachment; dimensionless series of equal length, one entry per step.
 
@@ -283,6 +284,19 @@ class Result:
         if not any(self.status.startswith(o) for o in Outcome):
             known = ", ".join(repr(str(o)) for o in Outcome)
             raise InputError(f"status must begin with one of {known}, got {self.status!r}")
+
+    def __repr__(self) -> str:
+        return f"<Result of the {self.method} in {self.time.size} steps: {self.status}>"
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows."""
+        from viscotack.plot.notebook import html_of_result
+
+        return html_of_result(self)
+
+    def to_frame(self) -> Any:
+        """Return the series as a pandas DataFrame with the names of :func:`columns`."""
+        return frame(columns(self))
 
     @cached_property
     def groups(self) -> Groups:

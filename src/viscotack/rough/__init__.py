@@ -5,16 +5,19 @@ from .problem import RoughProblem, Zone
 from .pulling import pull
 from .result import RoughResult
 from .rough_file import problem_of, read_rough, read_rough_case
+from .superposition import Superposition, superposed
 
 __all__ = [
     "LONGEST_RANGE",
     "RoughProblem",
     "RoughResult",
     "Stickiness",
+    "Superposition",
     "Zone",
     "problem_of",
     "pull",
     "read_rough",
     "read_rough_case",
     "stickiness",
+    "superposed",
 ]

@@ -19,7 +19,7 @@ from viscotack.files.whole import (
     same_file,
 )
 from viscotack.operations.request import Output
-from viscotack.pictures import plot
+from viscotack.plot.style import check_format, save_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -62,7 +62,7 @@ def check_files(
                 )
         else:
             if output.kind == "picture":
-                plot.check_format(file)
+                check_format(file)
             known = ("", *output.endings)
             if output.endings and file.suffix.lower() not in known:
                 raise InputError(f"{flag} {file}: the ending must be {' or '.join(output.endings)}")
@@ -120,7 +120,7 @@ class Writing:
     def picture(self, file: Path | None, draw: Callable[[], "Figure"]) -> None:
         """Draw a figure and write it."""
         if file is not None:
-            self("drew", file, lambda _: plot.save_figure(draw(), file))
+            self("drew", file, lambda _: save_figure(draw(), file))
 
     def answer(self, text: str) -> None:
         """Print the answer; on standard error if a table is written to standard output."""

@@ -47,8 +47,8 @@ def page(found: Answer, forecast: RateForecast) -> str:
         raise InputError(
             f"a report needs Jinja2; install it with: {install_command('lab')}"
         ) from error
-    from viscotack.pictures.identify import draw_fitted_curves, draw_posterior, draw_rate_series
-    from viscotack.pictures.tack import draw_tests
+    from viscotack.plot.interface import draw_fitted_curves, draw_posterior, draw_rate_series
+    from viscotack.plot.tack import draw_tests
 
     shelf = Environment(
         loader=FileSystemLoader(_FOLDER), autoescape=True, undefined=StrictUndefined

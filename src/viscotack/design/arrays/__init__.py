@@ -1,0 +1,27 @@
+"""Arrays of pads on a common backing: force, order of detachment, load sharing and yield.
+
+All pads are of one kind, with their own heights and works of adhesion, on a backing with springs,
+tilt and curvature. Each follows the curve of one pad. The derivation is in docs/arrays.md.
+"""
+
+from .array_file import ArrayFile, read_array
+from .load import Hold, Holding, holding, preload_after
+from .pulling import ArrayPull, Backing, PadArray, grid, pull_array
+from .scatter import ArrayYield, Scatter, array_yield
+
+__all__ = [
+    "ArrayFile",
+    "ArrayPull",
+    "ArrayYield",
+    "Backing",
+    "Hold",
+    "Holding",
+    "PadArray",
+    "Scatter",
+    "array_yield",
+    "grid",
+    "holding",
+    "preload_after",
+    "pull_array",
+    "read_array",
+]

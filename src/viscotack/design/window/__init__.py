@@ -1,0 +1,41 @@
+"""A rigid object between two contacts: which opens first, by speed and preload.
+
+In transfer printing a soft stamp picks an object (ink) from a donor and prints it on a receiver.
+The object has two contacts that carry the same force, and the one that opens decides. The
+derivation is in docs/pick_and_print.md.
+"""
+
+from viscotack.methods.in_series import SeriesOpening
+
+from .chances import (
+    CellYield,
+    ContactScatter,
+    OpeningChance,
+    WindowScatter,
+    opening_chance,
+    window_yield,
+)
+from .opening import aged, which_opens
+from .picking import Cell, CriticalSpeed, Window, window
+from .simulated import SeriesResult, simulate_in_series
+from .window_file import WindowFile, read_window
+
+__all__ = [
+    "Cell",
+    "CellYield",
+    "ContactScatter",
+    "CriticalSpeed",
+    "OpeningChance",
+    "SeriesOpening",
+    "SeriesResult",
+    "Window",
+    "WindowFile",
+    "WindowScatter",
+    "aged",
+    "opening_chance",
+    "read_window",
+    "simulate_in_series",
+    "which_opens",
+    "window",
+    "window_yield",
+]

@@ -1,0 +1,308 @@
+r"""Map of speed and preload: where a stamp picks an object from a donor and prints it.
+
+At a donor the stamp picks if the contact of donor and object opens; on a receiver it prints if the
+contact of stamp and object opens. A critical speed is where the contact that opens changes, at one
+preload. Its band is the range over which steady cracks do not decide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
+from math import isfinite, log, sqrt
+
+from viscotack.errors import InputError
+from viscotack.methods.in_series import CRACKS, SIMULATION, SeriesOpening
+from viscotack.problem import Problem
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
+
+from .opening import posed, which_opens
+
+STAMP, DONOR, RECEIVER = "stamp", "donor", "receiver"
+PICK, PRINT, BOTH, NEITHER, UNDECIDED = "pick", "print", "pick and print", "neither", "undecided"
+# Tolerance of ln of a critical speed by steady cracks, of its interval, and of one by simulation.
+_RESOLUTION, _OF_INTERVAL, _SIMULATED = 5e-3, 0.03, 0.1
+_MOST_CELLS = 10_000
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One speed and preload of a map.
+
+    Attributes
+    ----------
+    speed, preload : float
+        Speed of the drive [m/s] and common force of the relaxed start [N].
+    donor, receiver : SeriesOpening or None
+        Which contact opens at the donor and on the receiver, 0 being that of donor or receiver and
+        1 that of the stamp; None without one.
+    """
+
+    speed: float
+    preload: float
+    donor: SeriesOpening | None
+    receiver: SeriesOpening | None
+
+    @property
+    def word(self) -> str:
+        """What the stamp does: pick, print, pick and print, neither or undecided."""
+        known = [each for each in (self.donor, self.receiver) if each is not None]
+        if any(each.opened is None for each in known):
+            return UNDECIDED
+        picks = self.donor is not None and self.donor.opened == 0
+        prints = self.receiver is not None and self.receiver.opened == 1
+        return {(1, 1): BOTH, (1, 0): PICK, (0, 1): PRINT, (0, 0): NEITHER}[picks, prints]
+
+    @property
+    def why(self) -> str:
+        """Reasons for an undecided cell."""
+        known = {DONOR: self.donor, RECEIVER: self.receiver}
+        reasons = (f"{name}: {x.why}" for name, x in known.items() if x is not None and x.why)
+        return "; ".join(reasons)
+
+
+@dataclass(frozen=True)
+class CriticalSpeed:
+    """Speed at which another contact of the object opens, at one preload.
+
+    Attributes
+    ----------
+    base : str
+        "donor" or "receiver".
+    preload : float
+        Common force of the relaxed start [N].
+    speed : float
+        Critical speed [m/s].
+    interval : tuple of (float or None)
+        Speeds [m/s] between which steady cracks do not decide; None at an end outside the speeds of
+        the map. Of simulations: two speeds, 10 % apart or less, at which they differ.
+    below, above : str
+        What opens at lower and at higher speeds: "donor", "receiver" or "stamp".
+    method : str
+        "steady cracks" or "simulation".
+    """
+
+    base: str
+    preload: float
+    speed: float
+    interval: tuple[float | None, float | None]
+    below: str
+    above: str
+    method: str
+
+
+@dataclass(frozen=True)
+class Window:
+    """Map of picking and printing of a stamp, by speed and preload.
+
+    Attributes
+    ----------
+    speeds, preloads : tuple of float
+        Speeds of the drive [m/s] and preloads [N], ascending.
+    cells : tuple of Cell
+        All speeds of the first preload, then of the next.
+    critical_speeds : tuple of CriticalSpeed
+        By base and preload.
+    """
+
+    speeds: tuple[float, ...]
+    preloads: tuple[float, ...]
+    cells: tuple[Cell, ...]
+    critical_speeds: tuple[CriticalSpeed, ...]
+
+    def at(self, speed: int, preload: int) -> Cell:
+        """Return the cell of the speed and the preload with these numbers."""
+        return self.cells[preload * len(self.speeds) + speed]
+
+
+def window(
+    stamp: Problem,
+    *,
+    donor: Problem | None = None,
+    receiver: Problem | None = None,
+    speeds: Sequence[float],
+    preloads: Sequence[float],
+    stiffness: float | None = None,
+    simulate: bool = False,
+    accuracy: float = DEFAULT_ACCURACY,
+    time_limit: float | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Window:
+    """Return where a stamp picks an object from a donor, and where it prints it on a receiver.
+
+    Parameters
+    ----------
+    stamp, donor, receiver : Problem
+        Contacts of the object with the stamp, and with a donor, a receiver, or both, in SI. Their
+        protocols are replaced.
+    speeds, preloads : sequence of float
+        Speeds of the drive [m/s] and common forces of the relaxed start [N].
+    stiffness : float or None
+        Of the machine [N/m]; None for a rigid one.
+    simulate : bool
+        Simulate the cells that steady cracks do not decide; each takes seconds.
+    accuracy : float
+        Of the simulations.
+    time_limit : float, optional
+        Longest time of one simulation [s]; its cell is then undecided.
+    progress : callable, optional
+        Called with the completed fraction, 0 to 1.
+
+    Raises
+    ------
+    ValueError
+        If there is no donor and no receiver, a speed is not positive, or a contact is not one of
+        revolution.
+
+    Examples
+    --------
+    >>> from viscotack import AtForce, Elastic, LennardJones, Problem, Retraction, Sphere
+    >>> from viscotack import StandardSolid
+    >>> law = LennardJones(work_of_adhesion=0.1, equilibrium_gap=1e-7)
+    >>> stamp = Problem(
+    ...     material=StandardSolid(
+    ...         rubbery_modulus=1e6, glassy_modulus=10e6, tau0=1e-3, poisson_ratio=0.5
+    ...     ),
+    ...     traction=law,
+    ...     geometry=Sphere(radius=1e-3),
+    ...     protocol=Retraction(start=AtForce(1e-3), speed=1e-5),
+    ... )
+    >>> donor = Problem(
+    ...     material=Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+    ...     traction=LennardJones(work_of_adhesion=0.2, equilibrium_gap=2e-7),
+    ...     geometry=Sphere(radius=1e-3),
+    ...     protocol=stamp.protocol,
+    ... )
+    >>> found = window(stamp, donor=donor, speeds=[1e-6, 1e-3], preloads=[1e-3])
+    >>> [cell.word for cell in found.cells]
+    ['neither', 'pick']
+    """
+    bases = {DONOR: donor, RECEIVER: receiver}
+    known = {name: base for name, base in bases.items() if base is not None}
+    if not known:
+        raise InputError("a window needs a donor, a receiver, or both beside the stamp")
+    V, F = _ascending("speeds", speeds), _ascending("preloads", preloads)
+    if V[0] <= 0:
+        raise InputError(f"speeds must be positive, got {V[0]:g} m/s")
+    if len(V) * len(F) > _MOST_CELLS:
+        raise InputError(f"a map has at most {_MOST_CELLS:,} cells, got {len(V) * len(F):,}")
+
+    def opening(base: Problem, preload: float, speed: float) -> SeriesOpening:
+        first, second = (
+            posed(each, preload=preload, speed=speed, stiffness=stiffness) for each in (base, stamp)
+        )
+        return which_opens(
+            first, second, simulate=simulate, accuracy=accuracy, time_limit=time_limit
+        )
+
+    rows, criticals = [], []
+    for number, preload in enumerate(F):
+        found: dict[str, list[SeriesOpening]] = {}
+        for name, base in known.items():
+            at = partial(_tried, partial(opening, base, preload))
+            found[name] = [at(speed) for speed in V]
+            criticals += _critical_speeds(at, name, preload, V, found[name])
+        for i, speed in enumerate(V):
+            answers = {name: each[i] for name, each in found.items()}
+            rows.append(Cell(speed, preload, answers.get(DONOR), answers.get(RECEIVER)))
+        if progress is not None:
+            progress((number + 1) / len(F))
+    return Window(V, F, tuple(rows), tuple(criticals))
+
+
+def _tried(opening: Callable[[float], SeriesOpening], speed: float) -> SeriesOpening:
+    """Return the contact that opens; undecided with the reason where no relaxed contact exists."""
+    try:
+        return opening(speed)
+    except InputError as reason:
+        return SeriesOpening(why=str(reason))
+
+
+def _ascending(name: str, values: Sequence[float]) -> tuple[float, ...]:
+    numbers = tuple(sorted({float(x) for x in values}))
+    if not numbers or not all(isfinite(x) for x in numbers):
+        raise InputError(f"{name} must be finite numbers, at least one, got {list(values)!r}")
+    return numbers
+
+
+@dataclass(frozen=True)
+class _Change:
+    """Two speeds between which another contact opens: `below` at the lower one, then `above`."""
+
+    low: float
+    high: float
+    below: int
+    above: int
+
+    @property
+    def middle(self) -> float:
+        return sqrt(self.low * self.high)
+
+
+def _critical_speeds(
+    opening: Callable[[float], SeriesOpening],
+    name: str,
+    preload: float,
+    speeds: tuple[float, ...],
+    found: list[SeriesOpening],
+) -> Iterator[CriticalSpeed]:
+    """Yield the critical speeds of a base at a preload."""
+    words = (name, STAMP)
+    for change in _changes(speeds, [x.nominal for x in found]):
+        ends = [found[speeds.index(speed)].method for speed in (change.low, change.high)]
+        method = SIMULATION if SIMULATION in ends else CRACKS
+        if method == CRACKS:
+            change = _narrowed(lambda v: opening(v).nominal, change, _RESOLUTION)
+            corners = [_corner(opening, k, change, speeds, found) for k in (0, 1)]
+            known = sorted(x for x in corners if x is not None)
+            if len(known) == 2:
+                interval = known[0], known[1]
+            else:
+                low = next((x for x in known if x <= change.middle), None)
+                high = next((x for x in known if x > change.middle), None)
+                interval = low, high
+        else:
+            change = _narrowed(lambda v: opening(v).nominal, change, _SIMULATED)
+            interval = change.low, change.high
+        below, above = words[change.below], words[change.above]
+        yield CriticalSpeed(name, preload, change.middle, interval, below, above, method)
+
+
+def _corner(
+    opening: Callable[[float], SeriesOpening],
+    number: int,
+    change: _Change,
+    speeds: tuple[float, ...],
+    found: list[SeriesOpening],
+) -> float | None:
+    """Return the critical speed in a corner of the bands; None outside the speeds of the map."""
+    alike = [
+        each
+        for each in _changes(speeds, [x.corners[number] for x in found])
+        if (each.below, each.above) == (change.below, change.above)
+    ]
+    if not alike:
+        return None
+    nearest = min(alike, key=lambda x: abs(log(x.middle / change.middle)))
+    return _narrowed(lambda v: opening(v).corners[number], nearest, _OF_INTERVAL).middle
+
+
+def _changes(speeds: Sequence[float], opened: Sequence[int | None]) -> list[_Change]:
+    """Return the changes of the opening contact between neighbouring speeds."""
+    known = [(v, each) for v, each in zip(speeds, opened, strict=True) if each is not None]
+    return [_Change(v, w, a, b) for (v, a), (w, b) in pairwise(known) if a != b]
+
+
+def _narrowed(opened: Callable[[float], int | None], change: _Change, to: float) -> _Change:
+    """Return a change between closer speeds, by bisection up to this ln of their ratio."""
+    while log(change.high / change.low) > to:
+        found = opened(change.middle)
+        if found is None:
+            break
+        if found == change.below:
+            change = replace(change, low=change.middle)
+        else:
+            change = replace(change, high=change.middle)
+    return change

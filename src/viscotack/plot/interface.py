@@ -1,0 +1,234 @@
+"""Figures of an identified interface: measured points, fitted curves, residuals."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscotack.identify import (
+    Posterior,
+    RateForecast,
+    RateSeriesFit,
+    SlowTestFit,
+    fitted_force,
+)
+from viscotack.identify.contact_time import DwellFit
+from viscotack.identify.forward import Growth
+from viscotack.identify.pull_off import same_speeds, temperature_of
+from viscotack.lab.tack import Cycle
+from viscotack.units import readable
+
+from .style import axis_unit, drawing, log_axis_unit, plain_ticks
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# parameter -> label and scale factor
+_SCALES = {
+    "work_of_adhesion": ("work of adhesion [J/m$^2$]", 1.0),
+    "equilibrium_gap": ("range $h_0$ [nm]", 1e9),
+    "strengthening": ("strength over that at rest", 1.0),
+    "exponent": ("exponent of growth", 1.0),
+}
+_CURVES = 6  # largest number of speeds with a curve
+_MOST = 20.0  # largest difference of the information criterion of a model that is drawn
+
+
+def draw_slow_test(fit: SlowTestFit) -> "Figure":
+    """Draw force against radius or depth, the plausible models, and their residuals."""
+    test = fit.test
+    with drawing(8.4, 7.0) as figure:
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
+        far, far_unit = axis_unit(test.at, "m")
+        load, load_unit = axis_unit(test.force, "N")
+        x = test.at / far
+        order = np.argsort(x)
+        above.plot(x, test.force / load, "o", ms=3, color="0.4", label="measured")
+        for one in fit.fits:
+            if one.criterion > fit.best.criterion + _MOST:
+                continue
+            force = fitted_force(one, test)
+            (line,) = above.plot(x[order], force[order] / load, label=one.model.upper())
+            rest = (test.force - force) / test.force_noise
+            below.plot(x, rest, "o", ms=3, color=line.get_color())
+        below.axhline(0.0, color="0.6", lw=0.8)
+        above.set_ylabel(f"force, compression positive [{load_unit}]")
+        what = "contact radius" if test.against == "radius" else "depth"
+        below.set(xlabel=f"{what} [{far_unit}]", ylabel="residual / noise")
+        above.legend()
+    return figure
+
+
+def draw_dwells(fit: DwellFit) -> "Figure":
+    """Draw pull-off force against contact time: measured, straight line in ln t, and law."""
+    with drawing(8.0, 5.4) as figure:
+        axes = figure.subplots()
+        load, load_unit = axis_unit(fit.forces, "N")
+        axes.semilogx(fit.times, np.array(fit.forces) / load, "o", color="0.4", label="measured")
+        at = np.geomspace(fit.times[0], fit.times[-1], 200)
+        axes.semilogx(at, fit.line(at) / load, "--", label="straight in the logarithm of the time")
+        if fit.law is not None:
+            axes.semilogx(at, fit.force(at) / load, label=fit.law.replace("-", " "))
+        plain_ticks(axes)
+        axes.set(xlabel="time in contact [s]", ylabel=f"pull-off force [{load_unit}]")
+        axes.legend()
+    return figure
+
+
+def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -> "Figure":
+    """Draw pull-off force against speed: measured, fitted, and forecast with its band."""
+    with drawing(8.0, 5.4) as figure:
+        axes = figure.subplots()
+        fastest, speed_unit = log_axis_unit([one.speed for one in fit.series], "m/s")
+        measured = [one.force.value for one in fit.series]
+        load, load_unit = axis_unit(measured, "N")
+        speed = [one.speed / fastest for one in fit.series]
+        bars = [one.force.uncertainty / load for one in fit.series]
+        style = {"fmt": "o", "color": "0.3", "label": "measured", "zorder": 3}
+        axes.errorbar(speed, np.array(measured) / load, yerr=bars, **style)
+        work = readable(fit.work_of_adhesion, "J/m^2", digits=3).replace("^2", "$^2$")
+        interface = f"{work}, {_range(fit)}"
+        fitted = [force / load for force in fit.forces]
+        axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
+        if forecast is not None:
+            _band(axes, forecast, fastest, load)
+        axes.set(xscale="log", yscale="log")
+        plain_ticks(axes)
+        name, at = "true speed of retraction", fit.passport.temperature
+        if at is not None and any(one.shift != 1.0 for one in fit.series):
+            name = f"speed $a_T v$ at {at - 273.15:.3g} °C"
+        axes.set(xlabel=f"{name} [{speed_unit}]", ylabel=f"pull-off force [{load_unit}]")
+        axes.legend()
+    return figure
+
+
+def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
+    """Draw one measured retraction for each speed, the curve of the fit, and their difference.
+
+    Of repeated tests the one nearest to the fitted series is drawn; at most six speeds. The
+    travel counts from zero force. The curves of the fit are those of a rigid machine, with
+    tensions scaled to the pull-off with the machine's stiffness. The difference is drawn until
+    the pull-off of the fit.
+    """
+    from matplotlib import colormaps
+
+    chosen = np.unique(np.linspace(0, len(fit.series) - 1, _CURVES).round().astype(int))
+    groups = same_speeds(cycles)
+    with drawing(8.4, 7.0) as figure:
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
+        load, load_unit = axis_unit([one.force.value for one in fit.series], "N")
+        pairs = [_fitted_pair(fit, int(i), groups) for i in chosen]
+        far, far_unit = axis_unit([np.ptp(fitted[0]) for _, fitted in pairs], "m")
+        colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(pairs)))
+        for i, colour, (measured, fitted) in zip(chosen, colours, pairs, strict=True):
+            one = fit.series[i]
+            label = (
+                f"{one.conditions(3)}: "
+                f"{readable(one.force.value, 'N', digits=3)}, fit "
+                f"{readable(fit.forces[i], 'N', digits=3)}"
+            ).replace(" u", " µ")
+            travel, force = measured
+            above.plot(travel / far, force / load, lw=1.0, color=colour, label=label)
+            above.plot(fitted[0] / far, fitted[1] / load, "--", color=colour)
+            # the steep end, where travels that differ little give large differences, is left out
+            last = fitted[0][np.argmin(fitted[1])]
+            inside = (travel >= fitted[0][0]) & (travel <= last)
+            rest = force[inside] - np.interp(travel[inside], *fitted)
+            below.plot(travel[inside] / far, rest / load, lw=1.0, color=colour)
+        below.axhline(0.0, color="0.6", lw=0.8)
+        above.set_ylabel(f"force, compression positive [{load_unit}]")
+        below.set(xlabel=f"travel from zero force [{far_unit}]", ylabel=f"difference [{load_unit}]")
+        above.legend(fontsize="small", loc="lower left")
+    return figure
+
+
+def _fitted_pair(
+    fit: RateSeriesFit, i: int, groups: Sequence[Sequence[Cycle]]
+) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+    """Return travel [m] and force [N] of a measured retraction and of the fit at its speed."""
+    one = fit.series[i]
+    near = [group for group in groups if temperature_of(group) == one.temperature]
+    same = min(near or groups, key=lambda group: abs(group[0].speed.value - one.true_speed))
+    cycle = min(same, key=lambda cycle: abs(cycle.pull_off_force.value - one.force.value))
+    grown = fit.growth
+    growth = None if grown is None else Growth(grown.reference_speed, grown.exponent)
+    depth, force = fit.forward.curve(
+        fit.work_of_adhesion, fit.equilibrium_gap, one.speed, one.preload or 0.0, growth
+    )
+    force = np.where(force < 0, fit.yielding[i] * force, force)
+    fitted = _from_zero_force(depth, force)
+    # the free flight is not compared
+    back = cycle.retraction
+    travel, force = _from_zero_force(cycle.depth[back], cycle.force[back])
+    near = travel <= 1.1 * fitted[0][-1]
+    return (travel[near], force[near]), fitted
+
+
+def _from_zero_force(depth: Any, force: Any) -> tuple[Any, Any]:
+    """Return the travel from zero force, or from a start in tension, and the force."""
+    at = int(np.argmax(force < 0))
+    if at == 0:
+        return depth[0] - depth, force
+    share = force[at - 1] / (force[at - 1] - force[at])
+    zero = depth[at - 1] + share * (depth[at] - depth[at - 1])
+    return zero - depth, force
+
+
+def _range(fit: RateSeriesFit) -> str:
+    """Return the range of attraction, its bound, or that it is not identifiable."""
+    ends = fit.intervals["equilibrium_gap"]
+    if ends.told:
+        return f"range {readable(fit.equilibrium_gap, 'm', digits=3)}"
+    if ends.closed_below or ends.closed_above:
+        side, end = ("above", ends.low) if ends.closed_below else ("below", ends.high)
+        return f"range {side} {readable(end, 'm', digits=3)}"
+    return "range not identifiable"
+
+
+def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> None:
+    order = np.argsort(forecast.speed)
+    x = forecast.speed[order] / fastest
+    low, high, middle = (
+        each[order] / load for each in (forecast.low, forecast.high, forecast.force)
+    )
+    where = f"forecast at {readable(forecast.preload, 'N', digits=3)}"
+    if forecast.temperature is not None:
+        where += f", {forecast.temperature - 273.15:.3g} C"
+    if forecast.dwell is not None:
+        where += f", {readable(forecast.dwell, 's', digits=3)} of dwell"
+    if len(x) == 1:
+        # a line and a band through one speed have no width
+        sides = [middle - low, high - middle]
+        label = f"{where}, {forecast.level:.0%}"
+        axes.errorbar(x, middle, yerr=sides, fmt="s", capsize=4, label=label)
+        return
+    (line,) = axes.plot(x, middle, ls="--", label=where)
+    axes.fill_between(
+        x, low, high, color=line.get_color(), alpha=0.2, lw=0, label=f"{forecast.level:.0%} band"
+    )
+
+
+def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
+    """Draw the posterior of an interface: marginal and pairwise distributions."""
+    from corner import corner
+
+    side = 7.0 if len(chain.parameters) == 2 else 11.0
+    # the corner library positions the panels
+    with drawing(side, side, **{"figure.constrained_layout.use": False}) as figure:
+        columns = [_SCALES.get(one.name, (one.name, 1.0)) for one in chain.parameters]
+        scale = np.array([factor for _, factor in columns])
+        ends = [(1 - fit.level) / 2, 0.5, (1 + fit.level) / 2]
+        best = np.array([fit.best.values[one.name] for one in chain.parameters])
+        corner(
+            chain.values * scale,
+            labels=[label for label, _ in columns],
+            truths=best * scale,
+            quantiles=ends,
+            title_quantiles=ends,
+            show_titles=True,
+            title_fmt=".3g",
+            title_kwargs={"fontsize": 10},
+            label_kwargs={"fontsize": 11},
+            fig=figure,
+        )
+    return figure
