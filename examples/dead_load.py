@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.protocol import Dwell, LoadTo
+from viscotack.model.protocol import Dwell, LoadTo
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.theory import jkr, lennard_jones, persson_brener
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.protocol import Dwell, MoveTo
+from viscotack.model.protocol import Dwell, MoveTo
 
 RUBBER = vt.RetardationPowerLaw(
     rubbery_modulus=1.5e6, glassy_modulus=150e6, exponent=0.4, tau0=1.0, poisson_ratio=0.5

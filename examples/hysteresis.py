@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.protocol import Apart, Approach
+from viscotack.model.protocol import Apart, Approach
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 SPEEDS = (0.1e-6, 10e-6, 1e-3)  # m/s

@@ -20,10 +20,10 @@ from research.cases import spread, spread_out, words
 from research.drawn_tests import drawn
 from research.drawn_tests import words as test_words
 from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
-from viscotack.bem import SimulationError
-from viscotack.bem.twins.plain_sphere import plain_solve
 from viscotack.errors import InputError
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.simulate import SimulationError
+from viscotack.simulate.twins.plain_sphere import plain_solve
 
 CONVERGED = 1e-4
 # The plain twin is at hand where its equal nodes and steps resolve the case.

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.lab import CreepTest, MasterCurve, RelaxationTest, fit
-from viscotack.materials import (
+from viscotack.model.materials import (
     FractionalZener,
     Prony,
     RelaxationPowerLaw,

@@ -26,7 +26,7 @@ from viscotack import (
     Retract,
     StandardSolid,
 )
-from viscotack.traction import effective_range
+from viscotack.model.traction import effective_range
 
 _PUNCHES, _WITH_SPRING, _WITH_HISTORY = 0.3, 0.25, 0.3
 

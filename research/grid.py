@@ -20,11 +20,11 @@ from scipy.signal import resample
 
 import viscotack as vt
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, HalfSpace, Layer
-from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.model.geometry import Bonded, HalfSpace, Layer
+from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.model.surfaces import roughness, self_affine, sphere
 from viscotack.result.observables import work_of_separation
-from viscotack.rough import RoughProblem, pull, stickiness, superposed
-from viscotack.surfaces import roughness, self_affine, sphere
+from viscotack.simulate.rough import RoughProblem, pull, stickiness, superposed
 
 RADIUS, GAP = 5e-3, 1.5e-6
 ALONG = np.sqrt(RADIUS * GAP)

@@ -38,7 +38,7 @@ from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_
 from viscotack.lab import MasterCurve, fit
 from viscotack.lab.fit.passport import issued
 from viscotack.lab.tack import TackRecord, evaluate
-from viscotack.materials.conversion import slowed
+from viscotack.model.materials.conversion import slowed
 
 SCATTER, NOISE, LEVEL = 0.03, 0.004, 0.9
 # Largest Tabor numbers of a simulated truth, without growth: always, and where no crack is steady.

@@ -14,7 +14,7 @@ from threadpoolctl import threadpool_limits
 
 from research.cases import case
 from viscotack import Groups, depth_at_pull_off, pull_off_force, solve
-from viscotack.bem.twins.plain_sphere import plain_solve
+from viscotack.simulate.twins.plain_sphere import plain_solve
 
 # Nodes and steps of the twin: as few as reach 5e-4 or what a thousand nodes can do. The first two
 # cases are as easy as can be for equal nodes: a fast crack is long, and few nodes see it.

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import Elastic, RetardationPowerLaw, StandardSolid
 
 
 def standard(modulus_ratio=0.1):

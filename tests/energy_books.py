@@ -18,7 +18,7 @@ import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
 from viscotack import Groups, Result, solve
-from viscotack.bem.solver import contact_of
+from viscotack.simulate.solver import contact_of
 
 Array = npt.NDArray[np.float64]
 

@@ -18,11 +18,11 @@ from viscotack import InputError
 from viscotack.app.api import application
 from viscotack.app.cli import main
 from viscotack.app.engine.jobs import Engine
+from viscotack.app.operations import ask, operation
+from viscotack.app.operations.parts.json_data import plain
+from viscotack.app.operations.request import Contact, Rows, flag_of, option_of
 from viscotack.files.toml import toml_value
-from viscotack.operations import ask, operation
-from viscotack.operations.parts.json_data import plain
-from viscotack.operations.request import Contact, Rows, flag_of, option_of
-from viscotack.problem.nouns import own_nouns
+from viscotack.model.problem.nouns import own_nouns
 
 # What two runs of one question do not share.
 OF_A_RUN = ("wall_time_s",)

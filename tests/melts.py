@@ -7,7 +7,7 @@ temperature is not quite the one that the file states.
 import numpy as np
 
 from viscotack.lab import CreepTest, FrequencySweeps, RelaxationTest
-from viscotack.materials.shift import WLF
+from viscotack.model.materials.shift import WLF
 
 REFERENCE = 243.15
 LAW = WLF(reference_temperature=REFERENCE, c1=10.0, c2=90.0)

@@ -9,7 +9,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from viscotack.bem import equilibrium, surface
+from viscotack.simulate import equilibrium, surface
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from viscotack.geometry import FlatPunch, Layer
+from viscotack.model.geometry import FlatPunch, Layer
 
 
 def resized(groups, *, size=None, thickness=None, base=None, **others):

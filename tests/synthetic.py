@@ -4,12 +4,12 @@ from dataclasses import fields
 
 import numpy as np
 
-from viscotack.geometry import Sphere
-from viscotack.materials import StandardSolid
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtDepth, AtForce, Retraction
+from viscotack.model.geometry import Sphere
+from viscotack.model.materials import StandardSolid
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.protocol import AtDepth, AtForce, Retraction
+from viscotack.model.traction import LennardJones
 from viscotack.result import Energies, Event, Result
-from viscotack.traction import LennardJones
 
 TABOR, RATE = 3.24, 7.0
 # Displacements of Eq. 4.16 in h0.

@@ -8,8 +8,8 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from viscotack.model.traction import effective_range
 from viscotack.theory import jkr, maugis, modulus_file, tabulated_modulus
-from viscotack.traction import effective_range
 
 JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
 

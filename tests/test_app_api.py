@@ -13,7 +13,7 @@ from fastapi import FastAPI
 from viscotack.app.api import application
 from viscotack.app.api.guard import Rules, guard
 from viscotack.app.engine.jobs import Engine, Limits
-from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
 
 OVER = ("done", "refused", "failed", "cancelled")
 
@@ -96,7 +96,7 @@ def test_a_simulation_is_a_job_whose_curve_grows_and_whose_digits_are_those_of_s
 
 
 def problem_of_first():
-    from viscotack.problem.case_file import case_of_tables
+    from viscotack.model.problem.case_file import case_of_tables
 
     return case_of_tables(FIRST)
 

@@ -7,10 +7,10 @@ import pytest
 
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.state import State, state_of_toml
-from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.model.problem.case_file import read_case
 from viscotack.prediction import advise, predict
 from viscotack.prediction.closed_forms import closed_forms
-from viscotack.problem.case_file import read_case
 from viscotack.theory import lennard_jones
 
 examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)

@@ -12,13 +12,13 @@ from typer.testing import CliRunner
 import viscotack as vt
 from picture_units import in_si
 from viscotack.app.cli import application
+from viscotack.app.operations import ask
 from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array, read_array
 from viscotack.design.holding import held_load
 from viscotack.errors import InputError
-from viscotack.operations import ask
+from viscotack.model.traction import GentSchultz
 from viscotack.plot.array import draw_array
 from viscotack.theory import jkr
-from viscotack.traction import GentSchultz
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "array"
 SMALL = """

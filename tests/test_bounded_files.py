@@ -12,6 +12,7 @@ import pytest
 
 from viscotack import load as load_result
 from viscotack import pads
+from viscotack.app.operations import ask
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import read_bytes
@@ -19,8 +20,7 @@ from viscotack.files.text import read_text
 from viscotack.files.toml import read_toml
 from viscotack.lab.formats.file import load
 from viscotack.lab.formats.workbook import sheets
-from viscotack.operations import ask
-from viscotack.surfaces import bumps, read_map, self_affine, sphere
+from viscotack.model.surfaces import bumps, read_map, self_affine, sphere
 
 HEAD = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main">'
 

@@ -7,14 +7,11 @@ import pytest
 
 from effort import calls
 from punches import resized
-from viscotack.bem.jumps import _MOST_MESHES
-from viscotack.bem.mesh import MOST_NODES, Grading
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, FlatPunch, Layer
-from viscotack.materials import StandardSolid
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import (
+from viscotack.model.geometry import Bonded, FlatPunch, Layer
+from viscotack.model.materials import StandardSolid
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import (
     AtDepth,
     AtForce,
     Dwell,
@@ -22,6 +19,9 @@ from viscotack.protocol import (
     MoveTo,
 )
 from viscotack.result import Outcome
+from viscotack.simulate import solve
+from viscotack.simulate.jumps import _MOST_MESHES
+from viscotack.simulate.mesh import MOST_NODES, Grading
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
+from viscotack.app.operations.flags import stated
+from viscotack.app.operations.request import Caller
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.columns import KINDS, has_relaxed_contact
 from viscotack.campaign.design import METHODS, fill, grid
-from viscotack.operations.flags import stated
-from viscotack.operations.request import Caller
-from viscotack.problem.record import run_id
+from viscotack.model.problem.record import run_id
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
 HEADER = "tabor,modulus_ratio,exponent,preload,rate\n"

@@ -6,8 +6,8 @@ import pytest
 
 from stated import case_text
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
-from viscotack.materials import (
+from viscotack.model.geometry import Sphere
+from viscotack.model.materials import (
     Elastic,
     Prony,
     RelaxationPowerLaw,
@@ -15,13 +15,13 @@ from viscotack.materials import (
     StandardSolid,
     published,
 )
-from viscotack.problem import Problem
-from viscotack.problem.case_file import case_of_tables, read_case
-from viscotack.problem.prony_file import read_prony
-from viscotack.problem.record import to_dict
-from viscotack.problem.schema import schema
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
-from viscotack.traction import LennardJones
+from viscotack.model.problem import Problem
+from viscotack.model.problem.case_file import case_of_tables, read_case
+from viscotack.model.problem.prony_file import read_prony
+from viscotack.model.problem.record import to_dict
+from viscotack.model.problem.schema import schema
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.traction import LennardJones
 
 POWER_LAW = """
 [material]

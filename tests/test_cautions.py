@@ -9,10 +9,10 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.materials.library import published
-from viscotack.materials.passport import Evidence, Passport
-from viscotack.materials.passport_file import write_passport
-from viscotack.materials.shift import Arrhenius
+from viscotack.model.materials.library import published
+from viscotack.model.materials.passport import Evidence, Passport
+from viscotack.model.materials.passport_file import write_passport
+from viscotack.model.materials.shift import Arrhenius
 from viscotack.prediction import cautions_on
 from viscotack.theory import SteadyCrack
 

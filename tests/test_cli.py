@@ -9,13 +9,13 @@ import pytest
 import viscotack
 from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
-from viscotack import methods
+from viscotack import simulate
 from viscotack.app import cli
-from viscotack.materials import Elastic, Prony, RetardationPowerLaw
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.materials import Elastic, Prony, RetardationPowerLaw
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.traction import LennardJones
 from viscotack.result import load
-from viscotack.traction import LennardJones
 
 SPHERE = ["simulate", "sphere"]
 ISSUE = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73 --rate 316.23".split()
@@ -36,7 +36,7 @@ def fake(monkeypatch):
             }
         )
 
-    monkeypatch.setattr(methods, "solve", solve)
+    monkeypatch.setattr(simulate, "solve", solve)
     return asked
 
 

@@ -7,8 +7,15 @@ import pytest
 
 PREDICT = "predict sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 1 --rate 10"
 # Never imported by a list of commands; never by the help of a command; never by a prediction.
-LISTED = ("numpy", "scipy", "pint", "matplotlib", "rich", "pyarrow", "viscotack.geometry")
-HELPED = ("scipy.linalg", "scipy.optimize", "scipy.special", "pint", "matplotlib", "viscotack.bem")
+LISTED = ("numpy", "scipy", "pint", "matplotlib", "rich", "pyarrow", "viscotack.model.geometry")
+HELPED = (
+    "scipy.linalg",
+    "scipy.optimize",
+    "scipy.special",
+    "pint",
+    "matplotlib",
+    "viscotack.simulate",
+)
 PREDICTED = (*HELPED, "scipy.interpolate", "scipy.integrate", "viscotack.campaign")
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reference_data import reference
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, persson_brener
 
 # peak stress of the Lennard-Jones traction times h0 over the work of adhesion, inverted

@@ -6,9 +6,9 @@ import re
 import pytest
 
 from command_line import exit_status
-from viscotack.materials import RetardationPowerLaw
+from viscotack.model.materials import RetardationPowerLaw
+from viscotack.model.traction import Exponential
 from viscotack.theory import SteadyCrack
-from viscotack.traction import Exponential
 
 SI = [
     *("--contact-modulus", "2 MPa", "--work-of-adhesion", "50 mJ/m^2"),

@@ -8,9 +8,9 @@ from typer.testing import CliRunner
 
 from picture_units import in_si
 from viscotack.app.cli import application
+from viscotack.app.operations import ask
 from viscotack.design import read_design
 from viscotack.errors import InputError
-from viscotack.operations import ask
 from viscotack.plot.design import draw_design
 
 SMALL = """

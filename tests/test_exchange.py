@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.constants import gas_constant
 
-from viscotack.materials import Prony
-from viscotack.materials.exchange import CODES, SI, Units, exported, imported
-from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.model.materials import Prony
+from viscotack.model.materials.exchange import CODES, SI, Units, exported, imported
+from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 
 SOLID = Prony(
     rubbery_modulus=1.458e6,

@@ -10,7 +10,7 @@ import pytest
 
 from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
-from viscotack import methods
+from viscotack import simulate
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.files.toml import read_toml
@@ -19,9 +19,9 @@ from viscotack.files.whole import (
     check_target,
     write_whole,
 )
-from viscotack.materials.library import published
-from viscotack.materials.passport_file import write_passport
-from viscotack.problem.case_file import read_prony
+from viscotack.model.materials.library import published
+from viscotack.model.materials.passport_file import write_passport
+from viscotack.model.problem.case_file import read_prony
 from viscotack.result import load, save
 
 ELASTIC = "simulate sphere --material elastic --tabor 3.24 --preload 20".split()
@@ -41,7 +41,7 @@ def saved(tmp_path):
 @pytest.fixture
 def fake(monkeypatch):
     """Replace the simulation by a ready result."""
-    monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_detachment())
+    monkeypatch.setattr(simulate, "solve", lambda problem, **options: jkr_detachment())
 
 
 def call(*arguments):
@@ -125,7 +125,7 @@ def test_a_table_goes_to_standard_output_and_the_words_beside(saved, capsys):
 def test_files_are_refused_before_the_work(flags, words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     os.symlink("x", "link")
-    monkeypatch.setattr(methods, "solve", lambda *given, **options: 1 / 0)
+    monkeypatch.setattr(simulate, "solve", lambda *given, **options: 1 / 0)
     assert words in refused(capsys, *ELASTIC, *flags)
     assert names(tmp_path) == ["link"]
 

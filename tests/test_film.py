@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from front_ends import Http, Question, by_command, by_http, by_python, by_study
-from viscotack.operations import ask
+from viscotack.app.operations import ask
 from viscotack.theory import disc, film
 
 CASE = """

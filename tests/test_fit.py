@@ -8,7 +8,6 @@ from numpy.testing import assert_allclose
 
 from reference_data import DMA
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
 from viscotack.identify import PullOff, RateSeries, identify_rates
 from viscotack.lab import (
     fit,
@@ -25,7 +24,8 @@ from viscotack.lab.fit.power_law import fit_constants
 from viscotack.lab.fit.prony import fit_series
 from viscotack.lab.sweeps import CreepTest, MasterCurve, RelaxationTest
 from viscotack.lab.tack import Measured
-from viscotack.materials import (
+from viscotack.model.geometry import Sphere
+from viscotack.model.materials import (
     FractionalKelvinVoigt,
     FractionalMaxwell,
     FractionalZener,
@@ -34,11 +34,11 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.materials.library import published
-from viscotack.materials.shift import WLF
-from viscotack.problem import Problem
-from viscotack.protocol import AtDepth, Retraction
-from viscotack.traction import LennardJones
+from viscotack.model.materials.library import published
+from viscotack.model.materials.shift import WLF
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import AtDepth, Retraction
+from viscotack.model.traction import LennardJones
 
 PDMS = published("pdms-10-1").material
 TRUTH = (1.458e6, 3.089e9, 0.2207, 0.01876)

@@ -14,12 +14,12 @@ from viscotack.errors import InputError
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, posterior
 from viscotack.identify.covariances import SphereTests, covariance
 from viscotack.identify.forward import Forward, Interface
-from viscotack.materials import Passport, write_passport
-from viscotack.materials.conversion import slowed
-from viscotack.materials.library import published
-from viscotack.materials.passport import Evidence
-from viscotack.materials.passport_uncertainty import allowed, shift_error
-from viscotack.materials.shift import WLF, TabulatedShift
+from viscotack.model.materials import Passport, write_passport
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.library import published
+from viscotack.model.materials.passport import Evidence
+from viscotack.model.materials.passport_uncertainty import allowed, shift_error
+from viscotack.model.materials.shift import WLF, TabulatedShift
 
 SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5

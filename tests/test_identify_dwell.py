@@ -9,10 +9,10 @@ from scipy.stats import t as student
 
 import tack_files
 import viscotack as vt
+from viscotack.app.operations import ask
 from viscotack.errors import InputError
 from viscotack.identify import identify_dwell
 from viscotack.identify.contact_time import check_relaxed
-from viscotack.operations import ask
 from viscotack.theory import jkr
 
 TIMES = np.repeat([1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0], 2)

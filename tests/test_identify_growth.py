@@ -14,7 +14,7 @@ from viscotack.identify import RateSeries, forecast_rates, identify_rates, searc
 from viscotack.identify import growth as growing
 from viscotack.identify.forward import Forward, Growth
 from viscotack.identify.growth import FoundGrowth, Opening
-from viscotack.materials.shift import WLF
+from viscotack.model.materials.shift import WLF
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=5e6, tau0=1e-2, poisson_ratio=0.5)
 RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 4e-3

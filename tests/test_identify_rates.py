@@ -26,7 +26,7 @@ from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_
 from viscotack.identify.forward import Forward
 from viscotack.identify.travel import travels
 from viscotack.lab.tack import survey
-from viscotack.materials.library import published
+from viscotack.model.materials.library import published
 
 PDMS = published("pdms-10-1").material
 

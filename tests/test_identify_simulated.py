@@ -18,8 +18,8 @@ from viscotack.identify.pull_off import History
 from viscotack.identify.simulated_tests import KnownRatios
 from viscotack.identify.simulations import Simulations
 from viscotack.lab.tack import survey
-from viscotack.materials import Passport
-from viscotack.protocol import Approach, Dwell
+from viscotack.model.materials import Passport
+from viscotack.model.protocol import Approach, Dwell
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
 RADIUS, WORK, PRELOAD = 5e-3, 0.1, 4e-3

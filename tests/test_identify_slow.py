@@ -8,11 +8,11 @@ import pytest
 
 import tack_files
 from command_line import exit_status
+from viscotack.app.operations.parts.records import slow_record
 from viscotack.errors import InputError
 from viscotack.identify import Objective, Parameter, SlowTest, identify_slow, slow_test
 from viscotack.lab import tack
-from viscotack.materials.library import passport_of
-from viscotack.operations.parts.records import slow_record
+from viscotack.model.materials.library import passport_of
 from viscotack.theory import jkr, maugis
 
 LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}

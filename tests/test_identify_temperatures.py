@@ -8,14 +8,14 @@ import pytest
 
 from picture_units import in_si
 from rate_tests import GAP, PRELOAD, RADIUS, RUBBER, WORK, holds, linear, measured
+from viscotack.app.operations.parts.records import rates_record
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, RateSeries, forecast_rates, identify_rates
 from viscotack.identify.pull_off import History
 from viscotack.identify.temperatures import shifted
 from viscotack.lab.tack import Measured
-from viscotack.materials import Passport
-from viscotack.materials.shift import WLF, TabulatedShift
-from viscotack.operations.parts.records import rates_record
+from viscotack.model.materials import Passport
+from viscotack.model.materials.shift import WLF, TabulatedShift
 from viscotack.plot.interface import draw_rate_series
 
 WARM = WLF(reference_temperature=293.15, c1=5.0, c2=150.0)

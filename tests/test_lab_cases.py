@@ -18,7 +18,7 @@ from viscotack.lab import (
 )
 from viscotack.lab.tack import evaluate
 from viscotack.lab.tack import read as read_tests
-from viscotack.surfaces import read_map
+from viscotack.model.surfaces import read_map
 
 CASES = Path(__file__).parent / "data" / "lab_cases"
 HERTZ = np.array([0.1, 1.0, 10.0, 100.0])

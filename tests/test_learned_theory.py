@@ -119,7 +119,7 @@ def test_creep_is_that_of_the_solid():
 
 
 def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
-    from viscotack.methods.by_crack import crack_contacts
+    from viscotack.simulate.crack_contact.by_crack import crack_contacts
 
     cases = [problem(rate=rate) for rate in (30.0, 3000.0)] + [problem(tabor=1.5)]
     together = crack_contacts([case.groups() for case in cases])
@@ -133,7 +133,7 @@ def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
 
 
 def test_work_and_curve_agree_with_the_theory():
-    from viscotack.methods.by_crack import unloading
+    from viscotack.simulate.crack_contact.by_crack import unloading
 
     case = problem(tabor=30.0, rate=30.0, preload=100.0)
     said, theory = vt.predict(case), vt.crack_contact(case)

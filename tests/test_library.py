@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.materials.library import MATERIALS, passport_of, published
-from viscotack.operations import operation
-from viscotack.operations.parts.library import library
-from viscotack.operations.request import Caller
+from viscotack.app.operations import operation
+from viscotack.app.operations.parts.library import library
+from viscotack.app.operations.request import Caller
+from viscotack.model.materials.library import MATERIALS, passport_of, published
 
 DOCS = Path(__file__).parents[1] / "docs" / "materials.md"
 EXAMPLES = DOCS.parents[1] / "examples"

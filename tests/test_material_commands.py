@@ -8,10 +8,10 @@ import pytest
 
 from melts import CHAMBER, LAW, relaxations
 from viscotack.app.cli import main
-from viscotack.materials import Prony, StandardSolid
-from viscotack.materials.exchange import CODES
-from viscotack.materials.library import published
-from viscotack.materials.passport_file import read_passport, write_passport
+from viscotack.model.materials import Prony, StandardSolid
+from viscotack.model.materials.exchange import CODES
+from viscotack.model.materials.library import published
+from viscotack.model.materials.passport_file import read_passport, write_passport
 
 FIT = (
     'material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC" '

@@ -7,10 +7,10 @@ import pytest
 
 from command_line import exit_status
 from viscotack.app.engine.operating import run_request
-from viscotack.materials import StandardSolid, read_passport, write_passport
-from viscotack.materials.library import published
-from viscotack.operations import ask, operation
-from viscotack.operations.request import request_of
+from viscotack.app.operations import ask, operation
+from viscotack.app.operations.request import request_of
+from viscotack.model.materials import StandardSolid, read_passport, write_passport
+from viscotack.model.materials.library import published
 
 OPTIONS = {
     "poisson_ratio": 0.45,

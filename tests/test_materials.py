@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from viscotack.materials import (
+from viscotack.model.materials import (
     Elastic,
     FractionalZener,
     Prony,
@@ -13,8 +13,8 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.materials.modes import compressed
-from viscotack.materials.springpots import FractionalMaxwell
+from viscotack.model.materials.modes import compressed
+from viscotack.model.materials.springpots import FractionalMaxwell
 
 ELASTIC = dict(rubbery_modulus=1e6, poisson_ratio=0.5)
 STANDARD = dict(ELASTIC, glassy_modulus=1e7, tau0=1e-3)

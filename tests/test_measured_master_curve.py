@@ -19,8 +19,8 @@ from viscotack.lab import (
 )
 from viscotack.lab.fit.kramers_kronig import causal_misfit
 from viscotack.lab.fit.overlap import Curve, Hold, step_between
-from viscotack.materials import RetardationPowerLaw
-from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.model.materials import RetardationPowerLaw
+from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 
 ROOM = 293.15
 # the thesis's PDMS (Eq. 4.27) and its shift (Eq. 4.25)

@@ -13,8 +13,8 @@ from viscotack.errors import InputError
 from viscotack.identify import RateSeries, Trial, forecast_rates, identify_rates, next_tests
 from viscotack.identify.forward import Forward
 from viscotack.identify.ranked_tests import noise_of
-from viscotack.materials import Passport
-from viscotack.materials.shift import WLF
+from viscotack.model.materials import Passport
+from viscotack.model.materials.shift import WLF
 from viscotack.plot.next_tests import draw_next_tests
 
 SOLID = vt.RetardationPowerLaw(
@@ -113,7 +113,7 @@ def test_a_test_beyond_the_theory_is_not_ranked(fit):
 
 def test_the_operation_ranks_every_combination(tmp_path, fit, monkeypatch):
     study = SimpleNamespace(fit=fit, survey=SimpleNamespace(reasons=(), cautions=()), cautions=())
-    monkeypatch.setattr("viscotack.operations.next_test.fitted", lambda *given: study)
+    monkeypatch.setattr("viscotack.app.operations.next_test.fitted", lambda *given: study)
     (tmp_path / "study.toml").write_text("")
     asked = {"study": str(tmp_path / "study.toml"), "speed": ["1 mm/s", "10 um/s"]}
     answer = vt.ask("next-test", **asked, forecast_speed=["30 mm/s"], preload=["1 mN", "4 mN"])

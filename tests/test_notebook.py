@@ -10,9 +10,9 @@ import pytest
 
 import viscotack as vt
 from synthetic import SI, jkr_result
+from viscotack.app.operations.parts.examples import FIRST
 from viscotack.errors import NotInstalled
-from viscotack.operations.parts.examples import FIRST
-from viscotack.problem.case_file import case_of_tables
+from viscotack.model.problem.case_file import case_of_tables
 from viscotack.units import readable
 
 PROBLEM = case_of_tables(FIRST)

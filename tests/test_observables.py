@@ -137,7 +137,7 @@ def test_a_jump_within_tension_does_not_end_the_count():
 
 def test_a_dwell_at_the_relaxed_start_keeps_the_pull_off_there():
     """A start beyond the force minimum: the force is least where the retraction begins."""
-    from viscotack.protocol import Dwell
+    from viscotack.model.protocol import Dwell
 
     force = np.array([-1.0, -0.9, -0.7, -0.4, -0.1])
     depth = -np.arange(5.0)
@@ -271,7 +271,7 @@ def test_summary_in_si_adds_the_same_names_with_units():
 
 
 def test_a_held_force_is_no_pull_off_however_round_off_lets_it_tremble():
-    from viscotack.protocol import AtForce, Dwell, LoadTo
+    from viscotack.model.protocol import AtForce, Dwell, LoadTo
 
     hang = (LoadTo(-1.0, 1.0), Dwell(9.0, hold="force"))
     groups = replace(GROUPS, start=AtForce(0.0), rate=None, moves=hang)

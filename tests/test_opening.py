@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from viscotack.protocol import AtDepth, LoadTo, Retract
+from viscotack.model.protocol import AtDepth, LoadTo, Retract
 from viscotack.result import Outcome, observables, opening
 
 MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)

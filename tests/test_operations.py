@@ -18,10 +18,10 @@ from front_ends import (
     through_all,
 )
 from stated import PUNCH, SPHERE
+from viscotack.app.operations import operation, operations
+from viscotack.app.operations.request import request_of
+from viscotack.app.operations.study import read_study, study_text
 from viscotack.errors import InputError
-from viscotack.operations import operation, operations
-from viscotack.operations.request import request_of
-from viscotack.operations.study import read_study, study_text
 
 ROOT = Path(__file__).parents[1]
 FILES = [

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import viscotack as vt
 from viscotack.app.cli import application
 from viscotack.campaign import Store, read_plan, run
-from viscotack.problem.nouns import known, own_nouns
+from viscotack.model.problem.nouns import known, own_nouns
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 FILES = {"law": "morse.py", "material": "cole_cole.py", "shape": "rounded_cone.py"}

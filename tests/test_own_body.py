@@ -10,9 +10,9 @@ import viscotack as vt
 from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from tier_problems import PROBLEMS, refusal
 from viscotack.files.toml import read_toml
+from viscotack.model.problem.nouns import own_nouns
 from viscotack.prediction.simulation import SIMULATION
 from viscotack.prediction.tiers import TIERS
-from viscotack.problem.nouns import own_nouns
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 FILE, CASE = OWN / "foundation.py", OWN / "foundation.toml"

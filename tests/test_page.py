@@ -7,10 +7,10 @@ import pytest
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_verdict
 from viscotack.app.engine.state import State
+from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.errors import InputError, OutOfRange
-from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.model.problem.case_file import case_of_tables
 from viscotack.prediction import predict
-from viscotack.problem.case_file import case_of_tables
 
 examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)
 

@@ -10,8 +10,8 @@ import pytest
 
 import viscotack as vt
 from app_server import browsing, running, until
-from viscotack.operations.parts.examples import EXAMPLES
-from viscotack.problem.case_file import case_of_tables
+from viscotack.app.operations.parts.examples import EXAMPLES
+from viscotack.model.problem.case_file import case_of_tables
 from viscotack.units import readable
 
 pytestmark = pytest.mark.outside

@@ -7,23 +7,23 @@ import numpy as np
 import pytest
 
 from viscotack.campaign import read_plan
-from viscotack.materials import (
+from viscotack.model.materials import (
     Elastic,
     Prony,
     RelaxationPowerLaw,
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.materials.conversion import slowed
-from viscotack.materials.library import published
-from viscotack.materials.passport import Evidence, Origin, Passport, _moved
-from viscotack.materials.passport_file import read_passport, write_passport
-from viscotack.materials.passport_tables import passport_text
-from viscotack.materials.passport_uncertainty import allowed, shift_error
-from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.library import published
+from viscotack.model.materials.passport import Evidence, Origin, Passport, _moved
+from viscotack.model.materials.passport_file import read_passport, write_passport
+from viscotack.model.materials.passport_tables import passport_text
+from viscotack.model.materials.passport_uncertainty import allowed, shift_error
+from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.model.problem.case_file import passport_of, read_case
+from viscotack.model.problem.tables import Reading
 from viscotack.prediction import predict
-from viscotack.problem.case_file import passport_of, read_case
-from viscotack.problem.tables import Reading
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {

@@ -5,19 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.bem import DEFAULT_ACCURACY, Settings, preload
-from viscotack.bem.solver import contact_of
-from viscotack.geometry import PowerLawProfile
-from viscotack.materials import (
+from viscotack.model.geometry import PowerLawProfile
+from viscotack.model.materials import (
     Elastic,
     Prony,
     RelaxationPowerLaw,
     StandardSolid,
 )
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Dwell
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Dwell
 from viscotack.result.observables import pull_off, pull_off_force, work_to_pull_off
+from viscotack.simulate import DEFAULT_ACCURACY, Settings, preload, solve
+from viscotack.simulate.solver import contact_of
 
 pytestmark = pytest.mark.march
 

@@ -6,19 +6,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, FlatPunch, Layer, PowerLawProfile, Sphere
-from viscotack.materials import (
+from viscotack.model.geometry import Bonded, FlatPunch, Layer, PowerLawProfile, Sphere
+from viscotack.model.materials import (
     Elastic,
     Prony,
     RelaxationPowerLaw,
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.problem import Groups, Problem, plane, ranges, revolution
-from viscotack.problem.inputs import changed, check_exponent, check_paths
-from viscotack.problem.record import run_id
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
-from viscotack.traction import LennardJones
+from viscotack.model.problem import Groups, Problem, plane, ranges, revolution
+from viscotack.model.problem.inputs import changed, check_exponent, check_paths
+from viscotack.model.problem.record import run_id
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.traction import LennardJones
 
 E, NU = 1.458e6, 0.5
 MATERIALS = [

@@ -10,12 +10,10 @@ import pytest
 from typer.testing import CliRunner
 
 from viscotack.app.cli import application
-from viscotack.geometry import Cone, Disc, HalfSpace, Layer, PowerLawProfile, Sphere
-from viscotack.materials import Elastic, StandardSolid
-from viscotack.methods import solve
-from viscotack.prediction.advice import advise
-from viscotack.problem import Groups, Problem, revolution
-from viscotack.protocol import (
+from viscotack.model.geometry import Cone, Disc, HalfSpace, Layer, PowerLawProfile, Sphere
+from viscotack.model.materials import Elastic, StandardSolid
+from viscotack.model.problem import Groups, Problem, revolution
+from viscotack.model.protocol import (
     Apart,
     Approach,
     AtDepth,
@@ -26,13 +24,15 @@ from viscotack.protocol import (
     Retract,
     Retraction,
 )
+from viscotack.model.traction import LennardJones
+from viscotack.prediction.advice import advise
 from viscotack.result import columns, load, save
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off_force, summary
+from viscotack.simulate import solve
 from viscotack.theory import jkr, profiles
 from viscotack.theory.elastic import on_layer
 from viscotack.theory.elastic.relaxed import ends
-from viscotack.traction import LennardJones
 
 SOLID = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 LAW = LennardJones(work_of_adhesion=0.15, equilibrium_gap=0.1e-6)

@@ -11,15 +11,15 @@ from scipy.special import struve
 import viscotack as vt
 from front_ends import Http, Question, by_command, by_http, by_python, by_study
 from tier_problems import PROBLEMS, refusal
-from viscotack.bem.contacts.shape import ShapeContact
-from viscotack.bem.settings import Settings
-from viscotack.bem.solver import contact_of
 from viscotack.files.toml import read_toml, toml_value
+from viscotack.model.traction import LennardJones
 from viscotack.prediction.simulation import SIMULATION
 from viscotack.prediction.tiers import TIERS
+from viscotack.simulate.contacts.shape import ShapeContact
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.solver import contact_of
 from viscotack.theory import jkr
 from viscotack.theory.elastic import indenter
-from viscotack.traction import LennardJones
 
 ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 RELAXING = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 import viscotack as vt
 from viscotack.__main__ import main
-from viscotack.materials.conversion import slowed
+from viscotack.model.materials.conversion import slowed
 
 ACCURACY = 0.01
 TIMES = np.geomspace(1e-6, 1e6, 121)

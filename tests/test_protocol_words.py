@@ -7,9 +7,9 @@ from typer.testing import CliRunner
 
 from viscotack.app.cli import application
 from viscotack.files.quantities import read_quantities
-from viscotack.problem.case_file import read_case
-from viscotack.problem.law_table import law_from_words
-from viscotack.protocol import (
+from viscotack.model.problem.case_file import read_case
+from viscotack.model.problem.law_table import law_from_words
+from viscotack.model.protocol import (
     Apart,
     Approach,
     AtDepth,
@@ -20,7 +20,7 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
-from viscotack.protocol.words import (
+from viscotack.model.protocol.words import (
     PUNCH_UNITS,
     PURE_NUMBERS,
     SPHERE_UNITS,
@@ -28,7 +28,7 @@ from viscotack.protocol.words import (
     move_from_words,
     start_from_words,
 )
-from viscotack.traction import Dugdale, Exponential, Tabulated
+from viscotack.model.traction import Dugdale, Exponential, Tabulated
 
 CASE = """
 [material]

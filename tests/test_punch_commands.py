@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from command_line import exit_status
-from viscotack.geometry import Bonded
-from viscotack.problem import Problem
-from viscotack.problem.case_file import read_case
-from viscotack.problem.record import from_dict
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
+from viscotack.model.geometry import Bonded
+from viscotack.model.problem import Problem
+from viscotack.model.problem.case_file import read_case
+from viscotack.model.problem.record import from_dict
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell
 from viscotack.result import columns, load
 
 PUNCH = ["simulate", "punch"]

@@ -8,7 +8,7 @@ import pytest
 from test_rough_file import BUMPS, MAP, SMALL
 from viscotack.campaign import CaseSettings, Store, measure, read_plan, run
 from viscotack.errors import InputError
-from viscotack.rough import pull, read_rough, read_rough_case
+from viscotack.simulate.rough import pull, read_rough, read_rough_case
 
 PLAN = """
 problem = "bumps.toml"

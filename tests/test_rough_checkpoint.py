@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
-from viscotack.rough import RoughProblem, pull
-from viscotack.surfaces import self_affine
+from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.model.surfaces import self_affine
+from viscotack.simulate.rough import RoughProblem, pull
 
 # A stopped script: it says how far it is, and does not end by itself before it is killed.
 SCRIPT = """
 import sys
 from test_rough_checkpoint import problem
-from viscotack.rough import pull
+from viscotack.simulate.rough import pull
 
 def told(share):
     print(share, flush=True)

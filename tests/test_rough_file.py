@@ -10,16 +10,16 @@ import pytest
 from typer.testing import CliRunner
 
 from viscotack.app.cli import application
+from viscotack.app.operations import ask
 from viscotack.errors import InputError
-from viscotack.operations import ask
-from viscotack.rough import read_rough
-from viscotack.surfaces import (
+from viscotack.model.surfaces import (
     HeightMap,
     read_map,
     roughness,
     self_affine,
     sphere,
 )
+from viscotack.simulate.rough import read_rough
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "rough"
 SMALL = """

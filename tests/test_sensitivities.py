@@ -10,10 +10,10 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from viscotack.cards import cards
-from viscotack.methods.sensitivities import changed_inputs
-from viscotack.problem.nouns import own_nouns
-from viscotack.protocol import Approach
-from viscotack.traction.growing import Eyring
+from viscotack.model.problem.nouns import own_nouns
+from viscotack.model.protocol import Approach
+from viscotack.model.traction.growing import Eyring
+from viscotack.simulate.sensitivities import changed_inputs
 
 ARMS = vt.Prony(rubbery_modulus=1.0, branches=[(4.0, 0.03), (5.0, 1.0)], poisson_ratio=0.0)
 PULL = vt.Groups(tabor=1.5, material=ARMS, start=vt.AtDepth(6.0), rate=8.0)

@@ -4,8 +4,8 @@ import pytest
 
 from stated import case_text
 from viscotack import InputError
-from viscotack.operations import operation
-from viscotack.operations.request import Caller, request_of
+from viscotack.app.operations import operation
+from viscotack.app.operations.request import Caller, request_of
 
 CASE = case_text('model = "prony"\nfile = "{file}"')
 STUDY = """

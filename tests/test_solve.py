@@ -5,12 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.bem import Settings, SimulationError
-from viscotack.geometry import Cone, FlatPunch, Layer
-from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
+from viscotack.model.geometry import Cone, FlatPunch, Layer
+from viscotack.model.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
+from viscotack.model.traction import Exponential, Eyring, LennardJones
 from viscotack.result.observables import (
     depth_at_pull_off,
     pull_off_force,
@@ -18,7 +17,7 @@ from viscotack.result.observables import (
     work_of_separation,
     work_to_pull_off,
 )
-from viscotack.traction import Exponential, Eyring, LennardJones
+from viscotack.simulate import Settings, SimulationError, solve
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 

@@ -24,9 +24,9 @@ from viscotack.lab import (
     superposition,
 )
 from viscotack.lab.fit.passport import issued
-from viscotack.materials import FractionalZener, StandardSolid
-from viscotack.materials.passport_file import read_passport, write_passport
-from viscotack.materials.shift import WLF, Arrhenius
+from viscotack.model.materials import FractionalZener, StandardSolid
+from viscotack.model.materials.passport_file import read_passport, write_passport
+from viscotack.model.materials.shift import WLF, Arrhenius
 
 TRUE = LAW.log10_shift(CHAMBER)
 QUANTILE = 1.645  # of a 90 % interval

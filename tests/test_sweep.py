@@ -8,8 +8,8 @@ import pytest
 from command_line import exit_status
 from stated import case_text
 from viscotack import AtDepth, Groups, InputError, StandardSolid
-from viscotack.operations import ask
-from viscotack.problem.case_file import read_case
+from viscotack.app.operations import ask
+from viscotack.model.problem.case_file import read_case
 
 ROWS = [
     {"sphere.radius": 1e-3, "protocol.speed": 1e-5},

@@ -14,7 +14,7 @@ from viscotack.identify import pull_offs
 from viscotack.identify.speed_table import speed_table
 from viscotack.lab.formats.tables import stated_temperature
 from viscotack.lab.tack import Measured, survey
-from viscotack.materials.shift import WLF
+from viscotack.model.materials.shift import WLF
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"
 LINES = (RIG / "lens_30_um_s.csv").read_text().splitlines()

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.geometry.hats import hat_areas
-from viscotack.materials import Modes
-from viscotack.problem.nouns import own_nouns
+from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.materials import Modes
+from viscotack.model.problem.nouns import own_nouns
+from viscotack.model.traction import Tabulated
 from viscotack.testing import check, checks
-from viscotack.traction import Tabulated
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
 MORSE, COLE_COLE, ROUNDED, LARGEST, FOUNDATION = own_nouns(

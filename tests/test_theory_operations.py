@@ -2,10 +2,10 @@
 
 import pytest
 
+from viscotack.app.operations import ask
 from viscotack.errors import InputError
-from viscotack.materials.library import passport_of
-from viscotack.materials.passport_file import write_passport
-from viscotack.operations import ask
+from viscotack.model.materials.library import passport_of
+from viscotack.model.materials.passport_file import write_passport
 
 PAD = {"half_width": "1 mm", "work_of_adhesion": "50 mJ/m^2", "strength": "50 kPa"}
 STANDARD = {"contact_modulus": "1 MPa", "modulus_ratio": 0.1, "tau0": "1 ms"}

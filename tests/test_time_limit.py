@@ -9,12 +9,11 @@ import pytest
 
 from command_line import exit_status
 from viscotack import clock
-from viscotack.bem import SimulationError
-from viscotack.materials import StandardSolid
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, Dwell
+from viscotack.model.materials import StandardSolid
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell
 from viscotack.result import Outcome, load
+from viscotack.simulate import SimulationError, solve
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
@@ -42,7 +41,7 @@ def hand(monkeypatch):
 
 def slow(monkeypatch, hand, seconds=0.01):
     """Let every balance of the surface take a while on the clock."""
-    from viscotack.bem import body
+    from viscotack.simulate import body
 
     quick = body.descend
 

@@ -5,13 +5,12 @@ from dataclasses import replace
 import pytest
 
 from viscotack import SimulationError, load, save, summary
-from viscotack.bem import Settings
-from viscotack.bem.verdict import judged
-from viscotack.materials import Elastic, StandardSolid
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth
-from viscotack.traction import Exponential
+from viscotack.model.materials import Elastic, StandardSolid
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth
+from viscotack.model.traction import Exponential
+from viscotack.simulate import Settings, solve
+from viscotack.simulate.verdict import judged
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.geometry import Bonded
+from viscotack.model.geometry import Bonded
 from viscotack.theory import lennard_jones
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)

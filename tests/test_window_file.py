@@ -8,9 +8,9 @@ from typer.testing import CliRunner
 
 from picture_units import in_si
 from viscotack.app.cli import application
+from viscotack.app.operations import ask
 from viscotack.design.window import read_window
 from viscotack.errors import InputError
-from viscotack.operations import ask
 from viscotack.plot.window import draw_window
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "window" / "kinetic_stamp.toml"

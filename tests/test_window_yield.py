@@ -13,15 +13,15 @@ import viscotack as vt
 from test_window import ELASTIC, contact, with_work
 from test_window_file import CONTACT, PULL, SMALL
 from viscotack.app.cli import application
+from viscotack.app.operations import ask
 from viscotack.design.window import (
     ContactScatter,
     aged,
     opening_chance,
     read_window,
 )
-from viscotack.materials.passport_file import read_passport
-from viscotack.operations import ask
-from viscotack.traction import SaturatingAgeing
+from viscotack.model.materials.passport_file import read_passport
+from viscotack.model.traction import SaturatingAgeing
 
 PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
 

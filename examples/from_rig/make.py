@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.materials.library import published
+from viscotack.model.materials.library import published
 
 FOLDER = Path(__file__).parent
 RADIUS, WORK_OF_ADHESION, GAP, PRELOAD = 5.19e-3, 0.1523, 200e-9, 1.5e-3

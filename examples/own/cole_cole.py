@@ -1,6 +1,6 @@
 """The solid of Cole and Cole, as a user would add one: one file, no edit of viscotack.
 
-It is the solid that viscotack.materials has as FractionalZener, written anew.
+It is the solid that viscotack.model.materials has as FractionalZener, written anew.
 
 viscotack simulate sphere --material cole-cole:0.6 --with examples/own/cole_cole.py
 --modulus-ratio 0.1 --tabor 3 --preload 20 --rate 30
@@ -14,15 +14,15 @@ import numpy.typing as npt
 
 from viscotack import Quantity
 from viscotack.cards import conform
-from viscotack.materials import Modes
-from viscotack.materials.constants import (
+from viscotack.model.materials import Modes
+from viscotack.model.materials.constants import (
     GlassyModulus,
     PoissonRatio,
     RetardationTime,
     RubberyModulus,
 )
-from viscotack.materials.interconversion import reciprocal
-from viscotack.materials.modes import FINEST, compressed
+from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.modes import FINEST, compressed
 
 Array = npt.NDArray[np.float64]
 

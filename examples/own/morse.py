@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from viscotack import Quantity
 from viscotack.cards import conform
-from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion
+from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 
 import viscotack as vt
-from viscotack.rough import RoughProblem, pull, stickiness
-from viscotack.surfaces import self_affine, sphere
+from viscotack.model.surfaces import self_affine, sphere
+from viscotack.simulate.rough import RoughProblem, pull, stickiness
 
 RADIUS, GAP, WORK = 5e-3, 1.5e-6, 0.1
 PIXELS, PIXEL = 80, 12e-6

@@ -13,9 +13,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
+from viscotack.model.problem.outputs import REVOLUTION
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.physics import SphereContact
-from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
 from viscotack.version import __version__
 

@@ -23,7 +23,7 @@ from viscotack import (
     Sphere,
     StandardSolid,
 )
-from viscotack.geometry import Frictionless, Layer
+from viscotack.model.geometry import Frictionless, Layer
 
 # Radius or half width [m], rubbery modulus [Pa], work of adhesion [J/m2], range [m], speed [m/s],
 # retardation time [s], glassy over rubbery modulus, and preload; exponents are those of the

@@ -16,7 +16,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.campaign.random_solids import creep_spectrum
-from viscotack.materials import spectrum
+from viscotack.model.materials import spectrum
 from viscotack.prediction.surrogate import physics, store
 from viscotack.prediction.surrogate.alike import (
     DECADES,

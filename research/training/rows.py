@@ -10,8 +10,8 @@ from scipy.interpolate import PchipInterpolator
 
 from viscotack import datasets
 from viscotack.arrays import Array
+from viscotack.model.problem.outputs import REVOLUTION, Kind
 from viscotack.prediction.surrogate import line, physics
-from viscotack.problem.outputs import REVOLUTION, Kind
 from viscotack.result.trajectory import POINTS, PRESSED, TENSILE
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.

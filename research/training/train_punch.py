@@ -15,11 +15,11 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack import datasets
+from viscotack.model.problem.outputs import PLANE
 from viscotack.prediction.surrogate import punch_physics as physics
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.network import Networks
 from viscotack.prediction.surrogate.punch_physics import Array, PunchContact, told
-from viscotack.problem.outputs import PLANE
 
 from .calibration import judged, worth
 from .fitting import Fit, Task

@@ -18,7 +18,6 @@ from scipy.stats import qmc
 
 from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
-from viscotack.methods.by_crack import CrackContact, crack_contacts, unloading
 from viscotack.prediction.surrogate import short_range
 from viscotack.prediction.surrogate.contact import Contact
 from viscotack.prediction.surrogate.model import Surrogate
@@ -27,6 +26,7 @@ from viscotack.prediction.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR,
 from viscotack.prediction.surrogate.short_range import HIGH, LOW, ShortRangeContact
 from viscotack.prediction.surrogate.trust import OF
 from viscotack.result.trajectory import POINTS
+from viscotack.simulate.crack_contact.by_crack import CrackContact, crack_contacts, unloading
 
 from .fitting import Fit, Task
 from .refining import Looks, Stage, scaled_task, twice

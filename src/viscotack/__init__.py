@@ -7,9 +7,131 @@ The public names are listed in the order in which data flow. Each is imported on
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .version import __version__
+from viscotack.version import __version__
 
 if TYPE_CHECKING:
+    from viscotack.app.operations import ask as ask
+    from viscotack.cards import Quantity as Quantity
+    from viscotack.design import Design as Design
+    from viscotack.design import DesignSpace as DesignSpace
+    from viscotack.design import Targets as Targets
+    from viscotack.design import find_design as find_design
+    from viscotack.design import read_design as read_design
+    from viscotack.design.arrays import ArrayPull as ArrayPull
+    from viscotack.design.arrays import ArrayYield as ArrayYield
+    from viscotack.design.arrays import Backing as Backing
+    from viscotack.design.arrays import PadArray as PadArray
+    from viscotack.design.arrays import Scatter as Scatter
+    from viscotack.design.arrays import array_yield as array_yield
+    from viscotack.design.arrays import pull_array as pull_array
+    from viscotack.design.window import CriticalSpeed as CriticalSpeed
+    from viscotack.design.window import SeriesOpening as SeriesOpening
+    from viscotack.design.window import SeriesResult as SeriesResult
+    from viscotack.design.window import Window as Window
+    from viscotack.design.window import simulate_in_series as simulate_in_series
+    from viscotack.design.window import which_opens as which_opens
+    from viscotack.design.window import window as window
+    from viscotack.errors import InputError as InputError
+    from viscotack.errors import NotInstalled as NotInstalled
+    from viscotack.errors import OutOfRange as OutOfRange
+    from viscotack.model.geometry import Bonded as Bonded
+    from viscotack.model.geometry import Cone as Cone
+    from viscotack.model.geometry import Disc as Disc
+    from viscotack.model.geometry import FlatPunch as FlatPunch
+    from viscotack.model.geometry import Frictionless as Frictionless
+    from viscotack.model.geometry import HalfSpace as HalfSpace
+    from viscotack.model.geometry import Layer as Layer
+    from viscotack.model.geometry import MeasuredProfile as MeasuredProfile
+    from viscotack.model.geometry import PowerLawProfile as PowerLawProfile
+    from viscotack.model.geometry import Sphere as Sphere
+    from viscotack.model.geometry import WavySphere as WavySphere
+    from viscotack.model.materials import Elastic as Elastic
+    from viscotack.model.materials import FractionalZener as FractionalZener
+    from viscotack.model.materials import Prony as Prony
+    from viscotack.model.materials import RelaxationPowerLaw as RelaxationPowerLaw
+    from viscotack.model.materials import RetardationPowerLaw as RetardationPowerLaw
+    from viscotack.model.materials import StandardSolid as StandardSolid
+    from viscotack.model.problem import Groups as Groups
+    from viscotack.model.problem import Problem as Problem
+    from viscotack.model.problem import PunchScales as PunchScales
+    from viscotack.model.problem import Scales as Scales
+    from viscotack.model.problem.case_file import read_case as read_case
+    from viscotack.model.problem.record import from_dict as from_dict
+    from viscotack.model.problem.record import run_id as run_id
+    from viscotack.model.problem.record import to_dict as to_dict
+    from viscotack.model.protocol import Apart as Apart
+    from viscotack.model.protocol import Approach as Approach
+    from viscotack.model.protocol import AtDepth as AtDepth
+    from viscotack.model.protocol import AtForce as AtForce
+    from viscotack.model.protocol import AtRadius as AtRadius
+    from viscotack.model.protocol import Dwell as Dwell
+    from viscotack.model.protocol import LoadTo as LoadTo
+    from viscotack.model.protocol import MoveTo as MoveTo
+    from viscotack.model.protocol import Retract as Retract
+    from viscotack.model.protocol import Retraction as Retraction
+    from viscotack.model.traction import Dugdale as Dugdale
+    from viscotack.model.traction import Exponential as Exponential
+    from viscotack.model.traction import Eyring as Eyring
+    from viscotack.model.traction import GentSchultz as GentSchultz
+    from viscotack.model.traction import LennardJones as LennardJones
+    from viscotack.model.traction import LogarithmicAgeing as LogarithmicAgeing
+    from viscotack.model.traction import SaturatingAgeing as SaturatingAgeing
+    from viscotack.model.traction import Tabulated as Tabulated
+    from viscotack.plot.material import draw_fit as draw_fit
+    from viscotack.plot.prediction import draw_prediction as draw_prediction
+    from viscotack.plot.regimes import draw_regimes as draw_regimes
+    from viscotack.plot.simulation import draw_energy as draw_energy
+    from viscotack.plot.simulation import draw_force as draw_force
+    from viscotack.plot.simulation import draw_overview as draw_overview
+    from viscotack.plot.simulation import draw_radius as draw_radius
+    from viscotack.plot.style import save_figure as save_figure
+    from viscotack.prediction import Advice as Advice
+    from viscotack.prediction import Estimate as Estimate
+    from viscotack.prediction import Prediction as Prediction
+    from viscotack.prediction import advise as advise
+    from viscotack.prediction import predict as predict
+    from viscotack.prediction import predict_table as predict_table
+    from viscotack.prediction import prediction_summary as prediction_summary
+    from viscotack.prediction import threshold_contact_radius as threshold_contact_radius
+    from viscotack.prediction.uncertainty import Uncertainty as Uncertainty
+    from viscotack.prediction.uncertainty import uncertainty as uncertainty
+    from viscotack.result import Energies as Energies
+    from viscotack.result import Event as Event
+    from viscotack.result import Outcome as Outcome
+    from viscotack.result import Result as Result
+    from viscotack.result import columns as columns
+    from viscotack.result import load as load
+    from viscotack.result import save as save
+    from viscotack.result import write_csv as write_csv
+    from viscotack.result.cycles import Cycle as Cycle
+    from viscotack.result.cycles import cycles as cycles
+    from viscotack.result.cycles import write_cycles as write_cycles
+    from viscotack.result.dead_load import time_to_detachment as time_to_detachment
+    from viscotack.result.edge_energy import EdgeEnergy as EdgeEnergy
+    from viscotack.result.edge_energy import edge_energy as edge_energy
+    from viscotack.result.loops import Loop as Loop
+    from viscotack.result.observables import Observable as Observable
+    from viscotack.result.observables import PullOff as PullOff
+    from viscotack.result.observables import (
+        contact_radius_at_pull_off as contact_radius_at_pull_off,
+    )
+    from viscotack.result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
+    from viscotack.result.observables import depth_at_pull_off as depth_at_pull_off
+    from viscotack.result.observables import effective_surface_energy as effective_surface_energy
+    from viscotack.result.observables import ligament_at_pull_off as ligament_at_pull_off
+    from viscotack.result.observables import peaks as peaks
+    from viscotack.result.observables import pull_off as pull_off
+    from viscotack.result.observables import pull_off_force as pull_off_force
+    from viscotack.result.observables import pull_off_stress as pull_off_stress
+    from viscotack.result.observables import summary as summary
+    from viscotack.result.observables import work_of_separation as work_of_separation
+    from viscotack.result.observables import work_to_pull_off as work_to_pull_off
+    from viscotack.simulate import SimulationError as SimulationError
+    from viscotack.simulate.crack_contact import CrackContact as CrackContact
+    from viscotack.simulate.crack_contact import crack_contact as crack_contact
+    from viscotack.simulate.solving import solve as solve
+    from viscotack.units import parse as parse
+
     from . import bem as bem
     from . import campaign as campaign
     from . import datasets as datasets
@@ -17,132 +139,13 @@ if TYPE_CHECKING:
     from . import materials as materials
     from . import operations as operations
     from . import theory as theory
-    from .bem import SimulationError as SimulationError
-    from .cards import Quantity as Quantity
-    from .design import Design as Design
-    from .design import DesignSpace as DesignSpace
-    from .design import Targets as Targets
-    from .design import find_design as find_design
-    from .design import read_design as read_design
-    from .design.arrays import ArrayPull as ArrayPull
-    from .design.arrays import ArrayYield as ArrayYield
-    from .design.arrays import Backing as Backing
-    from .design.arrays import PadArray as PadArray
-    from .design.arrays import Scatter as Scatter
-    from .design.arrays import array_yield as array_yield
-    from .design.arrays import pull_array as pull_array
-    from .design.window import CriticalSpeed as CriticalSpeed
-    from .design.window import SeriesOpening as SeriesOpening
-    from .design.window import SeriesResult as SeriesResult
-    from .design.window import Window as Window
-    from .design.window import simulate_in_series as simulate_in_series
-    from .design.window import which_opens as which_opens
-    from .design.window import window as window
-    from .errors import InputError as InputError
-    from .errors import NotInstalled as NotInstalled
-    from .errors import OutOfRange as OutOfRange
-    from .geometry import Bonded as Bonded
-    from .geometry import Cone as Cone
-    from .geometry import Disc as Disc
-    from .geometry import FlatPunch as FlatPunch
-    from .geometry import Frictionless as Frictionless
-    from .geometry import HalfSpace as HalfSpace
-    from .geometry import Layer as Layer
-    from .geometry import MeasuredProfile as MeasuredProfile
-    from .geometry import PowerLawProfile as PowerLawProfile
-    from .geometry import Sphere as Sphere
-    from .geometry import WavySphere as WavySphere
-    from .materials import Elastic as Elastic
-    from .materials import FractionalZener as FractionalZener
-    from .materials import Prony as Prony
-    from .materials import RelaxationPowerLaw as RelaxationPowerLaw
-    from .materials import RetardationPowerLaw as RetardationPowerLaw
-    from .materials import StandardSolid as StandardSolid
-    from .methods import CrackContact as CrackContact
-    from .methods import crack_contact as crack_contact
-    from .methods import solve as solve
-    from .operations import ask as ask
-    from .plot.material import draw_fit as draw_fit
-    from .plot.prediction import draw_prediction as draw_prediction
-    from .plot.regimes import draw_regimes as draw_regimes
-    from .plot.simulation import draw_energy as draw_energy
-    from .plot.simulation import draw_force as draw_force
-    from .plot.simulation import draw_overview as draw_overview
-    from .plot.simulation import draw_radius as draw_radius
-    from .plot.style import save_figure as save_figure
-    from .prediction import Advice as Advice
-    from .prediction import Estimate as Estimate
-    from .prediction import Prediction as Prediction
-    from .prediction import advise as advise
-    from .prediction import predict as predict
-    from .prediction import predict_table as predict_table
-    from .prediction import prediction_summary as prediction_summary
-    from .prediction import threshold_contact_radius as threshold_contact_radius
-    from .prediction.uncertainty import Uncertainty as Uncertainty
-    from .prediction.uncertainty import uncertainty as uncertainty
-    from .problem import Groups as Groups
-    from .problem import Problem as Problem
-    from .problem import PunchScales as PunchScales
-    from .problem import Scales as Scales
-    from .problem.case_file import read_case as read_case
-    from .problem.record import from_dict as from_dict
-    from .problem.record import run_id as run_id
-    from .problem.record import to_dict as to_dict
-    from .protocol import Apart as Apart
-    from .protocol import Approach as Approach
-    from .protocol import AtDepth as AtDepth
-    from .protocol import AtForce as AtForce
-    from .protocol import AtRadius as AtRadius
-    from .protocol import Dwell as Dwell
-    from .protocol import LoadTo as LoadTo
-    from .protocol import MoveTo as MoveTo
-    from .protocol import Retract as Retract
-    from .protocol import Retraction as Retraction
-    from .result import Energies as Energies
-    from .result import Event as Event
-    from .result import Outcome as Outcome
-    from .result import Result as Result
-    from .result import columns as columns
-    from .result import load as load
-    from .result import save as save
-    from .result import write_csv as write_csv
-    from .result.cycles import Cycle as Cycle
-    from .result.cycles import cycles as cycles
-    from .result.cycles import write_cycles as write_cycles
-    from .result.dead_load import time_to_detachment as time_to_detachment
-    from .result.edge_energy import EdgeEnergy as EdgeEnergy
-    from .result.edge_energy import edge_energy as edge_energy
-    from .result.loops import Loop as Loop
-    from .result.observables import Observable as Observable
-    from .result.observables import PullOff as PullOff
-    from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
-    from .result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
-    from .result.observables import depth_at_pull_off as depth_at_pull_off
-    from .result.observables import effective_surface_energy as effective_surface_energy
-    from .result.observables import ligament_at_pull_off as ligament_at_pull_off
-    from .result.observables import peaks as peaks
-    from .result.observables import pull_off as pull_off
-    from .result.observables import pull_off_force as pull_off_force
-    from .result.observables import pull_off_stress as pull_off_stress
-    from .result.observables import summary as summary
-    from .result.observables import work_of_separation as work_of_separation
-    from .result.observables import work_to_pull_off as work_to_pull_off
-    from .traction import Dugdale as Dugdale
-    from .traction import Exponential as Exponential
-    from .traction import Eyring as Eyring
-    from .traction import GentSchultz as GentSchultz
-    from .traction import LennardJones as LennardJones
-    from .traction import LogarithmicAgeing as LogarithmicAgeing
-    from .traction import SaturatingAgeing as SaturatingAgeing
-    from .traction import Tabulated as Tabulated
-    from .units import parse as parse
 
 # Module -> its public names, in the order in which data flow.
 _NAMES = {
     "units": ("parse",),
     "errors": ("InputError", "OutOfRange", "NotInstalled"),
     "cards": ("Quantity",),
-    "traction": (
+    "model.traction": (
         "Dugdale",
         "Exponential",
         "Eyring",
@@ -152,7 +155,7 @@ _NAMES = {
         "SaturatingAgeing",
         "Tabulated",
     ),
-    "geometry": (
+    "model.geometry": (
         "Sphere",
         "FlatPunch",
         "Cone",
@@ -165,7 +168,7 @@ _NAMES = {
         "HalfSpace",
         "Bonded",
     ),
-    "protocol": (
+    "model.protocol": (
         "AtDepth",
         "AtForce",
         "AtRadius",
@@ -177,7 +180,7 @@ _NAMES = {
         "LoadTo",
         "Retraction",
     ),
-    "materials": (
+    "model.materials": (
         "Elastic",
         "StandardSolid",
         "FractionalZener",
@@ -185,11 +188,12 @@ _NAMES = {
         "RetardationPowerLaw",
         "RelaxationPowerLaw",
     ),
-    "problem": ("Problem", "Groups", "Scales", "PunchScales"),
-    "problem.record": ("to_dict", "from_dict", "run_id"),
-    "problem.case_file": ("read_case",),
-    "bem": ("SimulationError",),
-    "methods": ("solve", "crack_contact", "CrackContact"),
+    "model.problem": ("Problem", "Groups", "Scales", "PunchScales"),
+    "model.problem.record": ("to_dict", "from_dict", "run_id"),
+    "model.problem.case_file": ("read_case",),
+    "simulate": ("SimulationError",),
+    "simulate.solving": ("solve",),
+    "simulate.crack_contact": ("crack_contact", "CrackContact"),
     "result": ("Result", "Energies", "Event", "Outcome", "save", "load", "columns", "write_csv"),
     "result.observables": (
         "Observable",
@@ -251,17 +255,19 @@ _NAMES = {
     "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
     "prediction.uncertainty": ("uncertainty", "Uncertainty"),
     "plot.prediction": ("draw_prediction",),
-    "operations": ("ask",),
+    "app.operations": ("ask",),
 }
-_ROOMS = (
-    "materials",
-    "theory",
-    "bem",
-    "lab",
-    "campaign",
-    "datasets",
-    "operations",
-)
+# Room -> its module.
+_ROOMS = {
+    "materials": "model.materials",
+    "theory": "theory",
+    "simulate": "simulate",
+    "lab": "lab",
+    "campaign": "campaign",
+    "datasets": "datasets",
+    "operations": "app.operations",
+    "control": "design.control",
+}
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]
@@ -271,7 +277,7 @@ def __getattr__(name: str) -> Any:
     if name in _HOMES:
         return getattr(import_module(f".{_HOMES[name]}", __name__), name)
     if name in _ROOMS:
-        return import_module(f".{name}", __name__)
+        return import_module(f".{_ROOMS[name]}", __name__)
     raise AttributeError(f"module 'viscotack' has no attribute {name!r}")
 
 

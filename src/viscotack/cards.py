@@ -242,7 +242,7 @@ def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
 
     Examples
     --------
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> cards(Sphere)["radius"].card.unit
     'm'
     """
@@ -262,7 +262,7 @@ def with_units(noun: Any) -> dict[str, Any]:
 
     Examples
     --------
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> with_units(Sphere(5.19e-3))
     {'radius': '0.00519 m'}
     """

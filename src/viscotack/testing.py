@@ -19,25 +19,25 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import cards, check_carded, with_units
-from viscotack.geometry import FlatPunch, Layer, Sphere, detail, equivalent_radius
-from viscotack.geometry.hats import hat_areas
-from viscotack.materials import Elastic, StandardSolid
-from viscotack.materials.conversion import slowed
-from viscotack.materials.interconversion import reciprocal
-from viscotack.materials.modes import FINEST, voigt
-from viscotack.materials.passport import Passport
-from viscotack.materials.passport_file import read_passport, write_passport
-from viscotack.materials.scaling import scaled
-from viscotack.methods import solve
-from viscotack.problem import Groups, Problem
-from viscotack.problem.nouns import known, room_of
-from viscotack.problem.record import from_dict, to_dict
-from viscotack.protocol import AtDepth, AtForce, Retraction
+from viscotack.model.geometry import FlatPunch, Layer, Sphere, detail, equivalent_radius
+from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.materials import Elastic, StandardSolid
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.modes import FINEST, voigt
+from viscotack.model.materials.passport import Passport
+from viscotack.model.materials.passport_file import read_passport, write_passport
+from viscotack.model.materials.scaling import scaled
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.problem.nouns import known, room_of
+from viscotack.model.problem.record import from_dict, to_dict
+from viscotack.model.protocol import AtDepth, AtForce, Retraction
+from viscotack.model.traction import LennardJones, at_rest, effective_range, softening
 from viscotack.result import Result, load, save
 from viscotack.result.observables import pull_off_force, pull_off_stress, summary
+from viscotack.simulate import solve
 from viscotack.theory import lennard_jones
 from viscotack.theory.elastic import indenter
-from viscotack.traction import LennardJones, at_rest, effective_range, softening
 
 __all__ = ["check", "checks"]
 
@@ -79,7 +79,7 @@ def checks(noun: Any, *, size: float = 1e-4, thorough: bool = True) -> list[Chec
         def test_my_law(check):
             check()
 
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> [check.__name__ for check in checks(Sphere(1e-3), thorough=False)]
     ['profile', 'shape_units', 'contact_without_adhesion', 'case_file']
     """

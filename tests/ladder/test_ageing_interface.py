@@ -5,12 +5,12 @@ import pytest
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.materials import StandardSolid
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, Dwell, Retract
+from viscotack.model.materials import StandardSolid
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell, Retract
+from viscotack.model.traction import LennardJones
+from viscotack.model.traction.resting import reduced
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import LennardJones
-from viscotack.traction.resting import reduced
 
 REST = LennardJones(0.05, 20e-9)
 LOG = vt.LogarithmicAgeing.of(REST, reference_time=2.0, sensitivity=0.1)

@@ -7,9 +7,9 @@ import pytest
 from scipy.optimize import brentq
 
 import viscotack as vt
-from viscotack.bem.settings import Settings
-from viscotack.geometry import Cone, HalfSpace, Sphere
-from viscotack.problem.nouns import own_nouns
+from viscotack.model.geometry import Cone, HalfSpace, Sphere
+from viscotack.model.problem.nouns import own_nouns
+from viscotack.simulate.settings import Settings
 from viscotack.theory.elastic import indenter, on_body
 
 pytestmark = pytest.mark.march

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.special import gamma as gamma_function
 
 from dimensionless import last_slope
-from viscotack.materials import (
+from viscotack.model.materials import (
     Elastic,
     FractionalZener,
     Prony,

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscotack as vt
-from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory import CrackLaw, detachment, greenwood, jkr, lennard_jones, persson_brener
 
 LENS = dict(radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.bem.settings import Settings
-from viscotack.bem.solver import contact_of
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.solver import contact_of
 from viscotack.theory import disc, profiles
 from viscotack.theory.elastic import indenter
 

@@ -7,11 +7,11 @@ import pytest
 
 from dimensionless import ELASTIC, SOLID, power_law
 from energy_books import compared
-from viscotack.geometry import Cone, FlatPunch, Layer
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
-from viscotack.traction import Exponential
+from viscotack.model.geometry import Cone, FlatPunch, Layer
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.model.traction import Exponential
+from viscotack.simulate import solve
 
 pytestmark = pytest.mark.march
 

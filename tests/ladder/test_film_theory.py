@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
+from viscotack.model.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, Sphere
 from viscotack.theory import SteadyCrack, disc, film, indenter, jkr, profiles
 from viscotack.theory.crack.contact import profile_on, recede
 from viscotack.theory.elastic import on_body, on_layer

@@ -7,13 +7,13 @@ from numpy.testing import assert_allclose
 from scipy.special import erfcx, rgamma
 
 from dimensionless import slope
-from viscotack.materials import (
+from viscotack.model.materials import (
     FractionalKelvinVoigt,
     FractionalMaxwell,
     FractionalZener,
     StandardSolid,
 )
-from viscotack.materials.fractional import passed, remaining
+from viscotack.model.materials.fractional import passed, remaining
 
 E0, TAU, NU = 1.2e6, 2e-3, 0.48
 POTS = dict(modulus=3e5, tau0=TAU, poisson_ratio=NU)

@@ -7,9 +7,9 @@ import pytest
 
 import viscotack as vt
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, HalfSpace, Layer
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.protocol import (
+from viscotack.model.geometry import Bonded, HalfSpace, Layer
+from viscotack.model.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.model.protocol import (
     Apart,
     Approach,
     AtDepth,
@@ -19,9 +19,9 @@ from viscotack.protocol import (
     LoadTo,
     Retraction,
 )
+from viscotack.model.surfaces import HeightMap, bumps, self_affine, sphere
 from viscotack.result.observables import work_of_separation
-from viscotack.rough import RoughProblem, pull
-from viscotack.surfaces import HeightMap, bumps, self_affine, sphere
+from viscotack.simulate.rough import RoughProblem, pull
 
 RADIUS, GAP = 5e-3, 1.5e-6
 ALONG = np.sqrt(RADIUS * GAP)

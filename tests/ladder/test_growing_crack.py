@@ -9,9 +9,11 @@ from scipy.integrate import solve_ivp
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
 from viscotack.errors import OutOfRange
-from viscotack.materials import StandardSolid
-from viscotack.problem import Groups
-from viscotack.protocol import AtDepth
+from viscotack.model.materials import StandardSolid
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth
+from viscotack.model.traction import Eyring, GentSchultz, LennardJones
+from viscotack.model.traction.growing import reference_speed
 from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
@@ -21,8 +23,6 @@ from viscotack.theory.crack.contact import (
     recede,
 )
 from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
-from viscotack.traction import Eyring, GentSchultz, LennardJones
-from viscotack.traction.growing import reference_speed
 
 REST = LennardJones(1.0, 1.0)
 POWER = GentSchultz(1, 1, 1.0, 0.5)

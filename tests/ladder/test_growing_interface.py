@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.bem import Settings
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, Dwell
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell
+from viscotack.model.traction import Eyring, GentSchultz, LennardJones
+from viscotack.model.traction.resting import reduced
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Eyring, GentSchultz, LennardJones
-from viscotack.traction.resting import reduced
+from viscotack.simulate import Settings
 
 REST = LennardJones(0.1523, 200e-9)
 POWER = GentSchultz.of(REST, reference_speed=1e-3, exponent=0.4)

@@ -6,13 +6,10 @@ import numpy as np
 import pytest
 
 from dimensionless import ELASTIC, SOLID, power_law
-from viscotack.bem import Settings
-from viscotack.bem.solver import contact_of
-from viscotack.geometry import FlatPunch, Layer
-from viscotack.materials import RelaxationPowerLaw
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import (
+from viscotack.model.geometry import FlatPunch, Layer
+from viscotack.model.materials import RelaxationPowerLaw
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import (
     Apart,
     Approach,
     AtDepth,
@@ -23,6 +20,7 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
+from viscotack.model.traction import Dugdale, Exponential
 from viscotack.result.cycles import cycles
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import (
@@ -30,8 +28,9 @@ from viscotack.result.observables import (
     pull_off_force,
     summary,
 )
+from viscotack.simulate import Settings, solve
+from viscotack.simulate.solver import contact_of
 from viscotack.theory import jkr, lennard_jones, persson_brener
-from viscotack.traction import Dugdale, Exponential
 
 pytestmark = pytest.mark.march
 

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from dimensionless import ELASTIC, SOLID
-from viscotack.geometry import FlatPunch, Layer
-from viscotack.methods import crack_contact, solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
+from viscotack.model.geometry import FlatPunch, Layer
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
 from viscotack.result import load, save
 from viscotack.result.cycles import cycle_rows, cycles
 from viscotack.result.loops import Loop
+from viscotack.simulate import solve
+from viscotack.simulate.crack_contact import crack_contact
 
 pytestmark = pytest.mark.march
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscotack.geometry import Cone, PowerLawProfile, Sphere
+from viscotack.model.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.theory import jkr, profiles
 from viscotack.theory.elastic import indenter
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from dimensionless import ELASTIC, SOLID
-from viscotack.bem.interface import AtNodes, OnPanels
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import AtDepth
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth
+from viscotack.model.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
 from viscotack.result.observables import pull_off_force, work_to_pull_off
+from viscotack.simulate import solve
+from viscotack.simulate.interface import AtNodes, OnPanels
 from viscotack.theory import maugis
-from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
 
 # strong and short, with a corner in its stiffness where it ends
 TABLE = Tabulated.of_points(

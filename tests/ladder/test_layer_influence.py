@@ -7,9 +7,9 @@ import pytest
 from scipy.special import sici, xlogy
 
 from reference_data import VALUES
-from viscotack.geometry import Bonded, Frictionless
-from viscotack.geometry.hats import hat_areas
-from viscotack.geometry.layer import layer_influence
+from viscotack.model.geometry import Bonded, Frictionless
+from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.geometry.layer import layer_influence
 from viscotack.theory.punch import crossover
 
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.special import jv
 
-from viscotack.bem.surface import relaxed_stiffness
-from viscotack.geometry import Bonded, Frictionless, Layer, half_space
-from viscotack.geometry.layer_of_revolution import influence
+from viscotack.model.geometry import Bonded, Frictionless, Layer, half_space
+from viscotack.model.geometry.layer_of_revolution import influence
+from viscotack.simulate.surface import relaxed_stiffness
 
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
 SQUEEZED = Bonded(poisson_ratio=0.5)

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viscotack.errors import InputError
-from viscotack.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
-from viscotack.materials.conversion import (
+from viscotack.model.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials.conversion import (
     PronyForm,
     prony_form,
     relaxation_form,
@@ -15,12 +15,12 @@ from viscotack.materials.conversion import (
     retardation_series,
     slowed,
 )
-from viscotack.materials.library import published
-from viscotack.materials.passport import Evidence, Passport
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import AtDepth
+from viscotack.model.materials.library import published
+from viscotack.model.materials.passport import Evidence, Passport
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth
 from viscotack.result.observables import pull_off_force
+from viscotack.simulate import solve
 
 E0 = 1.2e6
 PDMS = published("pdms-10-1").material

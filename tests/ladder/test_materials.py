@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from dimensionless import slope
 from reference_data import VALUES
-from viscotack.materials import (
+from viscotack.model.materials import (
     Elastic,
     FractionalZener,
     Prony,
@@ -19,8 +19,8 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.materials.interconversion import reciprocal
-from viscotack.materials.spectrum import nodes
+from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.spectrum import nodes
 
 # Ordinary numbers: 1 MPa rubber, 1 ms, k from 1e-1 to 1e-6, exponents with both integers.
 E0, TAU, NU = 1.2e6, 2e-3, 0.48

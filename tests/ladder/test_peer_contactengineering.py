@@ -12,11 +12,11 @@ below on one contact in two systems of units.
 import numpy as np
 import pytest
 
-from viscotack.bem.grid.descent import equilibrium
-from viscotack.bem.grid.plane import Plane
-from viscotack.bem.machine import Hold
+from viscotack.model.traction import LennardJones
+from viscotack.simulate.grid.descent import equilibrium
+from viscotack.simulate.grid.plane import Plane
+from viscotack.simulate.machine import Hold
 from viscotack.theory import dmt, jkr, maugis
-from viscotack.traction import LennardJones
 
 reason = "Adhesion of ContactEngineering is not installed"
 peer_jkr = pytest.importorskip("Adhesion.ReferenceSolutions.JKR", reason=reason)
@@ -109,7 +109,7 @@ def grid_and_peer(many, tabor, monkeypatch):
     mechanics = pytest.importorskip("ContactMechanics")
     topography = pytest.importorskip("SurfaceTopography")
     # the peer has no correction for tractions that vary over a pixel
-    monkeypatch.setattr("viscotack.bem.grid.plane._WITHIN_PIXEL", np.inf)
+    monkeypatch.setattr("viscotack.simulate.grid.plane._WITHIN_PIXEL", np.inf)
     half, radius = 6.0 * tabor**1.5, tabor**3
     x = (np.arange(many) + 0.5) * 2 * half / many - half
     heights = -np.add.outer(x**2, x**2) / (2 * radius)

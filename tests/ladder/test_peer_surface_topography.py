@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from viscotack.errors import InputError
-from viscotack.surfaces import read_map, roughness, self_affine
+from viscotack.model.surfaces import read_map, roughness, self_affine
 
 reason = "SurfaceTopography of ContactEngineering is not installed"
 peer = pytest.importorskip("SurfaceTopography", reason=reason)

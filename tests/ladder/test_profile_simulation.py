@@ -5,19 +5,18 @@ import pytest
 from scipy.integrate import quad
 
 from dimensionless import ELASTIC, SOLID
-from viscotack.bem import Settings
-from viscotack.bem.contacts.profile import ProfileContact
-from viscotack.geometry import PowerLawProfile
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
+from viscotack.model.geometry import PowerLawProfile
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
+from viscotack.model.traction import LennardJones
 from viscotack.result.observables import (
     contact_radius_at_pull_off,
     pull_off_force,
     work_to_pull_off,
 )
+from viscotack.simulate import Settings, solve
+from viscotack.simulate.contacts.profile import ProfileContact
 from viscotack.theory import profiles
-from viscotack.traction import LennardJones
 
 pytestmark = pytest.mark.march
 

@@ -11,7 +11,8 @@ from scipy.interpolate import CubicSpline
 
 from dimensionless import last_slope, standard
 from reference_data import reference
-from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.model.traction import LennardJones
 from viscotack.theory import greenwood, punch
 from viscotack.theory.crack.law import THEORIES
 from viscotack.theory.punch import (
@@ -24,7 +25,6 @@ from viscotack.theory.punch import (
     rate,
     unloading,
 )
-from viscotack.traction import LennardJones
 
 MODULI = dict(rubbery_modulus=1e6, glassy_modulus=2e7, poisson_ratio=0.5)
 SLS = StandardSolid(**MODULI, tau0=1e-2)

@@ -10,14 +10,11 @@ from threadpoolctl import threadpool_limits
 from dimensionless import ELASTIC, SOLID, slope
 from punches import resized
 from reference_data import VALUES
-from viscotack.bem import Settings
-from viscotack.bem.contacts.punch import PunchContact
-from viscotack.bem.twins.plain_punch import plain_solve, triangle_matrix
-from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
-from viscotack.materials import StandardSolid
-from viscotack.methods import solve
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
+from viscotack.model.geometry import Bonded, FlatPunch, Frictionless, Layer
+from viscotack.model.materials import StandardSolid
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
+from viscotack.model.traction import LennardJones
 from viscotack.result.observables import (
     crack_speed_at_pull_off,
     effective_surface_energy,
@@ -28,9 +25,11 @@ from viscotack.result.observables import (
     work_of_separation,
     work_to_pull_off,
 )
+from viscotack.simulate import Settings, solve
+from viscotack.simulate.contacts.punch import PunchContact
+from viscotack.simulate.twins.plain_punch import plain_solve, triangle_matrix
 from viscotack.theory import punch
 from viscotack.theory.punch import crossover, curve
-from viscotack.traction import LennardJones
 
 pytestmark = pytest.mark.march
 

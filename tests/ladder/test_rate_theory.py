@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dimensionless import last_slope
-from viscotack.materials import RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import RetardationPowerLaw, StandardSolid
 from viscotack.theory import (
     CrackLaw,
     bounds,

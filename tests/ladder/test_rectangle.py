@@ -5,7 +5,7 @@ import pytest
 from scipy import sparse
 
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, Frictionless
+from viscotack.model.geometry import Bonded, Frictionless
 from viscotack.theory.elastic import disc
 from viscotack.theory.punch import laws
 from viscotack.theory.punch.rectangle import bounds, film_stresses, on_layer

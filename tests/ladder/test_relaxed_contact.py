@@ -17,7 +17,7 @@ from viscotack import (
     Sphere,
     WavySphere,
 )
-from viscotack.materials import StandardSolid
+from viscotack.model.materials import StandardSolid
 from viscotack.prediction.closed_forms import closed_forms
 from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter

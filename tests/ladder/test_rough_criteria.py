@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.bem.grid.plane import Plane
-from viscotack.geometry import HalfSpace, Layer
-from viscotack.protocol import AtForce, Retraction
-from viscotack.rough import RoughProblem, pull, stickiness
-from viscotack.rough.criteria import _mean_gap
-from viscotack.surfaces import HeightMap, self_affine, sphere
+from viscotack.model.geometry import HalfSpace, Layer
+from viscotack.model.protocol import AtForce, Retraction
+from viscotack.model.surfaces import HeightMap, self_affine, sphere
+from viscotack.simulate.grid.plane import Plane
+from viscotack.simulate.rough import RoughProblem, pull, stickiness
+from viscotack.simulate.rough.criteria import _mean_gap
 
 RUBBER = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
 GAP = 1.5e-6

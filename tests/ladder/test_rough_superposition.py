@@ -5,10 +5,10 @@ import pytest
 
 import viscotack as vt
 from viscotack.errors import InputError
-from viscotack.geometry import Layer
-from viscotack.protocol import Apart, AtForce, Retraction
-from viscotack.rough import RoughProblem, pull, superposed
-from viscotack.surfaces import HeightMap, bumps, drawn_asperities, sphere, summits
+from viscotack.model.geometry import Layer
+from viscotack.model.protocol import Apart, AtForce, Retraction
+from viscotack.model.surfaces import HeightMap, bumps, drawn_asperities, sphere, summits
+from viscotack.simulate.rough import RoughProblem, pull, superposed
 from viscotack.theory import jkr
 
 PLATEAUS = {"rubbery_modulus": 3e6, "poisson_ratio": 0.5}

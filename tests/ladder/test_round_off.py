@@ -5,13 +5,13 @@ import pytest
 
 from dimensionless import ELASTIC, SOLID, power_law
 from noise import noise
-from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.model.geometry import FlatPunch, Layer, PowerLawProfile
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.model.traction import Dugdale
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off_force
-from viscotack.traction import Dugdale
+from viscotack.simulate import solve
 
 pytestmark = pytest.mark.march
 

@@ -9,9 +9,9 @@ from scipy.constants import gas_constant
 
 from reference_data import VALUES
 from viscotack.lab import loss_from_storage
-from viscotack.materials import Prony, RetardationPowerLaw, StandardSolid
-from viscotack.materials.passport import Evidence, Passport
-from viscotack.materials.shift import (
+from viscotack.model.materials import Prony, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials.passport import Evidence, Passport
+from viscotack.model.materials.shift import (
     WLF,
     Arrhenius,
     TabulatedShift,

@@ -7,20 +7,14 @@ import pytest
 
 from dimensionless import ELASTIC, power_law, slope, standard
 from reference_data import VALUES
-from viscotack.bem import Settings
-from viscotack.bem.contacts.profile import ProfileContact
-from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.bem.memory import Memory, step
-from viscotack.bem.surface import stiffness
-from viscotack.bem.twins.plain_sphere import hat_matrix, mean_compliance, plain_solve
-from viscotack.geometry import Frictionless
-from viscotack.geometry.half_space import influence
-from viscotack.geometry.hats import hat_areas
-from viscotack.geometry.layer import layer_influence
-from viscotack.materials import Modes, Prony, RetardationPowerLaw
-from viscotack.methods import solve
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.geometry import Frictionless
+from viscotack.model.geometry.half_space import influence
+from viscotack.model.geometry.hats import hat_areas
+from viscotack.model.geometry.layer import layer_influence
+from viscotack.model.materials import Modes, Prony, RetardationPowerLaw
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.traction import Dugdale, LennardJones
 from viscotack.result.observables import (
     contact_radius_at_pull_off,
     depth_at_pull_off,
@@ -28,8 +22,13 @@ from viscotack.result.observables import (
     pull_off_force,
     work_to_pull_off,
 )
+from viscotack.simulate import Settings, solve
+from viscotack.simulate.contacts.profile import ProfileContact
+from viscotack.simulate.contacts.sphere import SphereContact
+from viscotack.simulate.memory import Memory, step
+from viscotack.simulate.surface import stiffness
+from viscotack.simulate.twins.plain_sphere import hat_matrix, mean_compliance, plain_solve
 from viscotack.theory import bradley, hertz, jkr
-from viscotack.traction import Dugdale, LennardJones
 
 # What the default setting promises; the estimate says less than this in every case here.
 DEFAULT = 2e-3
@@ -122,7 +121,7 @@ def test_the_answer_does_not_depend_on_the_units():
 
 
 def _sphere(radius):
-    from viscotack.geometry import Sphere
+    from viscotack.model.geometry import Sphere
 
     return Sphere(radius=radius)
 

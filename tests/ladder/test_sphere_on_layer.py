@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import viscotack as vt
-from viscotack.geometry import Bonded, Cone, Frictionless, Layer, Sphere
+from viscotack.model.geometry import Bonded, Cone, Frictionless, Layer, Sphere
 from viscotack.theory.elastic import indenter, jkr, on_body, on_layer
 
 pytestmark = pytest.mark.march

@@ -5,7 +5,14 @@ import pytest
 from scipy.special import wofz
 
 from viscotack.errors import InputError
-from viscotack.materials import Elastic, FractionalZener, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import (
+    Elastic,
+    FractionalZener,
+    Prony,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from viscotack.model.traction import Dugdale, Exponential, LennardJones, Tabulated
 from viscotack.theory.crack.steady import (
     SteadyCrack,
     _balance,
@@ -16,7 +23,6 @@ from viscotack.theory.crack.steady import (
     best_strength_ratio,
     compared,
 )
-from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated
 
 REDUCED = LennardJones(1.0, 1.0)
 TABLE = Tabulated.of_points([0.8, 1.0, 1.2, 1.5, 2.5, 4.0], [-4, 0, 1, 0.8, 0.1, 0]).reduced()

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from viscotack.materials import RetardationPowerLaw, StandardSolid
+from viscotack.model.materials import RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, modulus_file, persson_brener, tabulated_modulus
 from viscotack.theory.crack.tabulated_modulus import TabulatedModulus
 

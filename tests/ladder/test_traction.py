@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import quad
 
 from reference_data import VALUES
-from viscotack.geometry import Sphere
-from viscotack.traction import LennardJones
+from viscotack.model.geometry import Sphere
+from viscotack.model.traction import LennardJones
 
 LAW = LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6)
 

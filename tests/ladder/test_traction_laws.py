@@ -11,20 +11,19 @@ from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
 from dimensionless import ELASTIC
-from viscotack.bem import Settings
-from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import AtDepth
-from viscotack.result.observables import pull_off
-from viscotack.theory import maugis
-from viscotack.traction import (
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth
+from viscotack.model.traction import (
     Dugdale,
     Exponential,
     LennardJones,
     Tabulated,
     softening,
 )
+from viscotack.result.observables import pull_off
+from viscotack.simulate import Settings, solve
+from viscotack.simulate.contacts.sphere import SphereContact
+from viscotack.theory import maugis
 
 WORK, RANGE = 0.1523, 1.55e-6
 DUGDALE = Dugdale(WORK, RANGE, rise=0.05, fall=0.3)

@@ -10,14 +10,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from dimensionless import standard
-from viscotack.bem import Settings, march
-from viscotack.bem.frame import Passage, Way
-from viscotack.bem.memory import Memory, step
-from viscotack.materials import Elastic, Modes
-from viscotack.methods import solve
-from viscotack.problem import Groups
-from viscotack.protocol import Apart, Approach, AtDepth
+from viscotack.model.materials import Elastic, Modes
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Apart, Approach, AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off
+from viscotack.simulate import Settings, march, solve
+from viscotack.simulate.frame import Passage, Way
+from viscotack.simulate.memory import Memory, step
 
 MODES = Modes(instantaneous=0.1, weights=(0.3, 0.6), times=(0.05, 2.0), error=0.0)
 NODES = np.concatenate([np.linspace(0.0, 0.8, 40)[:-1], np.linspace(0.8, 1.2, 401), [1.5, 2.5]])

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.geometry import effective_sphere
-from viscotack.materials import effective_solid
-from viscotack.materials.two_bodies import _merged
+from viscotack.model.geometry import effective_sphere
+from viscotack.model.materials import effective_solid
+from viscotack.model.materials.two_bodies import _merged
 
 TIMES = np.geomspace(1e-4, 1e4, 50)
 SOFT = vt.Prony(rubbery_modulus=1e6, branches=[(5e6, 1e-3), (4e6, 1.0)], poisson_ratio=0.5)

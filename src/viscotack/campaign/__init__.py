@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from viscotack.problem.inputs import Input, inputs_of
+    from viscotack.model.problem.inputs import Input, inputs_of
 
     from .case import CaseSettings, measure
     from .cluster import Dask

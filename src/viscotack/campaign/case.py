@@ -12,18 +12,16 @@ import numpy as np
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.bem import DEFAULT_ACCURACY, Accuracy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.methods import solve
-from viscotack.problem import RoughCase
-from viscotack.problem.nouns import known, own_nouns
-from viscotack.result import trajectory
+from viscotack.model.problem import RoughCase
+from viscotack.model.problem.nouns import known, own_nouns
+from viscotack.result import Outcome, Result, trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
 from viscotack.result.parts import spans
-from viscotack.rough import problem_of, pull, stickiness
+from viscotack.simulate import DEFAULT_ACCURACY, Accuracy, solve
+from viscotack.simulate.rough import problem_of, pull, stickiness
 
-from ..result import Outcome, Result
 from .identity import identity, words
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.

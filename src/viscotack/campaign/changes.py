@@ -13,13 +13,13 @@ from typing import Any
 
 from viscotack.cards import cards, plausible, unusual
 from viscotack.errors import InputError
-from viscotack.geometry import BODIES, SHAPES
-from viscotack.materials.words import MODELS
-from viscotack.problem.inputs import Input, check_exponent, inputs_of
-from viscotack.problem.problem import Problem
-from viscotack.problem.rough_case import RoughCase
-from viscotack.protocol import Retraction
-from viscotack.traction import LAWS
+from viscotack.model.geometry import BODIES, SHAPES
+from viscotack.model.materials.words import MODELS
+from viscotack.model.problem.inputs import Input, check_exponent, inputs_of
+from viscotack.model.problem.problem import Problem
+from viscotack.model.problem.rough_case import RoughCase
+from viscotack.model.protocol import Retraction
+from viscotack.model.traction import LAWS
 from viscotack.units import parse, readable
 
 from .columns import INPUTS, Kind, kind_of_problem

@@ -13,13 +13,13 @@ from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
-from viscotack.materials import RetardationPowerLaw, StandardSolid
-from viscotack.materials.constants import ModulusRatio
-from viscotack.methods import has_start
-from viscotack.problem import Groups, Problem, RoughCase, plane, revolution
-from viscotack.problem.inputs import Input, changed, check_paths, inputs_of
-from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.model.geometry import FlatPunch, Layer, PowerLawProfile
+from viscotack.model.materials import RetardationPowerLaw, StandardSolid
+from viscotack.model.materials.constants import ModulusRatio
+from viscotack.model.problem import Groups, Problem, RoughCase, plane, revolution
+from viscotack.model.problem.inputs import Input, changed, check_paths, inputs_of
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius
+from viscotack.simulate import has_start
 from viscotack.units import positive
 
 from .random_solids import LAST, random_solid

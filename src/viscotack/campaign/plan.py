@@ -11,13 +11,13 @@ from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml, read_toml
-from viscotack.problem.case_file import read_case
-from viscotack.problem.inputs import check_exponent
-from viscotack.problem.nouns import own_nouns
-from viscotack.problem.record import from_dict, run_id, to_dict
-from viscotack.rough import read_rough_case
+from viscotack.model.problem.case_file import read_case
+from viscotack.model.problem.inputs import check_exponent
+from viscotack.model.problem.nouns import own_nouns
+from viscotack.model.problem.record import from_dict, run_id, to_dict
+from viscotack.simulate.rough import read_rough_case
+from viscotack.units import parse
 
-from ..units import parse
 from .case import CaseSettings
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid

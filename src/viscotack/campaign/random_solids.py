@@ -24,8 +24,8 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Prony
-from viscotack.materials.conversion import RetardationSeries, relaxation_series
+from viscotack.model.materials import Prony
+from viscotack.model.materials.conversion import RetardationSeries, relaxation_series
 
 # Largest number, and that from which solids are stretched exponentials.
 LAST, STRETCHED = 2_000_000, 1_000_000

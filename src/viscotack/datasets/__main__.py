@@ -4,7 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..campaign import Progress
+from viscotack.campaign import Progress
+
 from .files import NAMES
 from .making import make
 

@@ -7,7 +7,7 @@ from typing import Any
 from viscotack.campaign.columns import INPUTS, KINDS
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
-from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
+from viscotack.model.problem.outputs import PLANE, REVOLUTION, Kind
 
 # Lower bounds of stated relative errors, which hold in 95 % of the
 # rows: for all spheres, for deeply pressed ones, and for those of large Tabor number and small

@@ -12,11 +12,11 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from viscotack.campaign import Plan, Progress, Store, read_plan, run
 from viscotack.files.arrow import arrow
 from viscotack.files.whole import write_whole
 from viscotack.version import __version__
 
-from ..campaign import Plan, Progress, Store, read_plan, run
 from .columns import KEPT, units
 from .files import METADATA_KEY, plan_path
 

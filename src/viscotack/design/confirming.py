@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from viscotack.errors import InputError
-from viscotack.methods import solve
-from viscotack.problem import Problem
-from viscotack.protocol import Dwell, LoadTo, Retraction
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import Dwell, LoadTo, Retraction
 from viscotack.result import Outcome, Result
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off, work_to_pull_off
+from viscotack.simulate import solve
 
 from .fast import FastTier, Pad
 from .margins import Candidate, Judge, pad_of

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from viscotack.errors import InputError
-from viscotack.materials import Material
-from viscotack.materials.passport import Passport
-from viscotack.problem.case_file import case_of_tables, passport_of
-from viscotack.problem.tables import Reading, read_as, refuse_unknown
+from viscotack.model.materials import Material
+from viscotack.model.materials.passport import Passport
+from viscotack.model.problem.case_file import case_of_tables, passport_of
+from viscotack.model.problem.tables import Reading, read_as, refuse_unknown
 
 from .files import at, opened
 from .space import (

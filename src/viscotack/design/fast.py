@@ -10,16 +10,16 @@ from typing import Any, Protocol
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, Frictionless, HalfSpace, Layer, PowerLawProfile, Sphere
 from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
-from viscotack.materials import Material
-from viscotack.materials.scaling import scaled
+from viscotack.model.geometry import Bonded, Frictionless, HalfSpace, Layer, PowerLawProfile, Sphere
+from viscotack.model.materials import Material
+from viscotack.model.materials.scaling import scaled
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import AtForce, Retraction
+from viscotack.model.traction import LennardJones
 from viscotack.prediction import predict
 from viscotack.prediction.tiers import AT_ONCE
-from viscotack.problem import Problem
-from viscotack.protocol import AtForce, Retraction
-from viscotack.traction import LennardJones
 
 from .holding import HELD_ERROR, held_load
 

@@ -8,10 +8,10 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
-from viscotack.problem import Problem
-from viscotack.problem.case_file import case_of_tables
-from viscotack.problem.nouns import known
-from viscotack.problem.tables import Reading, refuse_named, refuse_unknown
+from viscotack.model.problem import Problem
+from viscotack.model.problem.case_file import case_of_tables
+from viscotack.model.problem.nouns import known
+from viscotack.model.problem.tables import Reading, refuse_named, refuse_unknown
 
 # Between the ends of a range of numbers.
 _TO = ".."

@@ -19,8 +19,8 @@ import numpy as np
 
 from viscotack.clock import limited
 from viscotack.errors import InputError, OutOfRange
-from viscotack.materials import Material
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.materials import Material
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .confirming import Simulated, simulate

@@ -8,7 +8,7 @@ and its edge recedes at the speed of a crack of that energy. The time to detachm
 of da over the speed from the relaxed radius under the preload. Loads below the elastic pull-off
 force are held for ever, and loads above the instantaneous one not at all. The load is multiplied by
 the elastic pull-off ratio at the effective Tabor number, as in
-:mod:`viscotack.methods.by_crack`.
+:mod:`viscotack.simulate.crack_contact.by_crack`.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.geometry import HalfSpace, Sphere
-from viscotack.methods.by_crack import LEAST_TABOR
-from viscotack.problem import Problem
-from viscotack.protocol import AtForce
+from viscotack.model.geometry import HalfSpace, Sphere
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import AtForce
+from viscotack.model.traction import LennardJones
+from viscotack.simulate.crack_contact.by_crack import LEAST_TABOR
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
-from viscotack.traction import LennardJones
 
 # Relative standard error of the load against simulations.
 HELD_ERROR = 0.01

@@ -13,8 +13,8 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded
-from viscotack.problem.tables import Read
+from viscotack.model.geometry import Bonded
+from viscotack.model.problem.tables import Read
 
 from .files import ends
 

@@ -18,10 +18,10 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.lab.grouping import GAP
-from viscotack.materials import Passport
-from viscotack.materials.conversion import slowed
-from viscotack.materials.passport_uncertainty import allowed, shift_error
-from viscotack.protocol import Move
+from viscotack.model.materials import Passport
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.passport_uncertainty import allowed, shift_error
+from viscotack.model.protocol import Move
 
 from .forward import Changed, Forward, Interface
 from .rate_series import RateSeries

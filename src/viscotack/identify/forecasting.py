@@ -22,8 +22,8 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.geometry import Layer
-from viscotack.protocol import Move
+from viscotack.model.geometry import Layer
+from viscotack.model.protocol import Move
 from viscotack.units import readable
 
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance

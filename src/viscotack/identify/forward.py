@@ -15,12 +15,13 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Layer, Sphere
-from viscotack.materials import Material
-from viscotack.methods import CrackContact, crack_contact
-from viscotack.methods.by_crack import crack_contacts
-from viscotack.problem import Problem
-from viscotack.protocol import Apart, AtForce, Move, Retraction
+from viscotack.model.geometry import HalfSpace, Layer, Sphere
+from viscotack.model.materials import Material
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import Apart, AtForce, Move, Retraction
+from viscotack.model.traction import GentSchultz, LennardJones
+from viscotack.simulate.crack_contact import CrackContact, crack_contact
+from viscotack.simulate.crack_contact.by_crack import crack_contacts
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
 from viscotack.theory.crack.contact import (
     Curves,
@@ -33,7 +34,6 @@ from viscotack.theory.crack.contact import (
 )
 from viscotack.theory.crack.contact.films import ERROR_BY_ZONE, LEAST_RATIO, outside
 from viscotack.theory.crack.steady import NeighbourCrack
-from viscotack.traction import GentSchultz, LennardJones
 from viscotack.units import readable
 
 from .computed import Arrays, Computed, packaged

@@ -20,8 +20,8 @@ import numpy.typing as npt
 from scipy.stats import chi2
 
 from viscotack.arrays import Array
+from viscotack.model.traction.growing import reference_speed
 from viscotack.theory.crack.contact import GrowingCracks
-from viscotack.traction.growing import reference_speed
 
 from .forward import Forward, Growth, Pulled
 from .likelihood import Parameter

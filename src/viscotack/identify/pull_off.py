@@ -7,7 +7,7 @@ import numpy as np
 
 from viscotack.lab.grouping import levels
 from viscotack.lab.tack import Cycle, Measured
-from viscotack.protocol import Approach, AtForce, Dwell, Move
+from viscotack.model.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
 
 from .repeats import Repeats, pooled

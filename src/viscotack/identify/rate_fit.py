@@ -17,8 +17,8 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.geometry import Layer
-from viscotack.materials import Passport
+from viscotack.model.geometry import Layer
+from viscotack.model.materials import Passport
 from viscotack.theory.crack.contact.films import MOST_ZONE
 from viscotack.units import readable
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Layer
-from viscotack.materials import Material, Passport
-from viscotack.materials.passport_uncertainty import shift_error
-from viscotack.protocol import Move
+from viscotack.model.geometry import HalfSpace, Layer
+from viscotack.model.materials import Material, Passport
+from viscotack.model.materials.passport_uncertainty import shift_error
+from viscotack.model.protocol import Move
 
 from .pull_off import PullOff
 from .temperatures import shifted

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.geometry import Layer
-from viscotack.materials.passport_uncertainty import allowed
+from viscotack.model.geometry import Layer
+from viscotack.model.materials.passport_uncertainty import allowed
 from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 

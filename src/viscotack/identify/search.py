@@ -14,7 +14,7 @@ from scipy.optimize import root_scalar
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.methods.by_crack import LEAST_TABOR
+from viscotack.simulate.crack_contact.by_crack import LEAST_TABOR
 
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import Mixed, Yielding

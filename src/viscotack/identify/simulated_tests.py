@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.problem import Problem
+from viscotack.model.problem import Problem
 from viscotack.units import readable
 
 from .covariances import ModelError, SphereTests

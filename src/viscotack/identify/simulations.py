@@ -8,7 +8,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.problem import Problem
+from viscotack.model.problem import Problem
 from viscotack.result.observables import pull_off_force
 from viscotack.system import Processes, begin_worker
 
@@ -84,8 +84,7 @@ def _force_in_worker(problem: Problem) -> float:
 
 def _force(problem: Problem) -> float:
     # imported on first use, because most series need no simulation
-    from viscotack.bem import SimulationError
-    from viscotack.methods import solve
+    from viscotack.simulate import SimulationError, solve
 
     with suppress(InputError, SimulationError):
         found = solve(problem, until="pull-off", accuracy=ACCURACY, estimate_error=False)

@@ -20,16 +20,16 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
 from viscotack.lab.tack import Cycle
-from viscotack.materials import Material
-from viscotack.materials.passport import Passport
-from viscotack.materials.passport_uncertainty import allowed
+from viscotack.model.geometry import Sphere
+from viscotack.model.materials import Material
+from viscotack.model.materials.passport import Passport
+from viscotack.model.materials.passport_uncertainty import allowed
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import AtForce, Retraction
+from viscotack.model.traction import LennardJones
 from viscotack.prediction import advise
-from viscotack.problem import Problem
-from viscotack.protocol import AtForce, Retraction
 from viscotack.theory import maugis, transition
-from viscotack.traction import LennardJones
 from viscotack.units import readable
 
 from .contacts import MODELS, RANGES, ElasticModel

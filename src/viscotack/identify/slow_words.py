@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscotack.materials.passport import Passport
+from viscotack.model.materials.passport import Passport
 from viscotack.units import readable, readable_interval
 
 from .likelihood import Interval

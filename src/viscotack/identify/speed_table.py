@@ -22,7 +22,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle, Measured
-from viscotack.materials.shift import Shift
+from viscotack.model.materials.shift import Shift
 from viscotack.theory.elastic import jkr
 
 from .pull_off import same_speeds, same_temperatures, temperature_of

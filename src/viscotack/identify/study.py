@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Layer
 from viscotack.lab.tack import Survey, survey
-from viscotack.materials import Material
-from viscotack.materials.library import passport_of
-from viscotack.materials.passport import Passport
+from viscotack.model.geometry import HalfSpace, Layer
+from viscotack.model.materials import Material
+from viscotack.model.materials.library import passport_of
+from viscotack.model.materials.passport import Passport
 
 from .computed import Computed
 from .contact_time import check_dwells

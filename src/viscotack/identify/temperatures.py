@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from viscotack.errors import InputError
-from viscotack.materials import Passport
+from viscotack.model.materials import Passport
 
 from .pull_off import History, PullOff
 

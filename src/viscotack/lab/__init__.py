@@ -1,6 +1,6 @@
 """Laboratory data: frequency sweeps, master curves, relaxation and creep tests, and their fits."""
 
-from viscotack.materials.shift import FittedShift as ShiftFit
+from viscotack.model.materials.shift import FittedShift as ShiftFit
 
 from .fit.fitting import fit
 from .fit.kramers_kronig import contradiction, loss_from_storage

@@ -17,9 +17,9 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials.checks import temperatures
-from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
-from viscotack.materials.shift import TabulatedShift
+from viscotack.model.materials.checks import temperatures
+from viscotack.model.materials.constants import poisson_ratio as checked_poisson_ratio
+from viscotack.model.materials.shift import TabulatedShift
 
 KINDS = {"E": "tension", "G": "shear"}
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from viscotack.lab.fit.observed import Observed
 from viscotack.lab.fit.report import FitReport
-from viscotack.materials.passport import Passport
-from viscotack.materials.shift import FittedShift, TabulatedShift
+from viscotack.model.materials.passport import Passport
+from viscotack.model.materials.shift import FittedShift, TabulatedShift
 
 from .style import drawing
 
@@ -49,7 +49,7 @@ def draw_fit(report: FitReport, passport: Passport | None = None) -> "Figure":
     --------
     >>> import numpy as np
     >>> from viscotack.lab import MasterCurve, fit
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
     ... )

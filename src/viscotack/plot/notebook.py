@@ -11,9 +11,9 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from viscotack.cards import Pairs, cards
-from viscotack.geometry import FlatPunch
+from viscotack.model.geometry import FlatPunch
+from viscotack.model.problem import Problem, plane, revolution
 from viscotack.prediction import Prediction, prediction_summary
-from viscotack.problem import Problem, plane, revolution
 from viscotack.result import Result
 from viscotack.result.observables import summary
 from viscotack.units import readable, readable_interval
@@ -30,8 +30,8 @@ def html_of_problem(problem: Problem) -> str:
 
     Examples
     --------
-    >>> from viscotack.operations.parts.examples import FIRST
-    >>> from viscotack.problem.case_file import case_of_tables
+    >>> from viscotack.app.operations.parts.examples import FIRST
+    >>> from viscotack.model.problem.case_file import case_of_tables
     >>> "<td>sphere radius</td><td>R</td><td>5.19 mm</td>" in html_of_problem(case_of_tables(FIRST))
     True
     """

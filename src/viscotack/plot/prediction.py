@@ -11,8 +11,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from viscotack.errors import InputError
+from viscotack.model.problem.outputs import PLANE
 from viscotack.prediction.prediction import Prediction
-from viscotack.problem.outputs import PLANE
 from viscotack.result import Result
 
 from .style import axis_unit, drawing

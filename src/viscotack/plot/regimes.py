@@ -31,7 +31,7 @@ def draw_regimes(found: RegimeMap) -> "Figure":
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> from viscotack.theory.punch.map import regime_map
     >>> solid = StandardSolid(

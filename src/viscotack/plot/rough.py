@@ -10,9 +10,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
-from viscotack.rough.problem import RoughProblem
-from viscotack.rough.result import FieldMap, RoughResult
-from viscotack.rough.superposition import Superposition
+from viscotack.simulate.rough.problem import RoughProblem
+from viscotack.simulate.rough.result import FieldMap, RoughResult
+from viscotack.simulate.rough.superposition import Superposition
 
 from .style import BLUE, ORANGE, axis_unit, drawing, style
 
@@ -29,7 +29,7 @@ def draw_rough(found: RoughResult) -> "Figure":
     Parameters
     ----------
     found : RoughResult
-        Result of :func:`viscotack.rough.pull`.
+        Result of :func:`viscotack.simulate.rough.pull`.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def film_of_pull(found: RoughResult, target: Target, ending: str = ".gif") -> No
     Parameters
     ----------
     found : RoughResult
-        With two maps or more; :func:`viscotack.rough.pull` makes them if asked.
+        With two maps or more; :func:`viscotack.simulate.rough.pull` makes them if asked.
     target : path or binary file
         Where to write.
     ending : str
@@ -98,7 +98,7 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
     problem : RoughProblem
         The surface.
     found : Superposition
-        Result of :func:`viscotack.rough.superposed`.
+        Result of :func:`viscotack.simulate.rough.superposed`.
 
     Returns
     -------

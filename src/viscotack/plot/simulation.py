@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.problem.outputs import Unit
+from viscotack.model.problem.outputs import Unit
 from viscotack.result import Outcome, Result
 from viscotack.result.cycles import pull_offs
 

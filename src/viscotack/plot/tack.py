@@ -7,7 +7,7 @@ import numpy as np
 
 from viscotack.identify.pull_off import same_speeds, same_temperatures, temperature_of
 from viscotack.lab.tack import Cycle
-from viscotack.materials.shift import Shift
+from viscotack.model.materials.shift import Shift
 from viscotack.units import readable
 
 from .style import axis_unit, drawing, log_axis_unit, plain_ticks

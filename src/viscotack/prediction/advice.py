@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from viscotack.errors import OutOfRange
-from viscotack.geometry import Sphere
-from viscotack.materials import Elastic
-from viscotack.methods.crack_problem import ROOT
-from viscotack.methods.handover import too_short
-from viscotack.problem import Groups, Problem
-from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
+from viscotack.model.geometry import Sphere
+from viscotack.model.materials import Elastic
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
+from viscotack.simulate.crack_contact.crack_problem import ROOT
+from viscotack.simulate.handover import too_short
 
 from . import advice_words as words
 from .cautions import LINEAR_SPEED

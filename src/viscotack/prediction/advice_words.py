@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscotack.problem.revolution import LARGEST_CONTACT
+from viscotack.model.problem.revolution import LARGEST_CONTACT
 from viscotack.units import readable
 
 from .cautions import beyond_linear

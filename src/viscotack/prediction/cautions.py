@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials import Elastic
-from viscotack.materials.passport_uncertainty import allowed
-from viscotack.problem import Case, Problem
+from viscotack.model.materials import Elastic
+from viscotack.model.materials.passport_uncertainty import allowed
+from viscotack.model.problem import Case, Problem
 from viscotack.units import readable
 
 from .closed_forms import is_classic, is_plain
@@ -28,7 +28,7 @@ from .steady_crack import crack_of
 from .theories import forms_of
 
 if TYPE_CHECKING:
-    from viscotack.materials.passport import Passport
+    from viscotack.model.materials.passport import Passport
 
 # Crack speed above which silicone experiments exceed linear theory [m/s].
 LINEAR_SPEED = 100e-6
@@ -55,7 +55,7 @@ def cautions_on(problem: Case, *, passport: Passport | None = None) -> tuple[str
     Examples
     --------
     >>> from viscotack import AtDepth, Groups
-    >>> from viscotack.materials.library import published
+    >>> from viscotack.model.materials.library import published
     >>> passport = published("dragon-skin-30")
     >>> case = Groups(
     ...     tabor=10.0, material=passport.material.reduced(), start=AtDepth(30), rate=1.0

@@ -18,11 +18,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Sphere
-from viscotack.materials import Elastic
-from viscotack.problem import Groups
-from viscotack.problem.ranges import at_least, at_most
-from viscotack.protocol import AtDepth, Start
+from viscotack.model.geometry import HalfSpace, Sphere
+from viscotack.model.materials import Elastic
+from viscotack.model.problem import Groups
+from viscotack.model.problem.ranges import at_least, at_most
+from viscotack.model.protocol import AtDepth, Start
+from viscotack.model.traction import LennardJones, effective_range, softening
+from viscotack.model.traction.resting import check_of_gap_alone
 from viscotack.theory import (
     CrackLaw,
     detachment,
@@ -33,8 +35,6 @@ from viscotack.theory import (
     unloading,
 )
 from viscotack.theory.elastic.relaxed import contact_in_groups
-from viscotack.traction import LennardJones, effective_range, softening
-from viscotack.traction.resting import check_of_gap_alone
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9

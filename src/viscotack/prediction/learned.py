@@ -9,9 +9,9 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius
 from viscotack.prediction.surrogate.contact import Contact
 from viscotack.prediction.surrogate.model import Surrogate
-from viscotack.protocol import AtDepth, AtForce, AtRadius
 
 from .beyond import Beyond
 from .prediction import MEASURED, Prediction, with_curve

@@ -19,8 +19,8 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Disc, HalfSpace, Layer, detail
-from viscotack.problem import Groups
+from viscotack.model.geometry import Disc, HalfSpace, Layer, detail
+from viscotack.model.problem import Groups
 from viscotack.theory import SteadyCrack, film
 from viscotack.theory.crack.contact import profile_on, recede
 from viscotack.theory.crack.contact.films import (

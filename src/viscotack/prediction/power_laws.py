@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.geometry import HalfSpace, Sphere
-from viscotack.materials import RetardationPowerLaw
+from viscotack.model.geometry import HalfSpace, Sphere
+from viscotack.model.materials import RetardationPowerLaw
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius
+from viscotack.model.traction import LennardJones
 from viscotack.prediction.surrogate import physics, store
-from viscotack.protocol import AtDepth, AtForce, AtRadius
-from viscotack.traction import LennardJones
 
 from .beyond import beyond
 from .learned import INSIDE, further_prediction, out_of_range, within

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials.conversion import slowed
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.problem import Case
 from viscotack.prediction.surrogate.trust import check_confidence
-from viscotack.problem import Case
 
 from .cautions import cautions_on
 from .prediction import Prediction, depth_between
@@ -20,7 +20,7 @@ from .question import Question
 from .tiers import EXACT, SOON, best, by_model
 
 if TYPE_CHECKING:
-    from viscotack.materials.passport import Passport
+    from viscotack.model.materials.passport import Passport
     from viscotack.prediction.surrogate.model import Surrogate
 
 
@@ -49,7 +49,7 @@ def predict(
         instead of each alone; :attr:`Prediction.joint` is true where such intervals were measured.
     shift_deviation : float
         Standard deviation of log10 a_T, the uncertainty of the material's times, from
-        :meth:`viscotack.materials.passport.Passport.shift_deviation`. It widens the
+        :meth:`viscotack.model.materials.passport.Passport.shift_deviation`. It widens the
         intervals: the problem is also predicted for slower and faster material.
     budget : float
         Largest time of the prediction [s]. Up to 0.01 s only surrogates are used; from 0.02 s also

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.problem import Case
-from viscotack.problem.record import run_id, to_dict
+from viscotack.model.problem import Case
+from viscotack.model.problem.record import run_id, to_dict
 from viscotack.result.trajectory import PRESSED
 from viscotack.units import readable, readable_interval
 from viscotack.version import __version__

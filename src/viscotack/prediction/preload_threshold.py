@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtRadius
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.protocol import AtRadius
 
 # The search: its smallest radius, the number of simulations,
 _SMALLEST_START, _COARSE, _FINE = 1.2, 13, 9
@@ -58,8 +58,8 @@ def threshold_contact_radius(
     >>> threshold_contact_radius(case, slope=0.1, accuracy=0.02)
     1.2
     """
-    from viscotack.methods import solve
     from viscotack.result.observables import pull_off_force
+    from viscotack.simulate import solve
 
     if not slope > 0:
         raise InputError(f"slope must be positive, got {slope}; the thesis uses 0.1")

@@ -6,14 +6,14 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
-from viscotack.geometry import FlatPunch, Frictionless, numbers
-from viscotack.materials import Prony, StandardSolid
+from viscotack.model.geometry import FlatPunch, Frictionless, numbers
+from viscotack.model.materials import Prony, StandardSolid
+from viscotack.model.problem import Groups, PunchScales
+from viscotack.model.protocol import AtDepth, AtForce
+from viscotack.model.traction import LennardJones
 from viscotack.prediction.surrogate import store
 from viscotack.prediction.surrogate.model import Surrogate
 from viscotack.prediction.surrogate.punch_physics import INPUTS, PRELOAD
-from viscotack.problem import Groups, PunchScales
-from viscotack.protocol import AtDepth, AtForce
-from viscotack.traction import LennardJones
 
 from .beyond import slower
 from .learned import INSIDE, further_prediction, out_of_range, within

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from viscotack.problem import Case, Groups, Problem
-from viscotack.protocol import Start
+from viscotack.model.problem import Case, Groups, Problem
+from viscotack.model.protocol import Start
 
 if TYPE_CHECKING:
     from viscotack.prediction.surrogate.model import Surrogate

@@ -6,10 +6,10 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.methods.crack_band import not_measured
 from viscotack.prediction.surrogate.line import Curves
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
+from viscotack.simulate.crack_contact.crack_band import not_measured
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
 from .question import Question
@@ -27,7 +27,7 @@ def by_simulation(asked: Question) -> Prediction:
     ValueError
         If :func:`viscotack.solve` rejects the problem.
     """
-    from viscotack.methods import solve
+    from viscotack.simulate import solve
 
     result = solve(asked.problem, until="pull-off", throw=False)
     stated = result.error_estimate or {}

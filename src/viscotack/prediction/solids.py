@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from viscotack.errors import OutOfRange
-from viscotack.materials import RetardationPowerLaw
+from viscotack.model.materials import RetardationPowerLaw
+from viscotack.model.problem import Groups
 from viscotack.prediction.surrogate import alike, linear_solids, physics, store
-from viscotack.problem import Groups
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 
 from . import power_laws

@@ -7,14 +7,19 @@ from dataclasses import replace
 import numpy as np
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
-from viscotack.methods.by_crack import LEAST_TABOR, CrackContact, crack_contact, unloading
-from viscotack.methods.crack_band import FURTHER, not_measured
+from viscotack.model.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
+from viscotack.model.problem import Groups
+from viscotack.model.problem.ranges import at_least
+from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius
+from viscotack.model.traction import Dugdale, Exponential, LennardJones, Tabulated
 from viscotack.prediction.surrogate.line import Curves
-from viscotack.problem import Groups
-from viscotack.problem.ranges import at_least
-from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
-from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated
+from viscotack.simulate.crack_contact.by_crack import (
+    LEAST_TABOR,
+    CrackContact,
+    crack_contact,
+    unloading,
+)
+from viscotack.simulate.crack_contact.crack_band import FURTHER, not_measured
 
 from .prediction import Prediction, of_theory, with_curve
 from .question import Question

@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from viscotack.errors import OutOfRange
-from viscotack.geometry import HalfSpace, Sphere
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.problem.ranges import outside
-from viscotack.protocol import AtDepth, AtForce, AtRadius
-from viscotack.theory.elastic.relaxed import contact_in_groups, radius_without_adhesion
-from viscotack.traction import (
+from viscotack.model.geometry import HalfSpace, Sphere
+from viscotack.model.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.model.problem.ranges import outside
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius
+from viscotack.model.traction import (
     Dugdale,
     Exponential,
     LennardJones,
@@ -18,6 +17,7 @@ from viscotack.traction import (
     effective_range,
     softening,
 )
+from viscotack.theory.elastic.relaxed import contact_in_groups, radius_without_adhesion
 
 from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike
 from .prediction import Prediction, of_theory

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import OutOfRange
-from viscotack.problem import Case, Groups
+from viscotack.model.problem import Case, Groups
 
 from .question import Question
 
@@ -40,7 +40,8 @@ class Verified:
     moves, springs : bool
         Whether moves before the retraction, and a compliant machine, are allowed.
     ranges : mapping
-        Smallest and largest value of each input, for :func:`viscotack.problem.ranges.outside`.
+        Smallest and largest value of each input, for
+        :func:`viscotack.model.problem.ranges.outside`.
     """
 
     shapes: tuple[type, ...]

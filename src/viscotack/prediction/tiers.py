@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.materials import Elastic, RetardationPowerLaw
+from viscotack.model.materials import Elastic, RetardationPowerLaw
 
 from . import learned_crack, power_laws, punches, solids, steady_crack
 from .learned_crack import LEARNED_CRACK, by_learned_crack

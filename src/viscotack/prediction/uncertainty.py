@@ -27,8 +27,8 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.campaign.columns import kind_of_problem
 from viscotack.errors import InputError, OutOfRange
-from viscotack.materials.conversion import slowed
-from viscotack.problem import Case
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.problem import Case
 
 from .predict import predict
 from .prediction import Prediction
@@ -123,7 +123,7 @@ def uncertainty(
         Relative standard deviations, independent, by the path of the input as in campaigns
         ("sphere.radius", "material.tau0"); above 0 and at most 0.5.
     sampled : mapping of str to sequence
-        Equally likely values of "material" (:attr:`viscotack.materials.Passport.allowed`) or
+        Equally likely values of "material" (:attr:`viscotack.model.materials.Passport.allowed`) or
         "traction", in place of the stated one; up to 64 of them are used.
     times : mapping of str to float
         Standard deviations of ln of all times of the material, by a name such as "temperature".

@@ -86,7 +86,7 @@ def cycles(result: Result) -> tuple[Cycle, ...]:
     Examples
     --------
     >>> from viscotack import Apart, AtDepth, Groups, StandardSolid, solve
-    >>> from viscotack.protocol import Approach, Retract
+    >>> from viscotack.model.protocol import Approach, Retract
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
     ... )
@@ -120,7 +120,7 @@ def pull_offs(result: Result) -> list[PullOff | None]:
 def cycle_rows(result: Result) -> list[dict[str, float | str | None]]:
     """Return the cycles as rows with the names and units of the geometry, and in SI if possible.
 
-    Names and signs are those of :mod:`viscotack.problem.outputs`; undefined numbers are None.
+    Names and signs are those of :mod:`viscotack.model.problem.outputs`; undefined numbers are None.
     `loop` is one of the values of :class:`.loops.Loop`.
     """
     outputs, scales = result.problem.outputs.cycles, result.scales

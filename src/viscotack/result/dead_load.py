@@ -39,7 +39,7 @@ def time_to_detachment(result: Result) -> float:
     Examples
     --------
     >>> from viscotack import AtForce, Groups, StandardSolid, solve
-    >>> from viscotack.protocol import Dwell, LoadTo
+    >>> from viscotack.model.protocol import Dwell, LoadTo
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
     ... )

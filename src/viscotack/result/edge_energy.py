@@ -23,11 +23,11 @@ from scipy.optimize import least_squares
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Sphere
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import Apart
+from viscotack.model.geometry import HalfSpace, Sphere
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.protocol import Apart
+from viscotack.model.traction import at_rest, grows
 from viscotack.theory import SteadyCrack
-from viscotack.traction import at_rest, grows
 
 from . import Outcome, Result
 

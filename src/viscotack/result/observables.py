@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import Layer
-from viscotack.problem.outputs import Unit
-from viscotack.problem.record import run_id, to_dict
+from viscotack.model.geometry import Layer
+from viscotack.model.problem.outputs import Unit
+from viscotack.model.problem.record import run_id, to_dict
 from viscotack.theory.punch.curve import thin_layer_surface_energy
 from viscotack.threads import caught_warnings
 
@@ -645,10 +645,10 @@ class Observable:
 def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
     """Return the observables and the statistics of a run, ready for JSON.
 
-    Numbers are dimensionless, with the names and units of :mod:`viscotack.problem.outputs`; for a
-    problem in SI they are repeated under names that end in the unit. Undefined numbers are None.
-    All summaries of one kind of problem have the same keys, followed by those of `also`. `cycles`
-    has a row per cycle of the test, see :mod:`viscotack.result.cycles`.
+    Numbers are dimensionless, with the names and units of :mod:`viscotack.model.problem.outputs`;
+    for a problem in SI they are repeated under names that end in the unit. Undefined numbers are
+    None. All summaries of one kind of problem have the same keys, followed by those of `also`.
+    `cycles` has a row per cycle of the test, see :mod:`viscotack.result.cycles`.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.protocol import Dwell, LoadTo
+from viscotack.model.protocol import Dwell, LoadTo
 
 from . import Event, Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits

@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.problem import Groups
-from viscotack.protocol import Approach, Dwell, LoadTo, Move, MoveTo, Retract
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import Approach, Dwell, LoadTo, Move, MoveTo, Retract
 
 from . import Outcome, Result
 

@@ -8,8 +8,8 @@ pressure in Delta-gamma_0/h_0. ``result.problem.scales()`` gives the factors to 
 
 For a punch, forces are mean stresses in sigma_0, positive in compression, contact radii are
 half lengths of the contact in a_0, and energies are in sigma_0 h_0 per unit area. Tables
-and summaries (:mod:`viscotack.problem.outputs`) give stress, ligament, crack speed and work of
-separation.
+and summaries (:mod:`viscotack.model.problem.outputs`) give stress, ligament, crack speed and work
+of separation.
 """
 
 import csv
@@ -32,9 +32,9 @@ from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import open_regular
 from viscotack.files.frame import frame
 from viscotack.files.whole import Target, write_whole
-from viscotack.problem import Case, Groups, Problem, PunchScales, Scales
-from viscotack.problem.record import from_dict, to_dict
-from viscotack.problem.tables import UnknownNoun
+from viscotack.model.problem import Case, Groups, Problem, PunchScales, Scales
+from viscotack.model.problem.record import from_dict, to_dict
+from viscotack.model.problem.tables import UnknownNoun
 from viscotack.result.energies import Energies
 from viscotack.units import finite
 

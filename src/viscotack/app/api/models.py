@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 
 Accuracy = Annotated[
     float,

@@ -13,9 +13,9 @@ from starlette.exceptions import HTTPException
 from viscotack.app.engine import page_tasks
 from viscotack.app.engine.jobs import Engine, Job, TooMany, Unknown
 from viscotack.app.engine.lane import Defect
+from viscotack.app.operations import operations
+from viscotack.app.operations.request import Request, described, refusal, summary
 from viscotack.errors import InputError
-from viscotack.operations import operations
-from viscotack.operations.request import Request, described, refusal, summary
 
 from .models import (
     Answer,

@@ -21,7 +21,7 @@ from viscotack.files.text import harmless
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
-    from viscotack.operations.request import Request
+    from viscotack.app.operations.request import Request
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
@@ -100,8 +100,8 @@ def _spelled(error: InputError, kind: "type[Request] | None") -> str:
 
 def _flag(name: str, kind: "type[Request] | None") -> str:
     """Return a name as the command line spells it, if it is an option."""
-    from viscotack.operations.flags import FLAGS
-    from viscotack.operations.request import flag_of, option_of
+    from viscotack.app.operations.flags import FLAGS
+    from viscotack.app.operations.request import flag_of, option_of
 
     if kind is not None and name in kind.model_fields:
         option = option_of(kind.model_fields[name])

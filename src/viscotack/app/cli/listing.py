@@ -6,7 +6,7 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from viscotack.operations import COMMANDS, SECTIONS
+from viscotack.app.operations import COMMANDS, SECTIONS
 
 from .commands import application
 

@@ -10,10 +10,9 @@ import typer
 from pydantic.fields import FieldInfo
 from typer.main import get_command
 
-from viscotack.errors import InputError
-from viscotack.operations import COMMANDS, operation
-from viscotack.operations.flags import OF_FILE, Flag, flags_of
-from viscotack.operations.request import (
+from viscotack.app.operations import COMMANDS, operation
+from viscotack.app.operations.flags import OF_FILE, Flag, flags_of
+from viscotack.app.operations.request import (
     Contact,
     Number,
     Option,
@@ -26,6 +25,7 @@ from viscotack.operations.request import (
     options,
     request_of,
 )
+from viscotack.errors import InputError
 
 from .commands import AsJson, Force, With, wrong_input
 from .running import carry_out, checked

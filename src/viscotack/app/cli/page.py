@@ -53,7 +53,7 @@ def app_command(
         server = _uvicorn()
         from viscotack.app.api import application as served
         from viscotack.app.engine.jobs import Engine, Limits
-        from viscotack.problem.nouns import own_nouns
+        from viscotack.model.problem.nouns import own_nouns
 
         files = [str(Path(path).resolve()) for path in own or ()]
         query = "" if case is None else _query(case, own_nouns(files))
@@ -113,9 +113,9 @@ def _listening(host: str, port: int) -> socket.socket:
 def _query(case: Path, also: tuple[Any, ...]) -> str:
     """Return the query of a link to a case file, including a material in a separate file."""
     from viscotack.app.engine.state import State
+    from viscotack.app.operations.parts.library import material_table
     from viscotack.files.toml import read_toml
-    from viscotack.operations.parts.library import material_table
-    from viscotack.problem.case_file import read_case
+    from viscotack.model.problem.case_file import read_case
 
     problem, tables = read_case(case, also=also), read_toml(case)
     if tables["material"].keys() & {"passport", "file"}:

@@ -10,9 +10,9 @@ from typing import Any
 
 import typer
 
+from viscotack.app.operations.request import Answer, Caller, Output, Request, answered
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
-from viscotack.operations.request import Answer, Caller, Output, Request, answered
 
 from .writing import Writing, check_files
 
@@ -43,7 +43,7 @@ def carry_out(
     folder : Path
         Of the file names in the request.
     """
-    from viscotack.problem.nouns import own_nouns
+    from viscotack.model.problem.nouns import own_nouns
 
     wants = frozenset(output.name for output, file in files.items() if file is not None)
     paths = tuple(str(Path(file).resolve()) for file in own)

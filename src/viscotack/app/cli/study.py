@@ -31,7 +31,7 @@ def study_command(
     Example: viscotack study lens.toml
     """
     with wrong_input():
-        from viscotack.operations.study import read_study
+        from viscotack.app.operations.study import read_study
 
         from .running import carry_out, checked
 

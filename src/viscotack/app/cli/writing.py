@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from viscotack.app.operations.request import Output
 from viscotack.errors import InputError
 from viscotack.files.bounded import was_read
 from viscotack.files.text import harmless
@@ -18,7 +19,6 @@ from viscotack.files.whole import (
     is_standard_output,
     same_file,
 )
-from viscotack.operations.request import Output
 from viscotack.plot.style import check_format, save_figure
 
 if TYPE_CHECKING:

@@ -7,13 +7,13 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from viscotack.cards import Field, Pairs, Quantity, cards
-from viscotack.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
-from viscotack.problem import plane, revolution
-from viscotack.problem.case_file import ProfilePoint
-from viscotack.problem.law_table import STRENGTH
-from viscotack.problem.nouns import Nouns, known
-from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
-from viscotack.traction import Tabulated
+from viscotack.model.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
+from viscotack.model.problem import plane, revolution
+from viscotack.model.problem.case_file import ProfilePoint
+from viscotack.model.problem.law_table import STRENGTH
+from viscotack.model.problem.nouns import Nouns, known
+from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.traction import Tabulated
 
 # What a field that has no example begins with, by its unit.
 _SUGGESTED = {

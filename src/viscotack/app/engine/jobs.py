@@ -14,8 +14,8 @@ from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any
 
+from viscotack.app.operations.request import Request, harmless_name
 from viscotack.errors import InputError
-from viscotack.operations.request import Request, harmless_name
 
 from . import operating, page_tasks
 from .lane import Defect, Lane

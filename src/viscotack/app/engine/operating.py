@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from viscotack.app.operations.parts.json_data import plain
+from viscotack.app.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 from viscotack.errors import InputError
-from viscotack.operations.parts.json_data import plain
-from viscotack.operations.request import DRAWN, WORDS, Answer, Caller, Request, answered
 
 from .page_tasks import Tell
 
@@ -18,10 +18,10 @@ _POINTS = "points"
 
 def warm() -> None:
     """Run slow initialisations once."""
-    from viscotack.methods import solve
-    from viscotack.operations.parts.examples import FIRST
-    from viscotack.problem.accuracy import LOOSEST_ACCURACY
-    from viscotack.problem.case_file import case_of_tables
+    from viscotack.app.operations.parts.examples import FIRST
+    from viscotack.model.problem.accuracy import LOOSEST_ACCURACY
+    from viscotack.model.problem.case_file import case_of_tables
+    from viscotack.simulate import solve
 
     problem = case_of_tables(FIRST)
     solve(problem, accuracy=LOOSEST_ACCURACY, until="pull-off", estimate_error=False)

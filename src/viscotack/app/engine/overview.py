@@ -11,11 +11,14 @@ from typing import Any
 import numpy as np
 
 from viscotack.app.engine.state import State
+from viscotack.app.operations.parts.json_data import drawn, plain
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
-from viscotack.geometry import Disc, FlatPunch, Layer
-from viscotack.materials import RetardationPowerLaw
-from viscotack.operations.parts.json_data import drawn, plain
+from viscotack.model.geometry import Disc, FlatPunch, Layer
+from viscotack.model.materials import RetardationPowerLaw
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.problem.outputs import PLANE, REVOLUTION, Kind
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.prediction import predict
 from viscotack.prediction.advice import estimate_by
 from viscotack.prediction.power_laws import SURROGATE
@@ -27,9 +30,6 @@ from viscotack.prediction.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.prediction.table import predict_table
 from viscotack.prediction.theories import forms_of
 from viscotack.prediction.tiers import AT_ONCE, TIERS
-from viscotack.problem import Groups, Problem
-from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.theory.elastic.relaxed import contact, curve, ends
 from viscotack.theory.punch import Pad, unloading
 from viscotack.units import readable_interval

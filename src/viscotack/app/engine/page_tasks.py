@@ -6,19 +6,19 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.app.operations.parts.json_data import drawn, plain
+from viscotack.app.operations.parts.library import library
 from viscotack.errors import InputError
-from viscotack.geometry import FlatPunch
-from viscotack.methods import crack_contact
-from viscotack.methods.by_crack import METHOD
-from viscotack.operations.parts.examples import EXAMPLES, FIRST
-from viscotack.operations.parts.json_data import drawn, plain
-from viscotack.operations.parts.library import library
+from viscotack.model.geometry import FlatPunch
+from viscotack.model.problem import Problem
 from viscotack.prediction import cautions_on, predict
 from viscotack.prediction.advice import advice_on, estimates_without_advice
 from viscotack.prediction.closed_forms import Estimate
 from viscotack.prediction.question import Question
 from viscotack.prediction.tiers import SOON, best
-from viscotack.problem import Problem
+from viscotack.simulate.crack_contact import crack_contact
+from viscotack.simulate.crack_contact.by_crack import METHOD
 from viscotack.version import __version__
 
 from .forms import forms

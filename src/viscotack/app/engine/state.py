@@ -14,12 +14,12 @@ from urllib.parse import urlencode
 
 from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml, toml_value
-from viscotack.materials.passport import Passport
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.problem.case_file import case_of_tables, passport_of
-from viscotack.problem.nouns import known
-from viscotack.problem.problem import Problem
-from viscotack.problem.tables import Reading
+from viscotack.model.materials.passport import Passport
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem.case_file import case_of_tables, passport_of
+from viscotack.model.problem.nouns import known
+from viscotack.model.problem.problem import Problem
+from viscotack.model.problem.tables import Reading
 
 # Of a case that is sent: it states a few dozen numbers.
 _MOST_KEYS = 200

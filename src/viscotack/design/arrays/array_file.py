@@ -14,8 +14,8 @@ from typing import Annotated, Any
 
 from viscotack.cards import Exact, Pairs, Quantity, cards
 from viscotack.errors import InputError
-from viscotack.problem.tables import Read, Reading, read_as, refuse_named
-from viscotack.protocol.moves import Speed
+from viscotack.model.problem.tables import Read, Reading, read_as, refuse_named
+from viscotack.model.protocol.moves import Speed
 
 from ..files import at, contact, opened
 from .load import Hold

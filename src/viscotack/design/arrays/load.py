@@ -17,13 +17,14 @@ import numpy as np
 
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
-from viscotack.materials import Elastic
-from viscotack.methods import crack_contact, solve
-from viscotack.problem import Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.protocol import Apart, Approach, AtForce, Dwell, LoadTo, Retraction
+from viscotack.model.materials import Elastic
+from viscotack.model.problem import Problem
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.protocol import Apart, Approach, AtForce, Dwell, LoadTo, Retraction
+from viscotack.model.traction import at_rest, grows
 from viscotack.result import Outcome
-from viscotack.traction import at_rest, grows
+from viscotack.simulate import solve
+from viscotack.simulate.crack_contact import crack_contact
 
 from .pulling import ArrayPull, PadArray, pull_array, shared_compliance
 

@@ -9,7 +9,7 @@ tilted and curved, so at the position z of its centre the pad would be at
 
 with its depth d, the spring k of the backing under it, the interaction c through a common elastic
 base, and the spring K of the machine. Each pad follows the curve F(d) of one pad that is pulled at
-the speed V (:mod:`viscotack.methods.family`).
+the speed V (:mod:`viscotack.simulate.curve_family`).
 
 An elastic pad has no other curve. A viscoelastic pad has one for each history of its speed. With
 k alone the plate moves at V, and the curve of a pad behind k is exact. The springs K and c take a
@@ -34,10 +34,10 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
-from viscotack.methods.curve import Curve, side_by_side
-from viscotack.methods.family import Family, Pull, family
-from viscotack.problem import Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem import Problem
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.simulate.curve_family import Family, Pull, family
+from viscotack.simulate.force_curve import Curve, side_by_side
 
 from .interacting import coupled, interactions
 

@@ -17,7 +17,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.cards import Quantity
 from viscotack.errors import InputError
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .pulling import PadArray, prepared
 

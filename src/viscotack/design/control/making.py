@@ -11,11 +11,11 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.clock import limited
 from viscotack.errors import InputError
-from viscotack.methods import solve
-from viscotack.problem import Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem import Problem
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.result import Outcome
 from viscotack.result.observables import pull_off
+from viscotack.simulate import solve
 from viscotack.units import readable
 
 from .table import ForceTable

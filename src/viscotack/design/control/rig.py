@@ -8,13 +8,13 @@ from math import inf
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.bem.settings import Settings
-from viscotack.bem.stepwise import SteppedSimulation
 from viscotack.clock import TimeUp, limited
 from viscotack.design.window.simulated import part_of, posed_contact
 from viscotack.errors import InputError
-from viscotack.problem import Problem, Scales
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem import Problem, Scales
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.stepwise import SteppedSimulation
 from viscotack.threads import one_blas_thread
 
 from .release import Release

@@ -5,7 +5,7 @@ The object has two contacts that carry the same force, and the one that opens de
 derivation is in docs/pick_and_print.md.
 """
 
-from viscotack.methods.in_series import SeriesOpening
+from viscotack.simulate.in_series import SeriesOpening
 
 from .chances import (
     CellYield,

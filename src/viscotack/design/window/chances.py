@@ -26,9 +26,9 @@ import numpy as np
 
 from viscotack.cards import Quantity
 from viscotack.errors import InputError
-from viscotack.methods.in_series import SeriesOpening, opening_by_cracks
-from viscotack.problem import Problem
-from viscotack.protocol import AtForce
+from viscotack.model.problem import Problem
+from viscotack.model.protocol import AtForce
+from viscotack.simulate.in_series import SeriesOpening, opening_by_cracks
 
 from .opening import check_pair, posed
 from .picking import DONOR, RECEIVER

@@ -7,11 +7,11 @@ from math import isnan
 from typing import Any
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.methods.in_series import SIMULATION, SeriesOpening, opening_by_cracks
-from viscotack.problem import Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.protocol import AtForce, Retraction
-from viscotack.traction import ages
+from viscotack.model.problem import Problem
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.protocol import AtForce, Retraction
+from viscotack.model.traction import ages
+from viscotack.simulate.in_series import SIMULATION, SeriesOpening, opening_by_cracks
 
 from .simulated import simulate_in_series
 
@@ -142,7 +142,7 @@ def aged(problem: Problem, dwell: float) -> Problem:
     Examples
     --------
     >>> from viscotack import AtForce, Elastic, LennardJones, Retraction, Sphere
-    >>> from viscotack.traction import SaturatingAgeing
+    >>> from viscotack.model.traction import SaturatingAgeing
     >>> law = SaturatingAgeing(0.05, 1e-7, reference_time=10.0, largest_growth=2.0)
     >>> rubber = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
     >>> contact = Problem(rubber, law, Sphere(1e-3), Retraction(AtForce(1e-3), 1e-5))

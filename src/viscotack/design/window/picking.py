@@ -14,9 +14,9 @@ from itertools import pairwise
 from math import isfinite, log, sqrt
 
 from viscotack.errors import InputError
-from viscotack.methods.in_series import CRACKS, SIMULATION, SeriesOpening
-from viscotack.problem import Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.problem import Problem
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.simulate.in_series import CRACKS, SIMULATION, SeriesOpening
 
 from .opening import posed, which_opens
 

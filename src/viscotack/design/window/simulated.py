@@ -17,19 +17,19 @@ from math import inf
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.bem.books import History
-from viscotack.bem.bounds import check_bounds
-from viscotack.bem.contacts.contact import Contact, Relaxed
-from viscotack.bem.machine import Leg
-from viscotack.bem.series import Part, SeriesHistory, Units, march_in_series
-from viscotack.bem.settings import Settings
-from viscotack.bem.solver import contact_of, discretised, modes_of_run, relaxed_start
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError, OutOfRange
-from viscotack.methods import handover
-from viscotack.problem import Groups, Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.protocol import AtForce, Retraction
+from viscotack.model.problem import Groups, Problem
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.protocol import AtForce, Retraction
+from viscotack.simulate import handover
+from viscotack.simulate.bounds import check_bounds
+from viscotack.simulate.contacts.contact import Contact, Relaxed
+from viscotack.simulate.history import History
+from viscotack.simulate.machine import Leg
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.solver import contact_of, discretised, modes_of_run, relaxed_start
+from viscotack.simulate.two_contacts import Part, SeriesHistory, Units, march_in_series
 from viscotack.threads import one_blas_thread
 
 _STATUS = {

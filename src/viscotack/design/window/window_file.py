@@ -17,11 +17,11 @@ from typing import Annotated, Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials import Elastic
-from viscotack.problem import Problem
-from viscotack.problem.tables import Read, Reading, read_as
-from viscotack.protocol.moves import Stiffness
-from viscotack.traction import ages
+from viscotack.model.materials import Elastic
+from viscotack.model.problem import Problem
+from viscotack.model.problem.tables import Read, Reading, read_as
+from viscotack.model.protocol.moves import Stiffness
+from viscotack.model.traction import ages
 
 from ..files import at, contact, ends, opened
 from .chances import WindowScatter

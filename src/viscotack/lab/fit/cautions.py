@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.materials.passport import LIQUID
+from viscotack.model.materials.passport import LIQUID
 
 from .observed import Observed, only
 from .prony import NAMES, change, fit_series, open_ends

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from viscotack.errors import InputError
-from viscotack.materials.words import FITS_ONLY
+from viscotack.model.materials.words import FITS_ONLY
 from viscotack.threads import one_blas_thread
 from viscotack.units import readable
 
@@ -95,7 +95,7 @@ def fit(
 
     >>> import numpy as np
     >>> from viscotack.lab.sweeps import MasterCurve
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
     ... )

@@ -68,7 +68,7 @@ def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e9, tau0=1.0, poisson_ratio=0.5)
     >>> omega = np.geomspace(1e-2, 1e6, 40)
     >>> modulus = solid.complex_modulus(omega)

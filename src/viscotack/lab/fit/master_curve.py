@@ -17,7 +17,7 @@ from viscotack.errors import InputError
 from viscotack.lab.grouping import GAP, refuse_unlike
 from viscotack.lab.joining import joined_source
 from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable
-from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
+from viscotack.model.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
 from .kramers_kronig import causal_misfit
 from .shift_factors import (

@@ -14,7 +14,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.grouping import refuse_unlike
 from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Source
-from viscotack.materials import Material
+from viscotack.model.materials import Material
 
 Data = MasterCurve | FrequencySweeps | RelaxationTest | CreepTest
 

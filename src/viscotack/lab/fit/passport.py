@@ -2,8 +2,8 @@
 
 from viscotack.errors import InputError
 from viscotack.lab.sweeps import ShiftTable
-from viscotack.materials.passport import Evidence, Origin, Passport
-from viscotack.materials.shift import Shift
+from viscotack.model.materials.passport import Evidence, Origin, Passport
+from viscotack.model.materials.shift import Shift
 
 from .report import FitReport
 from .shift_laws import nearest_law
@@ -48,7 +48,7 @@ def issued(
     --------
     >>> import numpy as np
     >>> from viscotack.lab import MasterCurve, fit
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
     >>> omega = np.geomspace(0.1, 1e4, 16)
     >>> modulus = solid.complex_modulus(omega)

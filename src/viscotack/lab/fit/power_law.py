@@ -20,7 +20,7 @@ from scipy.optimize import least_squares
 from viscotack.arrays import Array
 from viscotack.cards import cards
 from viscotack.errors import InputError
-from viscotack.materials import (
+from viscotack.model.materials import (
     FractionalKelvinVoigt,
     FractionalMaxwell,
     FractionalZener,
@@ -28,7 +28,7 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.materials.interconversion import reciprocal
+from viscotack.model.materials.interconversion import reciprocal
 
 from .errors import errors
 from .observed import Observed

@@ -34,9 +34,9 @@ from scipy.stats import norm
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Prony
-from viscotack.materials.conversion import RetardationSeries, relaxation_series
-from viscotack.materials.modes import maxwell
+from viscotack.model.materials import Prony
+from viscotack.model.materials.conversion import RetardationSeries, relaxation_series
+from viscotack.model.materials.modes import maxwell
 
 from .errors import Errors, errors
 from .nonnegative import nonnegative

@@ -23,7 +23,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.grouping import GAP, levels
 from viscotack.lab.sweeps import FrequencySweeps, ShiftTable
-from viscotack.materials.shift import TabulatedShift
+from viscotack.model.materials.shift import TabulatedShift
 
 from .overlap import Curve, Hold, Step, free_vertical, step_between, vertical_at
 

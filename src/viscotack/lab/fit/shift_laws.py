@@ -8,7 +8,7 @@ from scipy.optimize import least_squares
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.sweeps import ShiftTable
-from viscotack.materials.shift import WLF, Arrhenius, FittedShift, wlf_decades
+from viscotack.model.materials.shift import WLF, Arrhenius, FittedShift, wlf_decades
 
 _MISSED = 0.1  # decades: deviation from a row that is always tolerated
 _UNCERTAIN = 0.01  # decades: scatter of a shift in addition to its stated uncertainty

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.lab.sweeps import MasterCurve, ShiftTable
-from viscotack.materials import Prony
+from viscotack.model.materials import Prony
 
 from .observed import observed, only
 from .power_law import fitted_constants
@@ -47,7 +47,7 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0
     --------
     >>> import numpy as np
     >>> from viscotack.lab import MasterCurve, fit
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
     >>> omega = np.geomspace(0.1, 1e4, 16)
     >>> modulus = solid.complex_modulus(omega)

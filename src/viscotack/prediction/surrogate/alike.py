@@ -21,7 +21,7 @@ from functools import cache
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.materials import spectrum
+from viscotack.model.materials import spectrum
 
 from . import physics
 

@@ -35,7 +35,7 @@ from functools import cached_property
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.traction import LennardJones
+from viscotack.model.traction import LennardJones
 
 from .answers import Answers
 from .contact import Contact, between, scaled_logarithms

@@ -1,9 +1,9 @@
 r"""Surrogate for large Tabor numbers, trained on the theory of a steady crack at the edge.
 
 Above a Tabor number of ten the forces hardly extend beyond the edge. The theory of
-:mod:`viscotack.methods.by_crack` takes a tenth of a second, and some seconds for a new solid.
-This surrogate approximates it for spheres on power laws by retardation, retracted from relaxed
-starts. It predicts the position of the force between its slowest and its fastest limit,
+:mod:`viscotack.simulate.crack_contact.by_crack` takes a tenth of a second, and some seconds for a
+new solid. This surrogate approximates it for spheres on power laws by retardation, retracted from
+relaxed starts. It predicts the position of the force between its slowest and its fastest limit,
 
 .. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \frac{f(\mu k^{1/3})}{k} ,
 

@@ -101,7 +101,7 @@ def local_exponent(speed: Values, *, material: _crack.Material) -> Number:
     speed : array_like
         Dimensionless speed :math:`\hat v`, positive.
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`.
+        Viscoelastic solid of :mod:`viscotack.model.materials`.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def local_exponent(speed: Values, *, material: _crack.Material) -> Number:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e8, tau0=1e-3, poisson_ratio=0.5
     ... )
@@ -133,7 +133,7 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
     Parameters
     ----------
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`, not elastic.
+        Viscoelastic solid of :mod:`viscotack.model.materials`, not elastic.
 
     Returns
     -------
@@ -147,7 +147,7 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
 
     Examples
     --------
-    >>> from viscotack.materials import RetardationPowerLaw
+    >>> from viscotack.model.materials import RetardationPowerLaw
     >>> rubber = RetardationPowerLaw(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.6, tau0=1e-3, poisson_ratio=0.5
     ... )

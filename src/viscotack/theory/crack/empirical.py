@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials.shift import UNIVERSAL, wlf_decades
+from viscotack.model.materials.shift import UNIVERSAL, wlf_decades
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 _OPENS = "a crack that closes is another problem"

@@ -43,7 +43,7 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
     speed : array_like
         Dimensionless speed, not negative.
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`.
+        Viscoelastic solid of :mod:`viscotack.model.materials`.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
     ... )
@@ -70,7 +70,7 @@ def speed(amplification: Values, *, material: _crack.Material) -> Number:
     amplification : array_like
         Effective over rubbery surface energy, at least 1 and below glassy over rubbery modulus.
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`.
+        Viscoelastic solid of :mod:`viscotack.model.materials`.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def speed(amplification: Values, *, material: _crack.Material) -> Number:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
     ... )

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
 from viscotack.theory._checks import Number, Values, plain, positive, ratio
 
 from . import greenwood, persson_brener
@@ -32,7 +32,7 @@ class CrackLaw:
     ----------
     theory : str
         "greenwood" or "persson-brener".
-    material : viscoelastic material of :mod:`viscotack.materials`
+    material : viscoelastic material of :mod:`viscotack.model.materials`
         Only its normalised creep is used, not its rubbery modulus.
     tip_length : float
         Length l of the tip of the slow crack [m], as defined by the theory:
@@ -42,7 +42,7 @@ class CrackLaw:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
     ... )

@@ -44,7 +44,7 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
     speed : array_like
         Dimensionless speed, not negative.
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`.
+        Viscoelastic solid of :mod:`viscotack.model.materials`.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def amplification(speed: Values, *, material: _crack.Material) -> Number:
 
     Examples
     --------
-    >>> from viscotack.materials import RetardationPowerLaw
+    >>> from viscotack.model.materials import RetardationPowerLaw
     >>> rubber = RetardationPowerLaw(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.6, tau0=1e-3, poisson_ratio=0.5
     ... )
@@ -71,7 +71,7 @@ def speed(amplification: Values, *, material: _crack.Material) -> Number:
     amplification : array_like
         Effective over rubbery surface energy, at least 1 and below glassy over rubbery modulus.
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`.
+        Viscoelastic solid of :mod:`viscotack.model.materials`.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def speed(amplification: Values, *, material: _crack.Material) -> Number:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
     ... )

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
 from viscotack.theory._checks import WIDEST_GAP as WIDEST_GAP
 from viscotack.theory._checks import Values, ascending
 

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.geometry import detail
-from viscotack.geometry.gauss import gauss
+from viscotack.model.geometry import detail
+from viscotack.model.geometry.gauss import gauss
 from viscotack.theory._checks import Values
 
 # Exact to round-off for smooth profiles.

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscotack.geometry import Body, HalfSpace, Sphere
+from viscotack.model.geometry import Body, HalfSpace, Sphere
 from viscotack.theory._checks import Number, Values, plain, positive
 
 from . import indenter, on_layer
@@ -108,7 +108,7 @@ def energy_release_rate(
 
     Examples
     --------
-    >>> from viscotack.geometry import Bonded, Layer
+    >>> from viscotack.model.geometry import Bonded, Layer
     >>> film = Layer(0.2e-3, Bonded(poisson_ratio=0.5))
     >>> disc = dict(contact_radius=1e-3, contact_modulus=1e6)
     >>> each = [energy_release_rate(-1e-6, body=body, **disc) for body in (HalfSpace(), film)]
@@ -155,7 +155,7 @@ def pull_off_force(
 
     Examples
     --------
-    >>> from viscotack.geometry import Bonded, Layer
+    >>> from viscotack.model.geometry import Bonded, Layer
     >>> disc = dict(contact_radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
     >>> film = Layer(0.2e-3, Bonded(poisson_ratio=0.5))
     >>> each = [pull_off_force(body=body, **disc) for body in (HalfSpace(), film)]

@@ -35,9 +35,9 @@ import numpy as np
 import scipy
 
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.geometry import Base, Disc, HalfSpace, Layer, Shape
-from viscotack.geometry.gauss import gauss
-from viscotack.protocol import AtForce
+from viscotack.model.geometry import Base, Disc, HalfSpace, Layer, Shape
+from viscotack.model.geometry.gauss import gauss
+from viscotack.model.protocol import AtForce
 from viscotack.theory._checks import Number, Values, plain, positive
 
 from . import disc, indenter, relaxed
@@ -55,7 +55,7 @@ def pull_off(
     Parameters
     ----------
     shape : shape of revolution
-        Rigid indenter, e.g. :class:`viscotack.geometry.Sphere`. A disc detaches as a whole
+        Rigid indenter, e.g. :class:`viscotack.model.geometry.Sphere`. A disc detaches as a whole
         (:mod:`.disc`).
     body : Layer or HalfSpace
         The film, with its thickness [m] and its base.
@@ -76,7 +76,7 @@ def pull_off(
     --------
     A lens of 5 mm on a bonded film of silicone, 50 um thick, and on a half-space:
 
-    >>> from viscotack.geometry import Bonded, Sphere
+    >>> from viscotack.model.geometry import Bonded, Sphere
     >>> solid = dict(shape=Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.05)
     >>> film = Layer(50e-6, Bonded(poisson_ratio=0.5))
     >>> [f"{-pull_off(body=body, **solid).force * 1e3:.2f} mN" for body in (film, HalfSpace())]
@@ -119,7 +119,7 @@ def instability(
 
     Examples
     --------
-    >>> from viscotack.geometry import Bonded, Sphere
+    >>> from viscotack.model.geometry import Bonded, Sphere
     >>> film = Layer(50e-6, Bonded(poisson_ratio=0.5))
     >>> solid = dict(shape=Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.05)
     >>> f"{instability(body=film, **solid).depth * 1e6:.2f} um"
@@ -155,7 +155,7 @@ def work_to_pull_off(
 
     Examples
     --------
-    >>> from viscotack.geometry import Bonded, Sphere
+    >>> from viscotack.model.geometry import Bonded, Sphere
     >>> film = Layer(50e-6, Bonded(poisson_ratio=0.5))
     >>> solid = dict(shape=Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.05)
     >>> f"{work_to_pull_off(body=film, **solid) * 1e9:.2f} nJ"
@@ -204,7 +204,7 @@ def thin_limit(*, radius: Values, work_of_adhesion: Values, base: Base) -> Numbe
 
     Examples
     --------
-    >>> from viscotack.geometry import Frictionless
+    >>> from viscotack.model.geometry import Frictionless
     >>> force = thin_limit(radius=5e-3, work_of_adhesion=0.05, base=Frictionless())
     >>> f"{force * 1e3:.2f} mN"
     '1.57 mN'
@@ -250,7 +250,7 @@ def half_space_thickness(
 
     Examples
     --------
-    >>> from viscotack.geometry import Bonded, Sphere
+    >>> from viscotack.model.geometry import Bonded, Sphere
     >>> lens = dict(shape=Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.05)
     >>> thick = half_space_thickness(base=Bonded(poisson_ratio=0.5), **lens)
     >>> f"{thick * 1e6:.0f} um"

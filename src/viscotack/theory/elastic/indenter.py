@@ -11,8 +11,8 @@ PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E
 layer they follow from an integral equation (:mod:`.on_layer`), on another body from its influence
 matrix (:mod:`.on_body`).
 Range: short-range adhesion, small slopes, and a contact without holes. If the slope decreases
-outwards (:func:`viscotack.geometry.detail`), depth and force are those of a contact without gaps
-inside its edge. They may then have several branches and several minima
+outwards (:func:`viscotack.model.geometry.detail`), depth and force are those of a contact without
+gaps inside its edge. They may then have several branches and several minima
 (:mod:`viscotack.theory.elastic.wavy`).
 """
 
@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.geometry import Body, HalfSpace, Layer
+from viscotack.model.geometry import Body, HalfSpace, Layer
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.elastic import on_body, on_layer
 
@@ -41,7 +41,7 @@ def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE
     contact_radius : float or array_like
         Contact radius a [m], positive.
     shape : Shape
-        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+        Indenter of revolution, e.g. :class:`viscotack.model.geometry.Sphere`.
     body : Body
         Elastic body, by default the half-space.
 
@@ -54,12 +54,12 @@ def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE
     ------
     InputError
         If the contact radius is not positive and finite, or exceeds 100 thicknesses of a layer and
-        the shape has details (:func:`viscotack.geometry.detail`) or the layer is bonded with a
-        Poisson ratio between 0.49 and 0.5.
+        the shape has details (:func:`viscotack.model.geometry.detail`) or the layer is bonded with
+        a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> f"{bare_depth(1e-4, shape=Sphere(1e-3)) * 1e6:.1f} um"
     '10.0 um'
     """
@@ -84,7 +84,7 @@ def depth(
     contact_radius : float or array_like
         Contact radius a [m], positive.
     shape : Shape
-        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+        Indenter of revolution, e.g. :class:`viscotack.model.geometry.Sphere`.
     contact_modulus : float
         Contact modulus E* [Pa], positive.
     work_of_adhesion : float
@@ -101,14 +101,14 @@ def depth(
     ------
     InputError
         If a number is outside its range or not finite, or the contact radius exceeds 100
-        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
-        layer is bonded with a Poisson ratio between 0.49 and 0.5.
+        thicknesses of a layer and the shape has details (:func:`viscotack.model.geometry.detail`)
+        or the layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
     JKR depth for a sphere with a radius of 1 mm:
 
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
     >>> f"{depth(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
     '4.395 um'
@@ -136,7 +136,7 @@ def drawn(
     contact_radius : float or array_like
         Contact radius a [m], positive.
     shape : Shape
-        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+        Indenter of revolution, e.g. :class:`viscotack.model.geometry.Sphere`.
     contact_modulus : float
         Contact modulus E* [Pa], positive.
     work_of_adhesion : float
@@ -153,12 +153,12 @@ def drawn(
     ------
     InputError
         If a number is outside its range or not finite, or the contact radius exceeds 100
-        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
-        layer is bonded with a Poisson ratio between 0.49 and 0.5.
+        thicknesses of a layer and the shape has details (:func:`viscotack.model.geometry.detail`)
+        or the layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
     >>> f"{drawn(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
     '5.605 um'
@@ -184,7 +184,7 @@ def force(
     contact_radius : float or array_like
         Contact radius a [m], positive.
     shape : Shape
-        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+        Indenter of revolution, e.g. :class:`viscotack.model.geometry.Sphere`.
     contact_modulus : float
         Contact modulus E* [Pa], positive.
     work_of_adhesion : float
@@ -201,14 +201,14 @@ def force(
     ------
     InputError
         If a number is outside its range or not finite, or the contact radius exceeds 100
-        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
-        layer is bonded with a Poisson ratio between 0.49 and 0.5.
+        thicknesses of a layer and the shape has details (:func:`viscotack.model.geometry.detail`)
+        or the layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
     JKR force for a sphere with a radius of 1 mm:
 
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
     >>> f"{force(1e-4, shape=Sphere(1e-3), **solid) * 1e3:.3f} mN"
     '0.212 mN'
@@ -226,8 +226,8 @@ def stiffness(
     r"""Return the force per depth [N/m] of a rigid flat disc of this radius, positive.
 
     On a half-space it is :math:`2 E^* a`, on a thin layer of thickness b :math:`\pi a^2 E^*/(c b)`
-    with its compliance c (:attr:`viscotack.geometry.Bonded.foundation`), and if that is 0, of a
-    bonded incompressible layer, :math:`\tfrac{3 \pi}{32} E^* a^4/b^3`.
+    with its compliance c (:attr:`viscotack.model.geometry.Bonded.foundation`), and if that is 0,
+    of a bonded incompressible layer, :math:`\tfrac{3 \pi}{32} E^* a^4/b^3`.
 
     Parameters
     ----------
@@ -251,7 +251,7 @@ def stiffness(
 
     Examples
     --------
-    >>> from viscotack.geometry import Bonded
+    >>> from viscotack.model.geometry import Bonded
     >>> glued = Layer(0.5e-3, Bonded(poisson_ratio=0.5))
     >>> bodies = HalfSpace(), glued
     >>> each = [stiffness(1e-3, contact_modulus=1e6, body=body) for body in bodies]
@@ -285,7 +285,7 @@ def gap(
     contact_radius : float
         Contact radius a [m], positive.
     shape : Shape
-        Indenter of revolution, e.g. :class:`viscotack.geometry.Sphere`.
+        Indenter of revolution, e.g. :class:`viscotack.model.geometry.Sphere`.
     contact_modulus : float
         Contact modulus E* [Pa], positive.
     work_of_adhesion : float
@@ -302,12 +302,12 @@ def gap(
     ------
     InputError
         If a number is outside its range or not finite, or the contact radius exceeds 100
-        thicknesses of a layer and the shape has details (:func:`viscotack.geometry.detail`) or the
-        layer is bonded with a Poisson ratio between 0.49 and 0.5.
+        thicknesses of a layer and the shape has details (:func:`viscotack.model.geometry.detail`)
+        or the layer is bonded with a Poisson ratio between 0.49 and 0.5.
 
     Examples
     --------
-    >>> from viscotack.geometry import Sphere
+    >>> from viscotack.model.geometry import Sphere
     >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
     >>> around = gap([0.5e-4, 2e-4], contact_radius=1e-4, shape=Sphere(1e-3), **solid)
     >>> [f"{value * 1e6:.2f} um" for value in around]

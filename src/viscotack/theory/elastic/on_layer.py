@@ -37,8 +37,8 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Base, Bonded, Cone, Layer, PowerLawProfile, Sphere, detail
-from viscotack.geometry.gauss import gauss
+from viscotack.model.geometry import Base, Bonded, Cone, Layer, PowerLawProfile, Sphere, detail
+from viscotack.model.geometry.gauss import gauss
 
 from ._sneddon import half_space_depth
 

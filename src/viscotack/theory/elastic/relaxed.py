@@ -2,7 +2,7 @@ r"""Relaxed JKR contact at the start of a test: at a depth, under a force or wit
 
 JKR holds for forces of short range. The relaxed
 contact of a traction law of finite range, which exists slightly beyond the end of JKR's branch, is
-computed by the simulation (``viscotack.bem``) and approximated by a surrogate
+computed by the simulation (``viscotack.simulate``) and approximated by a surrogate
 (:meth:`viscotack.prediction.surrogate.model.Surrogate.start_depth`). The adhesion map
 (:mod:`viscotack.theory.elastic.adhesion_map`) shows the difference between the two.
 
@@ -20,7 +20,7 @@ import numpy as np
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.geometry import (
+from viscotack.model.geometry import (
     Body,
     Cone,
     HalfSpace,
@@ -32,7 +32,7 @@ from viscotack.geometry import (
     end,
     equivalent_radius,
 )
-from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from viscotack.model.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory._checks import ROUND_OFF, positive
 from viscotack.theory._roots import least
 
@@ -340,7 +340,8 @@ def adhesion_length(shape: Shape, *, contact_modulus: float, work_of_adhesion: f
     Parameters
     ----------
     shape : shape of revolution
-        Rigid indenter; R is its equivalent radius (:func:`viscotack.geometry.equivalent_radius`).
+        Rigid indenter; R is its equivalent radius
+        (:func:`viscotack.model.geometry.equivalent_radius`).
     contact_modulus, work_of_adhesion : float
         :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2], positive.
 

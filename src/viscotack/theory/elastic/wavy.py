@@ -1,8 +1,8 @@
 r"""Rigid wavy sphere on an elastic half-space (Guduru): waves can increase the pull-off force.
 
 The profile :math:`f = r^2/2R + A (1 - \cos k r)` with :math:`k = 2\pi/\lambda`
-(:class:`viscotack.geometry.WavySphere`), in full contact inside the radius a, has with Struve's
-functions H the depth and the force
+(:class:`viscotack.model.geometry.WavySphere`), in full contact inside the radius a, has with
+Struve's functions H the depth and the force
 
 .. math:: \delta = \frac{a^2}{R} + \frac{\pi}{2} A k a\, H_0(k a)
                    - \sqrt{2 \pi a \Delta\gamma_0/E^*},

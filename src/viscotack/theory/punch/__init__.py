@@ -1,6 +1,6 @@
 """Detachment of a flat punch from a layer; one module per topic, and the main functions."""
 
-from viscotack.geometry import Bonded, Frictionless
+from viscotack.model.geometry import Bonded, Frictionless
 
 from . import crossover, curve, design, laws, map, pad, rate, rectangle, regimes, unloading
 from .design import thickness_at_crack_speed, thickness_at_speed

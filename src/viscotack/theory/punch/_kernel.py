@@ -21,7 +21,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Base, Bonded
+from viscotack.model.geometry import Base, Bonded
 from viscotack.theory._roots import halved
 
 # kappa differs from 1 - exp(-2u) by u^2 exp(-2u), negligible above this u.

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import Base
+from viscotack.model.geometry import Base
 from viscotack.theory._checks import Number, Values, plain, positive
 
 from ._kernel import curve

@@ -58,7 +58,7 @@ def pull_off_stress(thickness: Values, pad: Pad, law: CrackLaw, *, crack_speed: 
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
@@ -102,7 +102,7 @@ def thickness_at_crack_speed(
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
@@ -143,7 +143,7 @@ def thickness_at_speed(stress: Values, pad: Pad, law: CrackLaw, *, speed: float)
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5

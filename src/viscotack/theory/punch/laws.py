@@ -13,7 +13,7 @@ import warnings
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import Base, Bonded
+from viscotack.model.geometry import Base, Bonded
 from viscotack.theory._checks import Number, Values, plain, positive
 
 # Largest Poisson ratio of the thin-layer law of a bonded layer (appendix I).

@@ -73,7 +73,7 @@ def regime_map(thickness: Values, speed: Values, pad: Pad, law: CrackLaw) -> Reg
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.geometry import Base
+from viscotack.model.geometry import Base
 from viscotack.theory._checks import Number, Values, positive
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.crack.law import Material

@@ -89,7 +89,7 @@ def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Num
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
@@ -134,7 +134,7 @@ def crack_speed(amplification: Values, law: CrackLaw, *, largest: Values) -> Num
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5

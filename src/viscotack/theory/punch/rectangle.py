@@ -73,7 +73,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Base, Bonded, Layer
+from viscotack.model.geometry import Base, Bonded, Layer
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.elastic import disc
 

@@ -99,7 +99,7 @@ def pull_off(speed: Values, pad: Pad, law: CrackLaw, *, thickness: Values) -> Pu
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5

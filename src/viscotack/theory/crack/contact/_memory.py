@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.materials import Modes
-from viscotack.materials.interconversion import reciprocal
+from viscotack.model.materials import Modes
+from viscotack.model.materials.interconversion import reciprocal
 
 
 class Chain(NamedTuple):

@@ -19,7 +19,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Base, HalfSpace, Layer, Sphere, detail
+from viscotack.model.geometry import Base, HalfSpace, Layer, Sphere, detail
 from viscotack.theory._roots import halved
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import largest_radius

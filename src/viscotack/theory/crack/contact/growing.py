@@ -22,12 +22,12 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
+from viscotack.model.traction import GentSchultz, LennardJones, Traction
+from viscotack.model.traction.growing import power_growth
+from viscotack.model.traction.growing import reference_speed as speed_of_growth
 from viscotack.theory._checks import Values
 from viscotack.theory.crack.steady import NeighbourCrack, SteadyCrack
-from viscotack.traction import GentSchultz, LennardJones, Traction
-from viscotack.traction.growing import power_growth
-from viscotack.traction.growing import reference_speed as speed_of_growth
 
 from ._edge import Edge
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
 from viscotack.threads import one_blas_thread
 
 from ._balance import Law, Solution, System, solved

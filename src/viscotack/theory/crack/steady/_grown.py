@@ -26,7 +26,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
 from ._branch import STEP, walked

@@ -10,7 +10,7 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.traction import Dugdale, Exponential, Traction, effective_range
+from viscotack.model.traction import Dugdale, Exponential, Traction, effective_range
 
 from ._balance import Law, Solution, System, solved
 from ._mesh import Mesh

@@ -15,9 +15,9 @@ import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.model.traction.resting import check_of_gap_alone
 from viscotack.theory._checks import Values, positive
 from viscotack.theory.crack import greenwood, persson_brener
-from viscotack.traction.resting import check_of_gap_alone
 
 from .cracks import SteadyCrack
 
@@ -79,8 +79,8 @@ def compared(
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.traction import LennardJones
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.model.traction import LennardJones
     >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
     >>> found = compared(SteadyCrack(solid, LennardJones(1, 1)), 10.0)
     >>> f"Persson-Brener {found.off('persson_brener'):+.1%}"
@@ -128,8 +128,8 @@ def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.traction import LennardJones
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.model.traction import LennardJones
     >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
     >>> alpha, off = best_strength_ratio(SteadyCrack(solid, LennardJones(1, 1)))
     >>> f"{alpha:.2f}, {off:.0%}"

@@ -30,10 +30,10 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
+from viscotack.model.traction import Dugdale, Traction, effective_range, grows
+from viscotack.model.traction.resting import check_ageless, reduced
 from viscotack.theory._checks import Number, Values, plain
-from viscotack.traction import Dugdale, Traction, effective_range, grows
-from viscotack.traction.resting import check_ageless, reduced
 
 from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
@@ -96,7 +96,7 @@ class SteadyCrack:
 
     Parameters
     ----------
-    material : viscoelastic material of :mod:`viscotack.materials`
+    material : viscoelastic material of :mod:`viscotack.model.materials`
         Its normalised creep is used; its contact modulus defines :attr:`speed_unit`.
     traction : LennardJones, Exponential, Dugdale, Tabulated or a law of the user's
         Law in SI or reduced. A rise below 0.02 and a fall below 0.5 of Dugdale's law are raised to
@@ -111,8 +111,8 @@ class SteadyCrack:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.traction import LennardJones
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.model.traction import LennardJones
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
     ... )
@@ -335,11 +335,11 @@ def modes_of(material: Any) -> Modes:
     Parameters
     ----------
     material : Material
-        Viscoelastic solid of :mod:`viscotack.materials`.
+        Viscoelastic solid of :mod:`viscotack.model.materials`.
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.model.materials import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
     ... )

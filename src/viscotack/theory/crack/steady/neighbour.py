@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.materials import Modes
+from viscotack.model.materials import Modes
 from viscotack.theory._checks import Values
 
 from ._branch import energy_of_odds
@@ -49,8 +49,8 @@ class NeighbourCrack:
 
     Examples
     --------
-    >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.traction import LennardJones
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.model.traction import LennardJones
     >>> solid = dict(rubbery_modulus=1, tau0=1, poisson_ratio=0)
     >>> known = SteadyCrack(StandardSolid(glassy_modulus=10, **solid), LennardJones(1, 1))
     >>> neighbour = NeighbourCrack(known, StandardSolid(glassy_modulus=11, **solid))

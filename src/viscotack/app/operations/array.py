@@ -1,0 +1,190 @@
+"""The operation ``array``: many pads on one backing."""
+
+from math import isfinite, isnan
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
+
+from .request import Answer, Caller, File, Request, csv_file, number_of, picture
+from .simulate import Accuracy
+
+
+class OfArray(Request):
+    """Pull an array of pads off: force, order of detachment, load sharing, payload and yield.
+
+    Each pad follows the force-depth curve of one pad at the speed of the pull; heights, works,
+    tilt, curvature and springs of the backing determine which detaches first. docs/arrays.md
+    describes the file and the theory.
+
+    Example: viscotack array gripper_finger.toml --plot array.png
+    """
+
+    word: ClassVar = "array"
+    outputs: ClassVar = (
+        csv_file("Write force by travel of the drive; - is standard output."),
+        csv_file("Write a row for each pad; - is standard output.", "pads"),
+        picture("Draw the force and the order of the pads to a .png, .pdf or .svg file."),
+    )
+    takes_own: ClassVar = True
+
+    file: Annotated[
+        Path,
+        File(
+            "TOML file with [pad], [array] and [pull]; optional: [backing], [hold].",
+            metavar="ARRAY.toml",
+            argument=True,
+        ),
+    ]
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Pull the array, and hold its load, telling ``share``."""
+        from viscotack.design.arrays import (
+            array_yield,
+            holding,
+            preload_after,
+            pull_array,
+            read_array,
+        )
+        from viscotack.plot.array import draw_array
+
+        from .parts.tables import rows_as_csv
+
+        file = caller.file(self.file)
+        stated = read_array(file, also=caller.also, beside=caller.within(file).file)
+        how: Any = {
+            "speed": stated.speed,
+            "preload": stated.preload,
+            "accuracy": self.accuracy,
+            "time_limit": self.time_limit,
+        }
+
+        def tell(share: float) -> None:
+            caller.tell({"share": share})
+
+        scatter, load = stated.scatter, stated.hold
+        array = stated.array if scatter is None else scatter.of(stated.array)
+        found = pull_array(array, **how, progress=tell)
+        held = None if load is None else holding(array, found, load, **how)
+        wait = stated.hold_time
+        left = None if wait is None else preload_after(array, wait, **how)
+        part = None
+        if scatter is not None and load is not None:
+            part = array_yield(
+                stated.array, scatter, load=load.force, draws=stated.draws, **how, progress=tell
+            )
+        curve = [
+            {"travel_m": -x, "force_N": F} for x, F in zip(found.drive, found.force, strict=True)
+        ]
+        pads = _pads(array, found)
+        return Answer(
+            found,
+            record=lambda: (
+                _record(array, found, held, part)
+                | ({} if left is None else {"preload_after_hold_N": left})
+                | {"pads": pads}
+            ),
+            words=lambda: _words(array, found, held, part) + _left_words(stated, left),
+            files={"csv": rows_as_csv(curve), "pads": rows_as_csv(pads)},
+            pictures={"plot": lambda: draw_array(array, found, load=load)},
+        )
+
+
+def _pads(array: Any, found: Any) -> list[dict[str, Any]]:
+    """Return a row for each pad."""
+    order = {pad: place + 1 for place, pad in enumerate(found.order)}
+    return [
+        {
+            "pad": i + 1,
+            "x_m": x,
+            "y_m": y,
+            "height_m": array.heights[i],
+            "work_factor": array.works[i],
+            "start_force_N": float(found.start_force[i]),
+            "released_at_m": float(found.released[i]) if i in order else None,
+            "order": order.get(i),
+        }
+        for i, (x, y) in enumerate(array.positions)
+    ]
+
+
+def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    record: dict[str, Any] = {
+        "count": len(array.positions),
+        "pull_off_force_N": found.pull_off_force,
+        "interval_N": list(found.interval),
+        "work_of_separation_J": found.work,
+        "lost_in_jumps_J": found.lost,
+        "load_sharing": found.load_sharing,
+        "jumps": [{"travel_m": x, "pads": count} for x, count in found.jumps],
+        "method": found.method,
+        "why": found.why,
+    }
+    if held is not None:
+        record |= {
+            "load_N": held.force,
+            "holds": held.holds,
+            "payload_kg": held.payload,
+            "lasting_payload_kg": held.lasting,
+            "time_to_detachment_s": held.time if isfinite(held.time) else None,
+            "release_time_s": held.release_time,
+            "why_time": held.why,
+        }
+    if part is not None:
+        record |= {"yield": part.share, "yield_interval": list(part.interval)}
+    return record
+
+
+def _left_words(stated: Any, left: float | None) -> str:
+    """Return the force that is left of the preload as a line."""
+    if left is None:
+        return ""
+    return (
+        f"\npreload of {readable(stated.preload, 'N')}: {readable(left, 'N')} are left after "
+        f"{readable(stated.hold_time, 's')} in place (one pad under the mean force)"
+    )
+
+
+def _words(array: Any, found: Any, held: Any, part: Any) -> str:
+    """Return the answer as lines."""
+    low, high = found.interval
+    count, touched = len(array.positions), len(found.order)
+    lines = [
+        f"pull-off force of {count} pads: {readable(found.pull_off_force, 'N')} "
+        f"({readable(low, 'N', to=high)})",
+        f"load sharing: {found.load_sharing:.3f} of {count} times one pad",
+        f"work of separation: {readable(found.work, 'J')}, of which "
+        f"{readable(found.lost, 'J')} are lost in jumps",
+        f"first pad off after {readable(found.jumps[0][0], 'm')}, last after "
+        f"{readable(found.jumps[-1][0], 'm')}; at most {found.largest_jump} at one instant",
+    ]
+    if touched < count:
+        lines.append(f"{count - touched} of {count} pads do not touch")
+    if held is not None:
+        word = {True: "holds", False: "does not hold", None: "may hold, within the interval"}
+        lines.append(
+            f"load of {readable(held.force, 'N')} with acceleration and safety factor: the array "
+            f"{word[held.holds]}"
+        )
+        lines.append(f"payload at the pull speed: {held.payload * 1e3:.4g} g")
+        if held.lasting is not None:
+            lines.append(
+                f"payload that lasts at rest: {held.lasting * 1e3:.4g} g, by the pull-off "
+                "force of the relaxed pads"
+            )
+        after = f"after {readable(held.time, 's')}" if isfinite(held.time) else "not within a day"
+        after = "after an unknown time" if isnan(held.time) else after
+        lines.append(f"at rest under its weight the load detaches {after} ({held.why})")
+        lines.append(f"release takes {readable(held.release_time, 's')} at this speed")
+    if part is not None:
+        low, high = part.interval
+        lines.append(
+            f"yield: {part.share:.1%} of {part.forces.size} drawn arrays reach the load "
+            f"({low:.1%} to {high:.1%}); 90 % of them reach {readable(part.reached_by(0.9), 'N')}"
+        )
+    return "\n".join([*lines, f"interval: {found.why}"])

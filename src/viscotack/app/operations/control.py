@@ -1,0 +1,226 @@
+"""The operation ``control``: the force table of a contact for controllers, and a release."""
+
+from math import inf
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.errors import InputError
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
+
+from .flags import INDENTERS
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    Number,
+    Option,
+    Output,
+    Request,
+    csv_file,
+    number_of,
+    picture,
+)
+from .simulate import Accuracy
+
+if TYPE_CHECKING:
+    from viscotack.design.control import ForceTable, Released
+
+# Part of the progress that the table takes, where a release follows.
+_TABLE = 0.7
+
+
+class Control(Request):
+    """Tabulate the force by depth and speed for a controller, and release at a wanted force.
+
+    Simulates the retraction at as many speeds as the interpolation needs, and writes the table as
+    C or as an FMU. With --wanted a controller that reads force and drive moves the drive of a
+    simulated rig, behind its spring, so that the contact detaches at this force.
+
+    Example: viscotack control lens.toml --slowest "1 um/s" --fastest "1 mm/s" --c contact.h
+    --wanted "5 mN" --stiffness "300 N/m"
+    """
+
+    word: ClassVar = "control"
+    outputs: ClassVar = (
+        Output(
+            "c", "Write force, pull-off force and controller as a header of C99.", endings=(".h",)
+        ),
+        Output(
+            "fmu",
+            "Write an FMU for co-simulation, FMI 3.0, by the C compiler of this machine.",
+            "binary",
+            endings=(".fmu",),
+        ),
+        csv_file("Write a row for each speed: pull-off force and travels; - is standard output."),
+        csv_file("Write a row for each tick of the release; - is standard output.", "ticks"),
+        picture("Draw forces by depth and the release to a .png, .pdf or .svg file."),
+    )
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Any,
+        Contact(
+            "The contact in SI, on a rigid machine; the speed of its protocol does not matter.",
+            indenters=INDENTERS,
+            spelling="case",
+        ),
+    ]
+    slowest: Annotated[
+        float, Number("Slowest speed of the contact.", unit="m/s", above=0, metavar="SPEED")
+    ]
+    fastest: Annotated[
+        float, Number("Fastest speed of the contact.", unit="m/s", above=0, metavar="SPEED")
+    ]
+    tolerance: Annotated[
+        float,
+        Number(
+            "Largest miss of the interpolation, over the pull-off force.",
+            above=0,
+            most=0.2,
+            metavar="PART",
+        ),
+    ] = 0.01
+    name: Annotated[
+        str, Option("Name of the model, and prefix of the functions in C.", metavar="NAME")
+    ] = "contact"
+    wanted: Annotated[
+        float | None,
+        Number("Pull-off force of the release.", unit="N", above=0, metavar="FORCE"),
+    ] = None
+    stiffness: Annotated[
+        float | None,
+        Number(
+            "Stiffness of the rig; rigid if left out.", unit="N/m", above=0, metavar="STIFFNESS"
+        ),
+    ] = None
+    period: Annotated[
+        float,
+        Number("Time between two ticks of the controller.", unit="s", above=0, metavar="TIME"),
+    ] = 1e-3
+    drive_limit: Annotated[
+        float | None,
+        Number("Largest speed of the drive.", unit="m/s", above=0, metavar="SPEED"),
+    ] = None
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
+        if self.wanted is None and self.stiffness is not None:
+            raise InputError("the stiffness is that of the rig of a release; give wanted too")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Tabulate, telling ``share``; release on the simulated rig if a force is wanted."""
+        from viscotack.design.control import Release, c_header, fmu, force_table, let_go
+        from viscotack.files.whole import write_whole
+        from viscotack.plot.control import draw_control
+
+        from .parts.tables import rows_as_csv
+
+        if self.wanted is None and "ticks" in caller.wants:
+            raise InputError("ticks is of a release; give wanted")
+        stated = self.stated(caller)
+        problem: Any = stated.problem
+        part = 1.0 if self.wanted is None else _TABLE
+        table = force_table(
+            problem,
+            self.slowest,
+            self.fastest,
+            tolerance=self.tolerance,
+            accuracy=self.accuracy,
+            time_limit=self.time_limit,
+            progress=lambda share: caller.tell({"share": part * share}),
+        )
+        release = released = None
+        if self.wanted is not None:
+            release = Release(
+                table,
+                self.wanted,
+                self.stiffness or inf,
+                self.period,
+                self.drive_limit or inf,
+            )
+            released = let_go(problem, release, accuracy=self.accuracy, time_limit=self.time_limit)
+        speed = None if release is None else release.speed
+        files = {
+            "c": lambda to: write_whole(to, c_header(table, self.name).encode()),
+            "fmu": lambda to: write_whole(to, fmu(table, self.name)),
+            "csv": rows_as_csv(_rows(table)),
+        }
+        if released is not None:
+            files["ticks"] = rows_as_csv(_ticks(released))
+        return Answer(
+            table if released is None else (table, released),
+            record=lambda: _record(table, released, speed),
+            words=lambda: _words(table, released, speed),
+            files=files,
+            pictures={"plot": lambda: draw_control(table, released)},
+            notes=stated.notes,
+        )
+
+
+def _rows(table: "ForceTable") -> list[dict[str, float]]:
+    """Return a row for each speed."""
+    names = ("travel_to_pull_off_m", "travel_to_half_m", "travel_to_end_m")
+    return [
+        {"speed_m_per_s": v, "pull_off_force_N": P} | dict(zip(names, travel, strict=True))
+        for v, P, travel in zip(
+            table.speed.tolist(),
+            table.pull_off_force.tolist(),
+            table.travel.tolist(),
+            strict=True,
+        )
+    ]
+
+
+def _ticks(released: "Released") -> list[dict[str, float]]:
+    """Return a row for each tick."""
+    columns = {
+        "time_s": released.time,
+        "drive_m": released.drive,
+        "depth_m": released.depth,
+        "force_N": released.force,
+        "drive_speed_m_per_s": released.drive_speed,
+    }
+    values = zip(*(x.tolist() for x in columns.values()), strict=True)
+    return [dict(zip(columns, row, strict=True)) for row in values]
+
+
+def _record(
+    table: "ForceTable", released: "Released | None", speed: float | None
+) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    found: dict[str, Any] = {
+        "start_depth_m": table.start_depth,
+        "error": table.error,
+        "speeds": _rows(table),
+        "release": None,
+    }
+    if released is not None:
+        found["release"] = {
+            "wanted_N": released.wanted,
+            "contact_speed_m_per_s": speed,
+            "pull_off_force_N": released.pull_off_force,
+            "miss": released.miss,
+            "time_s": float(released.time[-1]),
+        }
+    return found
+
+
+def _words(table: "ForceTable", released: "Released | None", speed: float | None) -> str:
+    """Return the answer as lines."""
+    v, P = table.speed, table.pull_off_force
+    lines = [
+        f"force table of {len(v)} speeds from {readable(float(v[0]), 'm/s')} to "
+        f"{readable(float(v[-1]), 'm/s')}, within {100 * table.error:.2g} % of the pull-off force",
+        f"pull-off force {readable(float(P.min()), 'N')} to {readable(float(P.max()), 'N')}",
+    ]
+    if released is not None and speed is not None:
+        lines += [
+            f"release at {readable(released.wanted, 'N')}: the contact keeps "
+            f"{readable(speed, 'm/s')}",
+            f"simulated rig: detaches at {readable(released.pull_off_force, 'N')}, "
+            f"{released.miss:+.2%}, after {readable(float(released.time[-1]), 's')}",
+        ]
+    return "\n".join(lines)

@@ -1,0 +1,274 @@
+"""The operation ``design``: what to build for wanted forces."""
+
+from dataclasses import replace
+from math import exp
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+from pydantic import Field
+
+from viscotack.cards import card_of
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
+
+from .predict import OF_METHOD
+from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
+from .simulate import Accuracy
+
+
+class OfDesign(Request):
+    """Find radius, preload, number of pads and speeds that hold and release wanted forces.
+
+    Targets are forces, works, loads held for a time and the yield, at all stated speeds and
+    temperatures. Surrogates or theories with their intervals are searched for the largest margin
+    of the worst target, and simulations of the best designs decide. Several targets have a front
+    of designs. Out of reach, the answer states the bound. docs/design.md describes the file and
+    the method.
+
+    Example: viscotack design lift_and_let_go.toml --plot design.png
+    """
+
+    word: ClassVar = "design"
+    outputs: ClassVar = (
+        csv_file("Write a row for each design; - is standard output."),
+        csv_file("Write a row for each design of the front; - is standard output.", "front"),
+        picture("Draw forces by speed, and elasticities, to a .png, .pdf or .svg file."),
+        picture("Draw the front of several targets to a .png, .pdf or .svg file.", "trade"),
+    )
+    takes_own: ClassVar = True
+
+    file: Annotated[
+        Path,
+        File(
+            "The [targets], [bounds] of variables, the [interface], and [material] or "
+            "[[materials]].",
+            metavar="DESIGN.toml",
+            argument=True,
+        ),
+    ]
+    confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
+    seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Search and simulate, telling ``share``."""
+        from viscotack.design import find_design, read_design
+        from viscotack.plot.design import draw_design, draw_front
+
+        from .parts.tables import rows_as_csv
+
+        file = caller.file(self.file)
+        stated = read_design(file, also=caller.also, beside=caller.within(file).file)
+        found = find_design(
+            stated.materials,
+            stated.traction,
+            stated.space,
+            stated.targets,
+            stated.conditions,
+            confirm=self.confirm,
+            seed=self.seed,
+            accuracy=self.accuracy,
+            time_limit=self.time_limit,
+            progress=lambda share: caller.tell({"share": share}),
+        )
+        rows = [
+            _row(one, run, part)
+            for one, run, part in zip(found.candidates, found.simulated, found.yields, strict=True)
+        ]
+        front = [_front_row(one) for one in found.front]
+        warned = [_cautions(one.choice, stated) for one in found.candidates]
+        return Answer(
+            found,
+            record=lambda: _record(found, rows, front) | {"cautions": warned},
+            words=lambda: _words(found, warned),
+            files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
+            pictures={
+                "plot": lambda: draw_design(found, stated),
+                "trade": lambda: draw_front(found),
+            },
+        )
+
+
+# Forces of a design with their units.
+_FORCES = {"hold": "N", "release": "N", "work": "J", "dead_load": "N"}
+
+
+def _choice_row(choice: Any) -> dict[str, Any]:
+    """Return the variables of a design as columns."""
+    return {
+        "material": choice.material,
+        "radius_m": choice.radius,
+        "preload_N": choice.preload,
+        "pads": choice.pads,
+        "hold_speed_m_per_s": choice.hold_speed,
+        "release_speed_m_per_s": choice.release_speed,
+        "modulus_Pa": choice.modulus,
+        "thickness_m": choice.thickness,
+        "exponent": choice.exponent,
+        "backing_N_per_m": choice.backing,
+    }
+
+
+def _forces_row(one: Any) -> dict[str, Any]:
+    """Return the forces of a design with their intervals as columns."""
+    row: dict[str, Any] = {}
+    for name, unit in _FORCES.items():
+        force = one.forces.get(name)
+        values = (None,) * 3 if force is None else (force.value, force.low, force.high)
+        columns = (unit, f"low_{unit}", f"high_{unit}")
+        row |= {f"{name}_{x}": value for x, value in zip(columns, values, strict=True)}
+        row[f"{name}_method"] = None if force is None else force.method
+    return row
+
+
+def _row(one: Any, run: Any, part: float | None) -> dict[str, Any]:
+    """Return the row of a design."""
+    row = _choice_row(one.choice) | _forces_row(one)
+    for name, unit in _FORCES.items():
+        row[f"simulated_{name}_{unit}"] = None if run is None else run.forces.get(name)
+    row["simulated_time_s"] = None if run is None else run.time
+    row["margin"] = one.margin
+    row["simulated_margin"] = None if run is None else run.margin
+    row["yield"] = part
+    row["meets"] = None if run is None else run.meets
+    return row | {"why": "" if run is None else run.why}
+
+
+def _front_row(one: Any) -> dict[str, Any]:
+    """Return the row of a design of the front, with the margins at both ends of the intervals."""
+    low = {f"margin_{name}": x for name, x in one.margins.items()}
+    high = {f"best_margin_{name}": x for name, x in one.best_margins.items()}
+    return _choice_row(one.choice) | _forces_row(one) | low | high
+
+
+def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    return {
+        "meets": found.meets,
+        "designs": rows,
+        "front": front,
+        "binding": list(found.binding),
+        "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
+        "limits": [
+            {
+                "target": each.target,
+                "wanted": each.wanted,
+                "reach": each.reach,
+                "cause": each.cause,
+                "excludes": each.excludes,
+                "why": each.why,
+            }
+            for each in found.limits
+        ],
+        "predictions": found.predictions,
+        "tier": found.tier,
+    }
+
+
+def _cautions(choice: Any, stated: Any) -> list[str]:
+    """Return the cautions on the forces of a design, each with its speeds."""
+    from viscotack.design.fast import SURROGATES, FastTier
+    from viscotack.design.margins import pad_of
+    from viscotack.prediction import cautions_on
+
+    fast = FastTier(stated.materials, stated.traction, SURROGATES)
+    passport, found = stated.passports.get(choice.material), {}
+    for name, speed in (("hold", choice.hold_speed), ("release", choice.release_speed)):
+        if speed is None:
+            continue
+        # without its backing, whose compliance changes the speed of the edge little
+        pad = replace(pad_of(choice, speed, bonded=stated.space.bonded), backing=None)
+        for words in cautions_on(fast.problem(pad), passport=passport):
+            found.setdefault(words, []).append(name)
+    return [f"to {' and '.join(names)}: {words}" for words, names in found.items()]
+
+
+_VERDICTS = {
+    True: "the targets are met, by simulation",
+    False: "the targets are not met",
+    None: "not confirmed by simulation",
+}
+
+
+def _words(found: Any, warned: list[list[str]]) -> str:
+    """Return the answer as lines."""
+    lines = [_VERDICTS[found.meets]]
+    both = zip(found.candidates, found.simulated, found.yields, strict=True)
+    for number, (one, run, part) in enumerate(both, 1):
+        lines += [f"design {number}: {_choice_words(one.choice)}", *_force_words(one, run)]
+        if part is not None:
+            wanted = found.judge.conditions.share
+            lines.append(f"  yield {part:.1%}, wanted {wanted:.1%}")
+        lines += [f"  {words}" for words in warned[number - 1]]
+    lines.append(f"binding: {', '.join(found.binding)}")
+    for name, slopes in found.elasticities.items():
+        known = ", ".join(f"{x} {s:+.2f}" for x, s in slopes.items() if s is not None)
+        words = {"work": "work", "dead_load": "dead load"}.get(name, f"force to {name}")
+        lines.append(f"d ln P/d ln x of the {words}: {known}")
+    if found.front:
+        lines.append(
+            f"the output front has {len(found.front)} designs, none better in every target"
+        )
+    lines += [*(_limit_words(each) for each in found.excluded), *_apart(found)]
+    return "\n".join([*lines, OF_METHOD])
+
+
+def _choice_words(choice: Any) -> str:
+    parts = [
+        f"{choice.pads} pad{'s' if choice.pads > 1 else ''} of {choice.material}",
+        f"R = {readable(choice.radius, 'm')}",
+        f"preload {readable(choice.preload, 'N')}",
+    ]
+    for name, unit, words in (
+        ("hold_speed", "m/s", "hold at"),
+        ("release_speed", "m/s", "release at"),
+        ("modulus", "Pa", "E0 ="),
+        ("thickness", "m", "thickness"),
+        ("exponent", "1", "exponent"),
+        ("backing", "N/m", "backing"),
+    ):
+        if (value := getattr(choice, name)) is not None:
+            parts.append(f"{words} {readable(value, unit)}")
+    return ", ".join(parts)
+
+
+def _force_words(one: Any, run: Any) -> list[str]:
+    """Return the forces and margins of a design as lines."""
+    lines = []
+    for name, force in one.forces.items():
+        unit = _FORCES[name]
+        line = (
+            f"  {name.replace('_', ' ')}: {readable(force.value, unit)} "
+            f"({readable(force.low, unit, to=force.high)}, {force.method})"
+        )
+        value = None if run is None else run.forces.get(name)
+        if run is not None and value is not None:
+            line += f"; {run.method} {readable(value, unit)} within {run.errors[name]:.1g}"
+        lines.append(line)
+    margin = one.margin if run is None or run.margin is None else run.margin
+    by = "the fast tier" if margin is one.margin else "simulation"
+    met = "met" if margin >= 0 else "not met"
+    lines.append(f"  worst target: {met}, {exp(margin) - 1:+.1%} by {by}")
+    return lines + ([f"  not simulated: {run.why}"] if run is not None and run.why else [])
+
+
+def _limit_words(limit: Any) -> str:
+    """Return a bound that excludes a target as a line."""
+    unit = {"ratio": "1", "work": "J"}.get(limit.target, "N")
+    end = ("at least", "at most")[limit.target == "release"]
+    reach = ("at most", "at least")[limit.target == "release"]
+    wanted, reached = (readable(x, unit) for x in (limit.wanted, limit.reach))
+    cause = {"solid": "the solid permits", "speeds": "designs between the bounds reach"}
+    target = limit.target.replace("_", " ")
+    return (
+        f"out of reach: {target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
+        f"{limit.why}"
+    )
+
+
+def _apart(found: Any) -> list[str]:
+    """Return a line if each target alone is in reach, but not all together."""
+    if found.meets is not False or found.excluded or found.simulated[0] is not None:
+        return []
+    return ["each target alone is within reach, but no design between the bounds meets all"]

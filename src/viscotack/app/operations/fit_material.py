@@ -1,0 +1,181 @@
+"""The operation ``material fit``: fit a material model to measured data."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from viscotack.errors import InputError
+
+from .parts.dma import Dma
+from .parts.shifting import Shifting
+from .request import Answer, Caller, File, Number, Option, Output, picture, quoted
+
+if TYPE_CHECKING:
+    from viscotack.lab import FitReport
+    from viscotack.model.materials.passport import Passport
+
+Model = Literal[
+    "best",
+    "power-law",
+    "relaxation-power-law",
+    "sls",
+    "fractional-zener",
+    "fractional-maxwell",
+    "fractional-kelvin-voigt",
+    "prony",
+]
+
+
+class FitMaterial(Dma, Shifting):
+    """Fit a material to a DMA, relaxation or creep test, and issue its passport.
+
+    Sweeps at several temperatures become a master curve first.
+
+    Example: viscotack material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC"
+    --glass-transition "-115 degC" -o pdms.toml --plot fit.png
+    """
+
+    word: ClassVar = "material fit"
+    outputs: ClassVar = (
+        Output(
+            "output",
+            "Write the passport to this file; - is standard output.",
+            flags=("-o", "--output"),
+            endings=(".toml",),
+        ),
+        picture(),
+    )
+
+    files: Annotated[
+        tuple[Path, ...],
+        File(
+            "Files of the instrument; several files are sweeps of one material.",
+            metavar="FILE...",
+            argument=True,
+        ),
+    ]
+    poisson_ratio: Annotated[
+        float, Number("0.5 for rubber, about 0.35 for a glass.", metavar="NU", example="0.5")
+    ]
+    model: Annotated[
+        Model,
+        Option("Model; best: fit all and select by an information criterion."),
+    ] = "best"
+    arms: Annotated[
+        int | None,
+        Option("Number of relaxation times of a Prony series; default: by the data.", metavar="N"),
+    ] = None
+    glassy_modulus: Annotated[
+        float | None,
+        Number(
+            'Known modulus that is not fitted, "3 GPa"; not for a Prony series.',
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+    rubbery_modulus: Annotated[
+        float | None, Number("Known modulus, as above.", unit="Pa", metavar="PRESSURE")
+    ] = None
+    loss: Annotated[bool, Option("Whether to fit the loss modulus as well.")] = True
+    level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
+    name: Annotated[
+        str | None, Option("Name of the material; default: the file name.", metavar="WORDS")
+    ] = None
+    source: Annotated[str, Option("Who measured it, for the passport.", metavar="WORDS")] = ""
+
+    def check(self) -> None:
+        """Check that options for sweeps are given for sweeps only."""
+        super().check()
+        if self.test in ("relaxation", "creep"):
+            self._refuse_of_sweeps(f"for a test of {self.test}")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the files, build the master curve and fit the model."""
+        from viscotack.model.materials.passport_file import write_passport
+        from viscotack.model.materials.passport_words import shift_lines
+        from viscotack.plot.material import draw_fit
+
+        from .parts.records import fit_record
+
+        report, shift = self._fitted(caller)
+        passport = None
+        if "output" in caller.wants or not hasattr(report.material, "no_contact"):
+            passport = self._passport(report, shift)
+        shifted = [] if passport is None else shift_lines(passport)
+        words = "\n".join([report.words(), *shifted])
+        return Answer(
+            (report, passport),
+            record=lambda: fit_record(report, passport),
+            words=lambda: words,
+            files=(
+                {}
+                if passport is None
+                else {"output": lambda target: write_passport(passport, target)}
+            ),
+            pictures={"plot": lambda: draw_fit(report, passport)},
+            drawn=lambda: _drawn(report, passport) | {"words": words},
+            notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
+        )
+
+    def _fitted(self, caller: Caller) -> "tuple[FitReport, Any]":
+        """Return the fit and the shift law."""
+        from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
+
+        measured = self.measured(tuple(caller.file(each) for each in self.files))
+        if isinstance(measured, FrequencySweeps):
+            data, shift, cautions = self.swept(measured, caller)
+        else:
+            first = measured[0] if isinstance(measured, tuple) else measured
+            found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
+            self._refuse_of_sweeps(f"for the {found} test in the file")
+            data, shift, cautions = self.stepped(measured, caller)
+        known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
+        report = fit(
+            data,
+            poisson_ratio=self.poisson_ratio,
+            model=self.model,
+            arms=self.arms,
+            known={name: value for name, value in known.items() if value is not None},
+            loss=self.loss,
+            level=self.level,
+        )
+        report = allow_for_shifts(report, data, shift)
+        return replace(report, cautions=(*cautions, *report.cautions)), shift
+
+    def _passport(self, report: "FitReport", shift: Any) -> "Passport":
+        from viscotack.lab import issued
+        from viscotack.version import __version__
+
+        passport = issued(
+            report,
+            name=self.name or self.files[0].stem,
+            shift=shift,
+            reference=self.source,
+            made_by=f"viscotack {__version__}",
+        )
+        # bare names: a path is valid on this machine only
+        names = ", ".join(file.name for file in self.files)
+        return replace(passport, origin=replace(passport.origin, file=names))
+
+    def _refuse_of_sweeps(self, why: str) -> None:
+        given = [n for n in ("frequency_unit", "shift_by") if getattr(self, n) is not None]
+        if given:
+            raise InputError(f"{quoted(given)} cannot be used {why}; leave it out")
+
+
+def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
+    """Return the data of a fit for the page."""
+    from viscotack.model.materials.passport_tables import passport_text
+
+    from .parts import drawn
+    from .parts.library import material_table
+
+    issued = passport is not None
+    return {
+        "model": report.model,
+        "notes": list(report.observed.source.notes),
+        "table": material_table(report.material) if issued else None,
+        "passport": passport_text(passport) if issued else None,
+        "fit": drawn.fit(report),
+        "shifts": drawn.shifts(passport.shift) if issued else None,
+    }

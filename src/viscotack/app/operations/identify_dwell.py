@@ -1,0 +1,75 @@
+"""The operation ``identify dwell``: growth of the work of adhesion with contact time."""
+
+from typing import Annotated, Any, ClassVar
+
+from .parts.rig import Rig, refusals
+from .parts.solid import Solid, solid_of
+from .request import Answer, Caller, Number, picture
+
+
+class IdentifyDwell(Rig):
+    """Identify the growth of the work of adhesion with contact time, from tests of several dwells.
+
+    All tests are slow pulls of one sphere at one speed, so that the solid is relaxed and the force
+    of the pull-off is proportional to the work of adhesion (JKR). The answer states the work, its
+    growth in a decade of contact time and, if the data determine it, the law that an interface file
+    takes. A solid whose modulus relaxes between the dwells is refused.
+
+    Example: viscotack identify dwell lens_dwell_*.csv --material pdms-10-1 --radius "5.19 mm"
+    --plot dwell.png
+    """
+
+    word: ClassVar = "identify dwell"
+    outputs: ClassVar = (picture("Draw force by contact time to a .png, .pdf or .svg file."),)
+
+    material: Solid
+    radius: Annotated[
+        float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
+    ]
+    level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the growth to the pull-off forces of all cycles."""
+        from viscotack.identify.contact_time import check_relaxed, identify_dwell, tests_by_dwell
+        from viscotack.model.materials.passport import Passport
+        from viscotack.plot.interface import draw_dwells
+
+        found = self.survey(caller)
+        times, forces, uncertainty = tests_by_dwell(found.cycles)
+        solid = solid_of(self.material, caller)
+        if isinstance(solid, Passport):
+            solid.refuse_liquid("its contacts do not relax, so that the growth is not identified")
+        check_relaxed(solid.material if isinstance(solid, Passport) else solid, times)
+        fit = identify_dwell(
+            times, forces, radius=self.radius, uncertainty=uncertainty, level=self.level
+        )
+        return Answer(
+            fit,
+            record=lambda: _record(fit),
+            words=lambda: "\n".join(fit.words),
+            pictures={"plot": lambda: draw_dwells(fit)},
+            notes=refusals(found),
+        )
+
+
+def _record(fit: Any) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    names = {
+        "work_of_adhesion": "work_of_adhesion_J_m2",
+        "reference_time": "reference_time_s",
+    }
+    low, high = fit.reference_time
+    law = {names.get(name, name): value for name, value in fit.parameters.items()}
+    return {
+        "times_s": list(fit.times),
+        "forces_N": list(fit.forces),
+        "work_of_adhesion_J_m2": fit.work_of_adhesion,
+        "growth_per_decade": fit.growth_per_decade,
+        "growth_interval": list(fit.interval),
+        "level": fit.level,
+        "scatter": fit.scatter,
+        "law": fit.law,
+        "interface": law,
+        "reference_time_interval_s": [low, high if high < float("inf") else None],
+        "words": list(fit.words),
+    }

@@ -1,0 +1,290 @@
+"""Records of measured files and fits, for ``--json`` and the API."""
+
+from dataclasses import asdict
+from itertools import zip_longest
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from viscotack.units import readable
+
+from .json_data import plain
+
+# name in Python -> name in tables, with the unit
+_MEASURED = {
+    "pull_off_force": "pull_off_force_N",
+    "depth_at_pull_off": "depth_at_pull_off_m",
+    "work_to_pull_off": "work_to_pull_off_J",
+    "work_of_separation": "work_of_separation_J",
+    "preload": "preload_N",
+    "preload_depth": "preload_depth_m",
+    "speed": "speed_m_s",
+    "mean_speed": "mean_speed_m_s",
+}
+_PLAIN = {
+    "pull_off_raw": "pull_off_raw_N",
+    "dwell_time": "dwell_time_s",
+    "approach_speed": "approach_speed_m_s",
+    "noise": "noise_N",
+    "temperature": "temperature_K",
+}
+
+
+def passport_record(passport: Any) -> dict[str, Any]:
+    """Return a material passport; unbounded and unknown values are None."""
+    return plain(
+        asdict(passport)
+        | {
+            "material": _material_record(passport.material),
+            "modulus_ratio": passport.material.modulus_ratio,
+        }
+    )
+
+
+def fit_record(report: Any, passport: Any) -> dict[str, Any]:
+    """Return a fitted material: its passport, or the law alone where it has none."""
+    more = {"criterion": dict(report.compared), "median_error": report.median_error}
+    if passport is not None:
+        return passport_record(passport) | plain(more)
+    evidence = {
+        "level": report.level,
+        "intervals": [(each.name, each.low, each.high) for each in report.intervals],
+        "undetermined": report.undetermined,
+        "cautions": report.cautions,
+    }
+    return plain({"material": _material_record(report.material), "evidence": evidence} | more)
+
+
+def _material_record(material: Any) -> dict[str, Any]:
+    from viscotack.model.materials.words import word_of
+
+    return {"model": word_of(material)} | asdict(material)
+
+
+def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[str, Any]:
+    """Return the numbers of a cycle by their names with units.
+
+    With a radius JKR's work is among them, and with a shift law the speed a_T v.
+    """
+    row: dict[str, Any] = {"cycle": cycle.number}
+    for name, column in _MEASURED.items():
+        one = getattr(cycle, name)
+        row[column], row[f"{column}_uncertainty"] = one.value, one.uncertainty
+    row |= {column: getattr(cycle, name) for name, column in _PLAIN.items()}
+    if law is not None and cycle.temperature is not None:
+        factor = 10.0 ** float(law.log10_shift(cycle.temperature))
+        row["shifted_speed_m_s"] = factor * cycle.speed.value
+    return row | _jkr(cycle.pull_off_force.value, radius)
+
+
+def _jkr(force: float, radius: float | None) -> dict[str, float]:
+    """Return the work of adhesion of an elastic JKR sphere; empty without a radius."""
+    from viscotack.identify.speed_table import jkr_work
+
+    return {} if radius is None else {"jkr_work_of_adhesion_J_m2": jkr_work(force, radius)}
+
+
+def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]:
+    """Return a row for each temperature and speed of a table of repeated tests."""
+    return [
+        {
+            "speed_m_s": one.speed,
+            "tests": len(one.cycles),
+            "pull_off_force_N_mean": one.force,
+            "pull_off_force_N_standard_deviation": one.force_deviation,
+            "pull_off_force_N_weighted_mean": one.weighted_mean,
+            "work_of_separation_J_mean": one.work,
+            "work_of_separation_J_standard_deviation": one.work_deviation,
+            **_jkr(one.force, radius),
+            "temperature_K": one.temperature,
+            **({} if one.shift is None else {"shifted_speed_m_s": one.shifted_speed}),
+            "far": "; ".join(f"{cycle.source.path} cycle {cycle.number}" for cycle in one.far),
+        }
+        for one in table.speeds
+    ]
+
+
+def curve_rows(cycles: Any) -> list[dict[str, Any]]:
+    """Return the retractions side by side: depth and force of each, coldest and slowest first."""
+    from viscotack.identify.pull_off import same_temperatures
+
+    columns = {}
+    groups = same_temperatures(cycles)
+    rows = [x for same in groups for x in sorted(same, key=lambda one: one.speed.value)]
+    for number, one in enumerate(rows, start=1):
+        at = conditions(one.temperature if len(groups) > 1 else None, one.speed.value)
+        name = f"{number}: {Path(one.source.path).name} cycle {one.number}, {at}"
+        columns[f"depth [m] {name}"] = one.depth[one.retraction].tolist()
+        columns[f"force [N] {name}"] = one.force[one.retraction].tolist()
+    return [dict(zip(columns, row, strict=True)) for row in zip_longest(*columns.values())]
+
+
+def conditions(temperature: float | None, speed: float) -> str:
+    """Return temperature and speed of a test, as "25 C, 1 um/s", or the speed alone."""
+    where = "" if temperature is None else f"{temperature - 273.15:.3g} C, "
+    return where + readable(speed, "m/s", digits=3)
+
+
+def series_record(table: Any) -> dict[str, Any]:
+    """Return the scatter of single tests, and the exponents of force by speed.
+
+    "exponent" is that of a series at one temperature, or of the master curve.
+    """
+    exponent = table.exponent if table.master is None else table.master
+    return {
+        "scatter": table.scatter,
+        "scatter_degrees_of_freedom": table.freedom,
+        "exponent": None if exponent is None else exponent.value,
+        "exponent_standard_error": None if exponent is None else exponent.uncertainty,
+        "exponents": [
+            {
+                "temperature_K": one.temperature,
+                "exponent": one.exponent.value,
+                "exponent_standard_error": one.exponent.uncertainty,
+            }
+            for one in table.exponents
+        ],
+    }
+
+
+def series_rows(table: Any) -> list[tuple[str, Any]]:
+    """Return names and values of the record of a series, the exponents each by temperature."""
+    record = series_record(table)
+    rows = [(name.replace("_", " "), record[name]) for name in record if name != "exponents"]
+    for one in record["exponents"] if len(table.series) > 1 else ():
+        at = "" if one["temperature_K"] is None else f" at {one['temperature_K']:.5g} K"
+        rows += [(f"{x.replace('_', ' ')}{at}", one[x]) for x in one if x != "temperature_K"]
+    return rows
+
+
+def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) -> dict[str, Any]:
+    """Return cycles and rejections of a survey of tack tests, and its table of repeats."""
+    tests = [
+        {
+            "file": one.record.source.path,
+            "sha256": one.record.source.sha256,
+            "format": one.record.source.format,
+            "cycles": [
+                cycle_row(cycle, radius, law)
+                | {"notes": list(cycle.source.notes), "cautions": list(cycle.cautions)}
+                for cycle in one.cycles
+            ],
+            "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
+        }
+        for one in found.evaluations
+    ]
+    unread = [{"file": one.path, "reason": one.reason} for one in found.unread]
+    return {
+        "tests": tests,
+        "unread": unread,
+        "repeats": repeat_rows(table, radius),
+        **series_record(table),
+    }
+
+
+def slow_record(fit: Any) -> dict[str, Any]:
+    """Return the interface parameters identified from a slow test.
+
+    The work is None where it is an upper bound, or undetermined between the models in "alike".
+    """
+    fits = [
+        {
+            "model": one.model,
+            "work_of_adhesion_J_m2": one.work_of_adhesion,
+            "contact_modulus_Pa": one.contact_modulus,
+            "tabor": one.tabor,
+            "scatter_N": one.scatter,
+            "criterion": one.criterion,
+            "intervals": {name: asdict(interval) for name, interval in one.intervals.items()},
+        }
+        for one in fit.fits
+    ]
+    return {
+        "work_of_adhesion_J_m2": (
+            None if fit.upper_bound or fit.undetermined else fit.best.work_of_adhesion
+        ),
+        "undetermined": fit.undetermined,
+        "alike": [one.model for one in fit.alike],
+        "interval": asdict(fit.work_of_adhesion),
+        "upper_bound": list(fit.upper_bound),
+        "against": fit.test.against,
+        "points": int(fit.test.force.size),
+        "level": fit.level,
+        "evidence": fit.evidence,
+        "fits": fits,
+        "words": list(fit.words),
+    }
+
+
+def rates_record(fit: Any) -> dict[str, Any]:
+    """Return the interface parameters identified from a rate series."""
+    return {
+        "work_of_adhesion_J_m2": fit.work_of_adhesion,
+        "equilibrium_gap_m": fit.equilibrium_gap,
+        "tabor": fit.tabor,
+        "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
+        "scatter": fit.scatter,
+        "scatter_between_speeds": fit.between_speeds,
+        "trend": fit.trend,
+        "describes_tests": not fit.misfit,
+        "solutions": [dict(one.values) for one in fit.solutions],
+        "series": [
+            {
+                "temperature_K": one.temperature,
+                "speed_m_s": one.true_speed,
+                "shifted_speed_m_s": one.speed,
+                "pull_off_force_N": one.force.value,
+                "pull_off_force_N_uncertainty": one.force.uncertainty,
+                "fitted_N": force,
+            }
+            for one, force in zip(fit.series, fit.forces, strict=True)
+        ],
+        "layer": _layer_record(fit.forward.body),
+        "growth": None if fit.growth is None else _growth_record(fit.growth),
+        "words": list(fit.words),
+    }
+
+
+def forecast_rows(forecast: Any) -> list[dict[str, float]]:
+    """Return a row for each speed of a forecast."""
+    found = [forecast.speed, forecast.force, forecast.low, forecast.high]
+    names = ["speed_m_s", "pull_off_force_N", "low_N", "high_N"]
+    if forecast.low_of_one is not None:
+        found += [forecast.low_of_one, forecast.high_of_one]
+        names += ["low_of_one_test_N", "high_of_one_test_N"]
+    columns = zip(*found, strict=True)
+    return [dict(zip(names, map(float, row), strict=True)) for row in columns]
+
+
+def _layer_record(body: Any) -> dict[str, Any] | None:
+    """Return thickness and base of a layer, None for a half-space."""
+    if body.word != "layer":
+        return None
+    return {
+        "thickness_m": body.thickness,
+        "base": body.base.word,
+        "poisson_ratio": body.poisson_ratio,
+    }
+
+
+def _growth_record(found: Any) -> dict[str, Any]:
+    """Return the growth of the interface with speed."""
+    grows = isfinite(found.reference_speed)
+    return {
+        "strengthening": found.strengthening,
+        "opening_speed_m_s": found.opening_speed,
+        "exponent": found.exponent,
+        "reference_speed_m_s": found.reference_speed if grows else None,
+        "better_by": found.better_by,
+        "chance": found.chance,
+        "shares": [
+            {
+                "speed_m_s": one.speed,
+                "edge_speed_m_s": one.edge_speed,
+                "energy": one.energy,
+                "bulk": one.bulk,
+                "interface": one.interface,
+            }
+            for one in found.shares
+        ],
+    }

@@ -1,0 +1,94 @@
+"""Options for a material: a published name, a passport, a table, or numbers."""
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from viscotack.errors import InputError
+
+from ..flags import FLAGS, material_table, needs_of
+from ..request import Caller, Named, Number, Request, quoted
+
+if TYPE_CHECKING:
+    from viscotack.model.materials.material import Material
+    from viscotack.model.materials.passport import Passport
+
+# How a text begins that states a solid itself.
+TABLE = "[material]"
+_WORDS = "A material passport, or the name of a published material such as pdms-10-1"
+APassport = Annotated[Any, Named(f"{_WORDS}.", metavar="PASSPORT", argument=True)]
+Solid = Annotated[Any, Named(f"{_WORDS}; or the text of a table {TABLE}.", metavar="PASSPORT")]
+
+
+def passport_of(given: "str | Passport", caller: Caller) -> "Passport":
+    """Return the passport of a published name or a file, or the one that Python gave."""
+    from viscotack.model.materials import library
+    from viscotack.model.materials.passport import Passport
+
+    if isinstance(given, Passport) or given in library.MATERIALS:
+        return given if isinstance(given, Passport) else library.published(given)
+    return library.passport_of(str(caller.file(given)), also=caller.also)
+
+
+def solid_of(given: "str | Passport", caller: Caller) -> "Passport | Material":
+    """Return the passport of a name or a file, or the solid of the text of a table."""
+    if not isinstance(given, str) or not given.lstrip().startswith(TABLE):
+        return passport_of(given, caller)
+    from viscotack.files.toml import parse_toml
+    from viscotack.model.problem.case_file import material_of
+    from viscotack.model.problem.nouns import known
+    from viscotack.model.problem.tables import Reading
+
+    table = parse_toml(given, "the material").get("material")
+    if not isinstance(table, dict):
+        raise InputError(f"the text of a solid must be the table {TABLE}, got {given!r:.60}")
+    return material_of(table, Reading("the material", known(caller.also)))
+
+
+class Reduced(Request):
+    """A request for a dimensionless material: a model with its numbers, or a file."""
+
+    material: Annotated[
+        Any,
+        Named(
+            "power-law (also when left out; theory steady-crack without --exponent takes sls), "
+            "sls, prony:FILE or a passport FILE.toml, as for simulate sphere.",
+            metavar="MATERIAL",
+        ),
+    ] = None
+    modulus_ratio: Annotated[
+        float | None, Number(FLAGS["modulus-ratio"].words, above=0, metavar="K")
+    ] = None
+    exponent: Annotated[float | None, Number(FLAGS["exponent"].words, above=0, metavar="N")] = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """Given options of the material by name."""
+        said = {name: getattr(self, name) for name in Reduced.model_fields}
+        return {name: value for name, value in said.items() if value is not None}
+
+    def solid(self, caller: Caller, usual: str = "power-law") -> "tuple[Material, str]":
+        """Return the solid, and the unit of its times if a file states one, else "1".
+
+        `usual` is the word of the material where none is said.
+        """
+        from viscotack.model.materials.passport import Passport
+        from viscotack.model.problem.case_file import material_of
+        from viscotack.model.problem.nouns import known
+        from viscotack.model.problem.prony_file import read_prony
+        from viscotack.model.problem.tables import Reading
+
+        nouns, words = known(caller.also), self.material or usual
+        if isinstance(words, Passport):
+            if beside := [name for name in self.given if name != "material"]:
+                raise InputError(
+                    f"{words.name} defines the whole material; leave out `{beside[0]}`"
+                )
+            return words.material.reduced(), "1"
+        said = {name.replace("_", "-"): value for name, value in self.given.items()}
+        table = material_table(words, said, nouns=nouns)
+        needed = [n for n in ("modulus_ratio", "exponent") if n in needs_of(words, nouns)]
+        if missing := [name for name in needed if name not in self.given]:
+            raise InputError(
+                f"{quoted(missing)} missing for the material {words}", field=missing[0]
+            )
+        unit = "1" if "file" not in table else read_prony(caller.file(table["file"]))[1]
+        return material_of(table, Reading("the material", nouns, caller.file, pure=True)), unit

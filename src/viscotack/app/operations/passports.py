@@ -1,0 +1,315 @@
+"""The operations ``material show``, ``convert`` and ``export``: passports and other formats."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.units import parse, readable
+
+from .parts.solid import APassport, passport_of
+from .request import Answer, Caller, Named, Number, Option, Output, Request, Text, quoted, two_of
+
+if TYPE_CHECKING:
+    from viscotack.model.materials.conversion import PronyForm
+    from viscotack.model.materials.passport import Passport
+
+# Programs whose input is written and read.
+Code = Literal["abaqus", "ansys", "comsol"]
+# Of these the input states modulus and Poisson ratio.
+_STATING = ("abaqus", "ansys")
+_OUTPUT = Output(
+    "output",
+    "Write to this file; - is standard output.",
+    flags=("-o", "--output"),
+    usual="-",
+    endings=(".toml",),
+)
+# Of input of other programs.
+_CARDS = (".inp", ".txt", ".csv", ".dat", ".mac")
+
+Temperature = Annotated[
+    float | None,
+    Number('At this temperature, "0 degC" or "273 K".', unit="K", metavar="T"),
+]
+Tolerance = Annotated[float, Number("Largest relative error of the series.")]
+PressureUnit = Annotated[
+    str | None, Option("Unit of moduli in the other program, MPa.", metavar="UNIT", example="MPa")
+]
+TimeUnit = Annotated[
+    str | None, Option("Unit of times in the other program, s.", metavar="UNIT", example="s")
+]
+
+
+def _band(value: Any) -> tuple[float, float]:
+    """Return two angular frequencies [rad/s]: a hertz is 2 pi radians a second."""
+    low, high = two_of(value)
+
+    def angular(one: Any) -> float:
+        if isinstance(one, str) and "rad" not in one:
+            # the unit library takes hertz for 1/s: the factor is set here, where it is seen
+            return 2 * np.pi * parse(one, "1/s")
+        return parse(one, "rad/s")
+
+    return angular(low), angular(high)
+
+
+Frequencies = Annotated[
+    tuple[float, float] | None,
+    Text(
+        'Range of the Prony series, "1 mHz,1 MHz"; default: the measured range.',
+        metavar="LOW,HIGH",
+        to=_band,
+    ),
+]
+
+
+class ShowMaterial(Request):
+    """Show a material passport or a published material.
+
+    Example: viscotack material show pdms-10-1
+    """
+
+    word: ClassVar = "material show"
+    takes_own: ClassVar = True
+
+    passport: APassport
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the passport."""
+        return _answer(passport_of(self.passport, caller))
+
+
+class ConvertMaterial(Request):
+    """Convert a passport: to another temperature, to a Prony series, from another program.
+
+    Without -o the passport goes to standard output.
+
+    Examples: viscotack material convert pdms-10-1 --temperature "0 degC" -o cold.toml, or:
+    viscotack material convert card.inp --from abaqus --pressure-unit MPa --time-unit s -o pad.toml
+    """
+
+    word: ClassVar = "material convert"
+    outputs: ClassVar = (_OUTPUT,)
+    takes_own: ClassVar = True
+
+    source: Annotated[
+        Any,
+        Named(
+            "A material passport, or the name of a published material such as pdms-10-1. Or, with "
+            "--from, another program's input.",
+            metavar="PASSPORT|FILE",
+            argument=True,
+        ),
+    ]
+    temperature: Temperature = None
+    prony: Annotated[bool, Option("Convert to a Prony series with a stated error.")] = False
+    frequencies: Frequencies = None
+    tolerance: Tolerance = 3e-4
+    code: Annotated[
+        Code | None,
+        Option("Program whose input file is read.", flags=("--from",)),
+    ] = None
+    pressure_unit: PressureUnit = None
+    time_unit: TimeUnit = None
+    rubbery_modulus: Annotated[
+        float | None,
+        Number(
+            "Long-term Young's modulus, if not in the input file.",
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+    poisson_ratio: Annotated[
+        float | None, Number("Poisson ratio, if not in the input file.", metavar="NU")
+    ] = None
+
+    def check(self) -> None:
+        """Check that options of other programs' input, and of a series, are given for these."""
+        from viscotack.model.materials.library import MATERIALS
+        from viscotack.model.materials.passport import Passport
+
+        constants = self._constants()
+        if self.code is None:
+            names = (*constants, "pressure_unit", "time_unit")
+            given = [name for name in names if getattr(self, name) is not None]
+            if given:
+                raise InputError(
+                    f"{quoted(given)} cannot be used without `code`, the other program"
+                )
+        elif isinstance(self.source, Passport):
+            raise InputError(f"{self.source.name} is a passport; `code` takes a file")
+        elif self.source in MATERIALS:
+            raise InputError(f"{self.source} is a published material; `code` takes a file")
+        elif (self.pressure_unit is None) != (self.time_unit is None):
+            raise InputError("give both `pressure_unit` and `time_unit`")
+        elif constants and self.code in _STATING:
+            raise InputError(
+                f"input of {self.code} holds modulus and Poisson ratio; leave them out"
+            )
+        if self.frequencies is not None and not self.prony:
+            raise InputError("frequencies go with prony", field="frequencies")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the material and convert it."""
+        from viscotack.model.materials.passport_file import write_passport
+
+        if self.code is None:
+            passport = passport_of(self.source, caller)
+        else:
+            passport = self._imported(caller)
+        if self.temperature is not None:
+            passport = passport.moved_to(self.temperature)
+        if self.prony:
+            passport = self._as_series(passport)
+        files = {"output": lambda target: write_passport(passport, target)}
+        return replace(_answer(passport, caller), files=files)
+
+    def _constants(self) -> dict[str, float]:
+        said = {n: getattr(self, n) for n in ("rubbery_modulus", "poisson_ratio")}
+        return {name: value for name, value in said.items() if value is not None}
+
+    def _imported(self, caller: Caller) -> "Passport":
+        from viscotack.files.text import read_text
+        from viscotack.model.materials.exchange import Units, imported
+        from viscotack.model.materials.passport import Origin, Passport
+        from viscotack.version import __version__
+
+        file, code = caller.file(self.source), str(self.code)
+        pressure, time = self.pressure_unit, self.time_unit
+        units = Units(pressure, time) if pressure and time else None
+        text = read_text(file)
+        try:
+            solid = imported(text, code, units=units, **self._constants())
+        except ValueError as error:
+            raise InputError(f"{file}: {error}") from None
+        origin = Origin(file=file.name, format=code, made_by=f"viscotack {__version__}")
+        return Passport(name=file.stem, material=solid, origin=origin)
+
+    def _as_series(self, passport: "Passport") -> "Passport":
+        from viscotack.model.materials.words import word_of
+
+        form = _series(passport, self.frequencies, self.tolerance)
+        note = f"Prony series of the {word_of(passport.material)}, error {form.error:.1e}"
+        origin = replace(passport.origin, notes=(*passport.origin.notes, note))
+        return replace(
+            passport, material=form.material, frequencies=form.frequencies, origin=origin
+        )
+
+
+class ExportMaterial(Request):
+    """Export a material as input of another program, in its convention and units.
+
+    Without units: Pa and s. Without -o it goes to standard output.
+
+    Example: viscotack material export pdms-10-1 --to abaqus --pressure-unit MPa
+    --frequencies "1 mHz,1 GHz" --bulk-modulus "2 GPa" -o pdms.inp
+    """
+
+    word: ClassVar = "material export"
+    outputs: ClassVar = (replace(_OUTPUT, endings=_CARDS),)
+    takes_own: ClassVar = True
+
+    passport: APassport
+    to: Annotated[Code, Option("The program to write for.")]
+    temperature: Temperature = None
+    frequencies: Frequencies = None
+    tolerance: Tolerance = 3e-4
+    pressure_unit: PressureUnit = None
+    time_unit: TimeUnit = None
+    bulk_modulus: Annotated[
+        float | None,
+        Number(
+            'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".',
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+
+    def answer(self, caller: Caller) -> Answer:
+        """Make the series and write it as the program has it."""
+        from viscotack.model.materials.exchange import Units, exported
+
+        from .parts.tables import as_text
+
+        passport = passport_of(self.passport, caller)
+        if self.temperature is not None:
+            passport = passport.moved_to(self.temperature)
+        form = _series(passport, self.frequencies, self.tolerance)
+        text = exported(
+            form.material,
+            self.to,
+            units=Units(self.pressure_unit or "Pa", self.time_unit or "s"),
+            notes=_notes(passport, form),
+            bulk_modulus=self.bulk_modulus,
+            shift=_seen_from(passport),
+        )
+        low, high = form.frequencies
+        return Answer(
+            text,
+            record=lambda: {
+                "name": passport.name,
+                "program": self.to,
+                "text": text,
+                "error": form.error,
+                "angular_frequencies_rad_s": [low, high],
+            },
+            words=lambda: "" if "output" in caller.wants else text.rstrip("\n"),
+            files={"output": as_text(lambda: text)},
+        )
+
+
+def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:
+    """Return a passport, in words where it is not written."""
+    from viscotack.model.materials.passport_words import in_words
+
+    from .parts.records import passport_record
+
+    written = caller is not None and "output" in caller.wants
+    return Answer(
+        passport,
+        record=lambda: passport_record(passport),
+        words=lambda: "" if written else in_words(passport),
+    )
+
+
+def _series(
+    passport: "Passport", frequencies: tuple[float, float] | None, tolerance: float
+) -> "PronyForm":
+    """Return the Prony series of a passport's material."""
+    from viscotack.model.materials.conversion import prony_form
+    from viscotack.model.materials.words import word_of
+
+    bounds = frequencies or passport.frequencies
+    if bounds is None and word_of(passport.material) in ("prony", "sls"):
+        unit = passport.material.time_unit
+        bounds = 1e-3 / unit, 1e3 / unit
+    if bounds is None:
+        raise InputError(
+            f"{passport.name} does not say where it was measured; say where the series must hold, "
+            'frequencies "1 mHz,1 MHz"'
+        )
+    return prony_form(passport.material, frequencies=bounds, tolerance=tolerance)
+
+
+def _seen_from(passport: "Passport") -> Any:
+    """Return the shift of a passport, zero at the temperature of its material."""
+    if passport.shift is None or passport.temperature is None:
+        return None
+    return passport.shift.at_reference(passport.temperature)
+
+
+def _notes(passport: "Passport", form: "PronyForm") -> tuple[str, ...]:
+    from viscotack.version import __version__
+
+    low, high = (w / (2 * np.pi) for w in form.frequencies)
+    at = "" if passport.temperature is None else f", at {passport.temperature - 273.15:.4g} C"
+    source = passport.origin.reference or passport.origin.file
+    return (
+        f"{' '.join(passport.name.split())}{at}; written by viscotack {__version__}",
+        *([f"source: {' '.join(source.split())}"] if source else []),
+        f"Prony series with {len(form.material.branches)} branches, constant Poisson ratio; "
+        f"largest error {form.error:.1e} of the complex modulus from "
+        f"{readable(low, 'Hz', digits=3, to=high)}",
+    )

@@ -1,0 +1,421 @@
+"""The operations ``predict`` and ``advise``: fast predictions and their reliability."""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.units import readable
+
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    Number,
+    Option,
+    Output,
+    Request,
+    Rows,
+    csv_file,
+    picture,
+    quoted,
+)
+from .simulate import HowLong
+
+if TYPE_CHECKING:
+    from viscotack.model.problem import Case
+    from viscotack.model.problem.outputs import Kind
+    from viscotack.prediction import Advice, Prediction
+    from viscotack.result import Result
+
+# Meaning of the intervals of a prediction.
+OF_METHOD = "Intervals are the error of the method; material and interface are taken as given."
+# What a simulation would only repeat.
+_SAID_ONCE = (
+    "problem",
+    "run_id",
+    "tabor",
+    "size",
+    "thickness",
+    "cohesion",
+    "modulus_ratio",
+    "rate",
+)
+
+
+class Predict(Request):
+    """Predict the pull-off force, with an interval.
+
+    Surrogates trained on simulations answer in a millisecond, with force, work and curve. Outside
+    of their range the theory with the narrowest band that was verified for such a problem gives the
+    force. Otherwise the command states which input is out of range; --exact simulates the problem.
+
+    One contact: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    --preload 73 --rate 316.23
+
+    A flat punch on a layer: viscotack predict punch --size 64.85 --thickness 3.24 --cohesion 0.05
+    --modulus-ratio 0.1 --preload 1 --rate 10
+
+    In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
+
+    A table in SI, each row a change of one problem: viscotack predict lens.toml cases.xlsx --xlsx
+    answers.xlsx
+
+    Thousands without dimensions: viscotack predict cases.csv --csv answers.csv
+    """
+
+    word: ClassVar = "predict"
+    outputs: ClassVar = (
+        csv_file("Write the predicted unloading curve as a table; - is standard output.", "curve"),
+        picture("Draw that curve to a .png, .pdf or .svg file."),
+        csv_file(
+            "Write the rows of the table of cases with their predictions; - is standard output.",
+        ),
+        Output(
+            "xlsx",
+            "Write the rows of the table of cases with their predictions to a workbook FILE.xlsx.",
+            "binary",
+            endings=(".xlsx",),
+        ),
+    )
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Any,
+        Contact(
+            "The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
+            "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
+            "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
+            "preload, preload_force, preload_radius; or size, thickness, cohesion, modulus_ratio, "
+            "rate and preload or preload_force.",
+            metavar="sphere|punch|CASE.toml|CASES.csv",
+            indenters=("sphere", "punch"),
+            spelling="word",
+            table="cases",
+            expected="predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv",
+        ),
+    ] = None
+    cases: Annotated[
+        Path | tuple[Mapping[str, Any], ...] | None,
+        Rows(
+            "A table, CSV or the first sheet of an .xlsx workbook. After a problem each row "
+            "changes it: columns are keys of the problem file, with units in the headings, "
+            '"radius [mm]", or in the cells, "5.19 mm". Alone it has a case without dimensions '
+            "in each row.",
+            elsewhere=True,
+        ),
+    ] = None
+    confidence: Annotated[
+        float,
+        Number(
+            "Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.",
+            metavar="PART",
+        ),
+    ] = 0.9
+    budget: Annotated[
+        float | None,
+        Number(
+            "Time budget: from 0.01 s surrogates, from 0.02 s also closed forms, from 0.5 s the "
+            "steady-crack contact model, from 1 s the simulation where a surrogate is not certain, "
+            "from 3 s the simulation. Default: 1 s.",
+            unit="s",
+            above=0,
+            bare=True,
+            metavar="SECONDS",
+        ),
+    ] = None
+    exact: Annotated[
+        bool,
+        Option("Simulate at the usual accuracy, however long it takes; `simulate` takes another."),
+    ] = False
+    compare: Annotated[bool, Option("Also simulate, and show the error of the prediction.")] = False
+    why: Annotated[bool, Option("Also print why this method answers.")] = False
+    time_limit: HowLong = None
+
+    def check(self) -> None:
+        """Refuse options that exclude each other."""
+        if self.problem is None and not isinstance(self.cases, Path):
+            got = "none" if self.cases is None else "rows, which change a problem"
+            raise InputError(f"give a problem or a table of cases, got {got}")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Predict with the best tier within the time budget."""
+        if self.cases is not None:
+            return self._of_table(caller)
+        from viscotack.clock import limited
+        from viscotack.prediction import predict
+        from viscotack.prediction.prediction import prediction_summary
+        from viscotack.prediction.tiers import SOON
+        from viscotack.result import Outcome
+
+        stated = self.stated(caller)
+        if table := sorted(caller.wants & {"csv", "xlsx"}):
+            raise InputError(
+                f"{table[0]} is for a table of cases; curve writes the curve; leave out {table[0]}"
+            )
+        with limited(self.time_limit):
+            found = predict(
+                stated.problem,
+                shift_deviation=stated.deviation,
+                confidence=self.confidence,
+                budget=SOON if self.budget is None else self.budget,
+                exact=self.exact,
+                passport=stated.passport,
+            )
+            if found.curve is None and caller.wants & {"curve", "plot"}:
+                raise InputError(
+                    f"{found.why}. The tier {found.method!r} gives no curve; leave out curve and "
+                    "plot, or simulate"
+                )
+            result = _simulated(stated.problem) if self.compare else None
+        record = prediction_summary(found)
+        if result is not None:
+            record |= _comparison(found, result)
+        return Answer(
+            found,
+            record=lambda: record,
+            words=lambda: _words(found, record, self.why),
+            files={"curve": lambda target: _write_curve(found, target)},
+            pictures={"plot": lambda: _draw(found, result)},
+            notes=stated.improbable,
+            status=int(result is not None and result.outcome is Outcome.STOPPED),
+        )
+
+    def _of_table(self, caller: Caller) -> Answer:
+        """Predict all rows of a table."""
+        alone = self.problem is None
+        others = {
+            "compare": self.compare,
+            "exact": alone and self.exact,
+            "budget": alone and self.budget is not None,
+            "time_limit": alone and self.time_limit is not None,
+            "curve": "curve" in caller.wants,
+            "plot": "plot" in caller.wants,
+        }
+        if given := [name for name, is_given in others.items() if is_given]:
+            what = f"{self.cases} is a table of cases" if alone else "there is a table of cases"
+            raise InputError(f"{what}; leave out {quoted(given)}")
+        if self.problem is None:
+            from .parts.predict_table import predict_file
+
+            assert isinstance(self.cases, Path), "checked before"
+            if len(caller.wants & {"csv", "xlsx"}) != 1:
+                raise InputError(f"choose one output for the answers to {self.cases}: csv or xlsx")
+            return predict_file(caller.file(self.cases), self.confidence, caller.tell)
+        from viscotack.prediction.tiers import SOON
+
+        from .parts.predict_changes import predict_changes
+
+        assert self.cases is not None, "checked before"
+        return predict_changes(
+            self.stated(caller),
+            caller.rows(self.cases),
+            caller.tell,
+            also=caller.also,
+            time_limit=self.time_limit,
+            confidence=self.confidence,
+            budget=SOON if self.budget is None else self.budget,
+            exact=self.exact,
+        )
+
+
+class Advise(Request):
+    """Determine the regime of a contact and the reliability of each method.
+
+    The problem is stated as for simulate sphere, by flags or by a file in SI with any indenter of
+    revolution. For a film (--thickness) the answer states when it is a half-space, how much more it
+    holds, and at which speed the gain saturates; for discs and profiles it has the two limits.
+
+    Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73
+    --rate 316.23
+    """
+
+    word: ClassVar = "advise"
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Any,
+        Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc")),
+    ]
+
+    def answer(self, caller: Caller) -> Answer:
+        """Evaluate every tier."""
+        from viscotack.prediction.advice import advise
+        from viscotack.prediction.cautions import cautions_on
+
+        stated = self.stated(caller)
+        problem = stated.problem
+        if problem.groups().in_plane_strain:
+            raise InputError(
+                "advice is for shapes of revolution; this problem contains a punch, which "
+                "viscotack predict answers"
+            )
+        advice = advise(problem)
+        warned = cautions_on(problem, passport=stated.passport)
+        # the sentences of the advice have one of the cautions already
+        sentences = tuple(dict.fromkeys((*advice.statements, *warned))) + advice.tiers
+        return Answer(
+            advice,
+            record=lambda: _advised(advice, sentences, warned),
+            words=lambda: "\n".join(sentences),
+            notes=stated.notes,
+        )
+
+
+def _advised(
+    advice: "Advice", sentences: tuple[str, ...], warned: tuple[str, ...]
+) -> dict[str, Any]:
+    """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
+    record: dict[str, Any] = asdict(advice)
+    record |= {"sentences": list(sentences), "cautions": list(warned)}
+    scales = record.pop("length_scale"), record.pop("speed_scale")
+    if (contact := record.pop("contact")) is not None:
+        del contact["receding"], contact["start_radius"], contact["edge_speed"]
+        record |= contact | _in_si(contact, scales)
+    if (unit := advice.force_scale) is not None:
+        force, interval = advice.pull_off_force, advice.interval
+        record["pull_off_force_N"] = None if force is None else force * unit
+        record["interval_N"] = None if interval is None else [end * unit for end in interval]
+    return record
+
+
+def _in_si(contact: dict[str, Any], scales: tuple[float | None, float | None]) -> dict[str, Any]:
+    """Return thicknesses [m] and speeds [m/s] of the advice on a film."""
+    found: dict[str, Any] = {}
+    length, speed = scales
+    if length is None or speed is None:
+        return found
+    if (thick := contact["half_space_thickness"]) is not None:
+        found["half_space_thickness_m"] = [length * value for value in thick]
+    for name in ("saturation_rate", "half_space_saturation_rate"):
+        if (rate := contact[name]) is not None:
+            found[f"{name.removesuffix('rate')}speed_m_per_s"] = rate * speed
+    return found
+
+
+def _simulated(problem: "Case") -> "Result":
+    from viscotack.simulate import solve
+
+    return solve(problem, until="pull-off", throw=False)
+
+
+def _compared(kind: "Kind") -> dict[str, str]:
+    """Return the quantities to compare, with the names of their intervals."""
+    return {f"pull_off_{kind.name_of('force')}": "interval", "work_to_pull_off": "work_interval"}
+
+
+def _comparison(found: "Prediction", result: "Result") -> dict[str, Any]:
+    """Return the simulated numbers, the errors of the prediction, and whether the interval holds.
+
+    `difference` is prediction over simulation, less 1.
+    """
+    from viscotack.prediction.prediction import prediction_summary
+    from viscotack.result.observables import summary
+
+    simulated = summary(result)
+    answer: dict[str, Any] = {
+        "simulation": {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
+    }
+    predicted = prediction_summary(found)
+    compared = _compared(found.problem.groups().outputs)
+    difference: dict[str, float | None] = dict.fromkeys(compared)
+    held: dict[str, bool | None] = dict.fromkeys(compared)
+    for name, interval in compared.items():
+        true = simulated[name]
+        if predicted[name] is not None and true is not None:
+            difference[name] = predicted[name] / true - 1
+            if predicted[interval] is not None:
+                low, high = predicted[interval]
+                held[name] = low <= true <= high
+    return answer | {"difference": difference, "interval_held": held}
+
+
+def _curve(found: "Prediction") -> dict[str, Any]:
+    """Return the columns of the curve, as `simulate --csv` names them."""
+    assert found.curve is not None, "checked before anything is written"
+    groups = found.problem.groups()
+    kind = groups.outputs
+    names = {kind.name_of(name): name for name in ("depth", "force", "contact_radius")}
+    table = {
+        name: np.asarray(getattr(found.curve, of)) * kind.series[name].factor(groups)
+        for name, of in names.items()
+    }
+    if (scales := found.problem.scales()) is not None:
+        units = {name: kind.series[name].unit for name in names}
+        table |= {f"{n}_{u.tail}": table[n] * getattr(scales, u.scale) for n, u in units.items()}
+    return table
+
+
+def _words(found: "Prediction", answer: dict[str, Any], why: bool) -> str:
+    """Return a prediction as lines a person reads."""
+    lines = [f"by {found.method}{'' if found.inside else ', outside of the surrogates'}"]
+    lines += [found.why] if why else []
+    held = (
+        "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
+    )
+    kind = found.problem.groups().outputs
+    intervals = _compared(kind) | {"depth_at_pull_off": "depth_interval"}
+    for name, observable in kind.observables.items():
+        told = observable.words, observable.unit, intervals.get(name)
+        lines += _number_words(name, *told, answer, held)
+    force, depth = kind.name_of("force"), kind.observables["depth_at_pull_off"].unit
+    told = f"depth at zero {force}", depth, f"zero_{force}_interval"
+    lines += _number_words(f"zero_{force}_depth", *told, answer, held)
+    if "simulation" in answer:
+        lines += _comparison_words(answer, kind)
+    lines += [OF_METHOD, *answer["cautions"]]
+    return "\n".join(lines)
+
+
+def _number_words(
+    name: str, words: str, unit: Any, interval: str | None, answer: dict[str, Any], held: str
+) -> list[str]:
+    """Return a number and its interval as lines, none where the answer has it not."""
+    if (value := answer.get(name)) is None:
+        return []
+    line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
+    if f"{name}_{unit.tail}" in answer:
+        line += f"= {readable(answer[f'{name}_{unit.tail}'], unit.si)}"
+    if interval is None or answer[interval] is None:
+        return [line.rstrip()]
+    low, high = answer[interval]
+    between = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
+    if f"{interval}_{unit.tail}" in answer:
+        low, high = answer[f"{interval}_{unit.tail}"]
+        between += f"= {readable(low, unit.si, to=high)}"
+    return [line.rstrip(), between.rstrip()]
+
+
+def _comparison_words(answer: dict[str, Any], kind: "Kind") -> list[str]:
+    simulated = answer["simulation"]
+    took = simulated["wall_time_s"]
+    lines = ["simulated" + ("" if took is None else f" in {readable(took, 's', digits=2)}")]
+    for name in _compared(kind):
+        words, true = kind.observables[name].words, simulated[name]
+        if true is None:
+            why = simulated.get(f"{name}_note") or simulated["status"]
+            lines.append(f"  {words:<21}{'none':>12}  {why}")
+            continue
+        line = f"  {words:<21}{true:>12.5g}"
+        if (off := answer["difference"][name]) is not None:
+            way = "above" if off >= 0 else "below"
+            line += f"  the prediction is {abs(off):.2%} {way}"
+            if (held := answer["interval_held"][name]) is not None:
+                line += f"; {'inside' if held else 'outside'} its interval"
+        lines.append(line)
+    return lines
+
+
+def _write_curve(found: "Prediction", target: Any) -> None:
+    from .parts.predict_table import write_table
+
+    write_table(_curve(found), target)
+
+
+def _draw(found: "Prediction", result: "Result | None") -> Any:
+    from viscotack.plot.prediction import draw_prediction
+
+    return draw_prediction(found, result)

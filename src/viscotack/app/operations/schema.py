@@ -1,0 +1,31 @@
+"""The operation ``schema``: the JSON schema of a problem."""
+
+import json
+from typing import Annotated, ClassVar
+
+from .request import Answer, Caller, Option, Request
+
+
+class Schema(Request):
+    """Print the JSON schema of a problem: every number with its unit, symbol and range.
+
+    It describes the object `problem` of --json, which results and campaigns keep as well.
+
+    Example: viscotack schema > problem.schema.json
+    """
+
+    word: ClassVar = "schema"
+    takes_own: ClassVar = True
+
+    words: Annotated[bool, Option("Tables in Markdown for people, in place of the schema.")] = False
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the cards of all nouns."""
+        from viscotack.model.problem.schema import schema, words
+
+        found = schema(caller.also)
+        return Answer(
+            found,
+            record=lambda: found,
+            words=lambda: words(caller.also) if self.words else json.dumps(found, indent=2),
+        )

@@ -1,0 +1,176 @@
+"""The operation ``sweep``: simulate variations of a problem, one row for each case."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.errors import TOO_LARGE, InputError
+from viscotack.model.problem import RoughCase
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
+
+from .flags import INDENTERS
+from .request import Answer, Caller, Contact, Request, Rows, csv_file, number_of
+from .simulate import Accuracy, Until
+
+if TYPE_CHECKING:
+    from viscotack.campaign import CaseSettings
+    from viscotack.campaign.changes import Changes
+    from viscotack.campaign.columns import Kind
+
+# Exit status where some cases have no result.
+_SOME_FAILED = 4
+
+
+class Sweep(Request):
+    """Simulate variations of a problem, one row for each case.
+
+    The first row of the table, CSV or the first sheet of an .xlsx workbook, names the replaced
+    numbers by the keys of the problem file, with units there or in the cells: "speed [um/s]" or
+    "30 um/s". Other columns are carried along. The row of a failed case contains the reason, and
+    the exit status is then 4. An interrupted sweep keeps no results; use a campaign for long runs.
+
+    Example: viscotack sweep lens.toml speeds.csv --csv forces.csv
+    """
+
+    word: ClassVar = "sweep"
+    outputs: ClassVar = (csv_file("Write a row for each case; - is standard output."),)
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Any,
+        Contact(
+            "The problem whose numbers are replaced, in SI; a case or a rough surface.",
+            indenters=INDENTERS,
+            spelling="case",
+            rough=True,
+        ),
+    ]
+    cases: Annotated[
+        Path | tuple[Mapping[str, Any], ...],
+        Rows(
+            'A row for each case: a key of the problem file, such as "speed" or "sphere.radius", '
+            "or a path of viscotack campaign inputs, and its value. All rows have the same names.",
+            metavar="CASES.csv",
+            argument=True,
+        ),
+    ]
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    until: Until = "pull-off"
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Simulate one case after the other, telling ``share`` and the new ``rows``."""
+        from viscotack.campaign import CaseSettings
+        from viscotack.campaign.changes import changes_of
+
+        from .parts.tables import rows_as_csv
+
+        stated, cases = self.stated(caller), caller.rows(self.cases)
+        if not cases or any(row.keys() != cases[0].keys() for row in cases):
+            raise InputError("all cases must replace the same numbers of the problem")
+        changes = changes_of(stated.problem, cases[0])
+        kind = changes.kind(caller.also)
+        inputs_of_rows = [_inputs(changes, number, row) for number, row in enumerate(cases, 1)]
+        settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
+        rows: list[dict[str, Any]] = []
+        warnings: list[str] = []
+        for number, inputs in enumerate(inputs_of_rows, 1):
+            carried = changes.carried_of(cases[number - 1])
+            rows.append(_row(kind, inputs, settings) | ({"carried": carried} if carried else {}))
+            warnings += [f"case {number}: {words}" for words in changes.unusual(inputs or {})]
+            words = f"{number} of {len(cases)} cases done"
+            caller.tell({"share": number / len(cases), "rows": rows[-1:], "words": words})
+        failed = sum(bool(row["reason"]) for row in rows if row["inputs"] is not None)
+        return Answer(
+            rows,
+            record=lambda: {"rows": rows, "failed": failed},
+            words=lambda: _words(changes, rows, failed),
+            files={"csv": rows_as_csv(_flat(cases, rows))},
+            notes=(*stated.notes, *changes.notes, *warnings),
+            status=_SOME_FAILED if failed else 0,
+        )
+
+
+def _inputs(changes: "Changes", number: int, row: Mapping[str, Any]) -> dict[str, float] | None:
+    """Return the replaced numbers of a row; None for an empty one."""
+    if changes.is_empty(row):
+        return None
+    try:
+        return changes.values(row)
+    except InputError as error:
+        raise InputError(f"case {number}: {error}") from None
+
+
+def _row(kind: "Kind", inputs: dict[str, float] | None, settings: "CaseSettings") -> dict[str, Any]:
+    """Return the row of a case: inputs, results, and the reason if it failed."""
+    from viscotack.campaign import measure
+    from viscotack.campaign.case import Unsolved
+    from viscotack.campaign.listed import EMPTY
+    from viscotack.model.problem.record import run_id
+
+    from .parts.json_data import plain
+
+    began = perf_counter()
+    row: dict[str, Any] = {"inputs": inputs, "outputs": None, "reason": ""}
+    if inputs is None:
+        return row | {"reason": EMPTY, "wall_time_s": 0.0}
+    try:
+        problem = kind.problem(inputs)
+        found = measure(problem, settings)
+        outputs = {name: x for name, x in found.items() if not isinstance(x, list | tuple | dict)}
+        row |= {"run_id": run_id(problem), "outputs": plain(outputs)}
+    except (InputError, Unsolved) as error:
+        row["reason"] = str(error)
+    except ArithmeticError:
+        row["reason"] = TOO_LARGE
+    return row | {"wall_time_s": perf_counter() - began}
+
+
+def _flat(
+    cases: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]]
+) -> list[dict[str, Any]]:
+    """Return rows of the same columns, for a table: those of the cases, and the results."""
+    from viscotack.files.text import cell
+
+    empty = dict.fromkeys(name for row in rows for name in row["outputs"] or ())
+    given = [
+        {cell(name): cell(x) if isinstance(x, str) else x for name, x in case.items()}
+        for case in cases
+    ]
+    return [
+        {
+            **case,
+            "run_id": row.get("run_id"),
+            **empty,
+            **(row["outputs"] or {}),
+            **case,  # of a problem without dimensions they are among the numbers too
+            "reason": cell(row["reason"]),
+            "wall_time_s": row["wall_time_s"],
+        }
+        for case, row in zip(given, rows, strict=True)
+    ]
+
+
+def _shown(problem: Any) -> tuple[str, str, str]:
+    """Return the name of the pull-off among the outputs, its unit and words."""
+    if isinstance(problem, RoughCase):
+        return "pull_off_force_N", "N", "pull-off force"
+    kind = problem.outputs
+    name = f"pull_off_{kind.name_of('force')}"
+    shown = kind.observables[name]
+    if problem.scales() is None:
+        return name, shown.unit.text, shown.words
+    return f"{name}_{shown.unit.tail}", shown.unit.si, shown.words
+
+
+def _words(changes: "Changes", rows: Sequence[Mapping[str, Any]], failed: int) -> str:
+    key, unit, about = _shown(changes.problem)
+    lines = []
+    for row in rows:
+        found = row["reason"] or f"{about} {readable(row['outputs'][key], unit, digits=5)}"
+        lines.append(f"  {changes.words(row)}: {found}")
+    count = sum(row["inputs"] is not None for row in rows)
+    return "\n".join([*lines, f"{count - failed} of {count} cases done, {failed} failed"])

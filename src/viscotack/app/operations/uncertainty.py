@@ -1,0 +1,264 @@
+"""The operation ``uncertainty``: the band of a force by its inputs, and which of them matters."""
+
+from dataclasses import replace
+from math import log
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from pydantic import Field
+
+from viscotack.errors import InputError
+from viscotack.units import is_number, readable
+
+from .flags import INDENTERS
+from .forecast import fitted
+from .parts.solid import passport_of
+from .request import (
+    Answer,
+    Caller,
+    Contact,
+    File,
+    Named,
+    Number,
+    Option,
+    Request,
+    Text,
+    csv_file,
+    picture,
+)
+
+if TYPE_CHECKING:
+    from viscotack.prediction.uncertainty import Uncertainty
+
+
+def deviation_of(text: str) -> tuple[str, float]:
+    """Return the path and the relative standard deviation of a text, "sphere.radius 2 %"."""
+    name, _, rest = text.strip().partition(" ")
+    rest = rest.strip()
+    number = rest.removesuffix("%").strip()
+    if not is_number(number):
+        raise InputError(
+            f'expected a number of the problem and its deviation, "sphere.radius 2 %", got '
+            f"{text!r:.60}"
+        )
+    return name, float(number) / (100 if rest.endswith("%") else 1)
+
+
+def _deviation(value: Any) -> str:
+    """Return the text of a deviation, which must have a path and a number."""
+    deviation_of(str(value))
+    return str(value)
+
+
+class OfUncertainty(Request):
+    """Propagate uncertainties of inputs to the pull-off force, and show which input matters.
+
+    Each --scatter names a number of the problem, as listed by viscotack campaign inputs, and its
+    relative standard deviation. With --passport the solids sampled from its measurement replace
+    the material, and with --study the interfaces sampled from a fitted series replace the
+    interface. The best tier within the budget predicts drawn problems, and its own error counts
+    too.
+
+    Example: viscotack uncertainty lens.toml --scatter "sphere.radius 2 %"
+    --scatter "interface.work_of_adhesion 15 %"
+    """
+
+    word: ClassVar = "uncertainty"
+    outputs: ClassVar = (
+        csv_file("Write a row for each input; - is standard output."),
+        picture("Draw the shares of the variance to a .png, .pdf or .svg file."),
+    )
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Any,
+        Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case"),
+    ]
+    scatter: Annotated[
+        tuple[str, ...],
+        Text(
+            'A number and its relative standard deviation, "protocol.speed 5 %".',
+            metavar="TEXT",
+            to=_deviation,
+        ),
+    ] = ()
+    passport: Annotated[
+        Any,
+        Named(
+            "A passport, or the name of a published material, in place of the material; its "
+            "sampled solids, or its intervals, are its uncertainty.",
+            metavar="PASSPORT",
+        ),
+    ] = None
+    temperature: Annotated[
+        float | None,
+        Number('Temperature, "25 degC"; default: that of the passport.', unit="K", metavar="T"),
+    ] = None
+    temperature_uncertainty: Annotated[
+        float | None,
+        Number(
+            'Standard uncertainty of the temperature, "0.5 K". It changes the times of the '
+            "material by the shift of the passport.",
+            unit="K",
+            above=0,
+            metavar="T",
+        ),
+    ] = None
+    study: Annotated[
+        Path | None,
+        File(
+            "As `viscotack identify rates ... -o study.toml` writes it: sampled interfaces in "
+            "place of the interface.",
+            metavar="STUDY",
+        ),
+    ] = None
+    confidence: Annotated[
+        float, Number("Fraction inside the band.", above=0, most=0.999, metavar="PART")
+    ] = 0.9
+    samples: Annotated[int, Option("Number of predictions."), Field(ge=6, le=10_000)] = 256
+    seed: Annotated[int, Option("Seed of the drawn problems."), Field(ge=0, lt=2**32)] = 0
+    budget: Annotated[
+        float,
+        Number(
+            "Time budget of each prediction, as for viscotack predict.",
+            unit="s",
+            above=0,
+            bare=True,
+            metavar="SECONDS",
+        ),
+    ] = 1.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Predict the drawn problems, telling ``share``."""
+        from viscotack.plot.uncertainty import draw_uncertainty
+        from viscotack.prediction.uncertainty import uncertainty
+
+        from .parts.tables import rows_as_csv
+
+        deviations = dict(deviation_of(text) for text in self.scatter)
+        if len(deviations) < len(self.scatter):
+            raise InputError("each number may be named once")
+        problem, sampled, times = self._known(caller)
+        if not (deviations or sampled or times):
+            raise InputError(
+                'give scatter, such as "sphere.radius 2 %", or what a passport or a study knows'
+            )
+        found = uncertainty(
+            problem,
+            deviations,
+            sampled=sampled,
+            times=times,
+            confidence=self.confidence,
+            samples=self.samples,
+            seed=self.seed,
+            budget=self.budget,
+            also=caller.also,
+            progress=lambda share: caller.tell({"share": share}),
+        )
+        rows = [
+            {
+                "input": name,
+                "deviation": {**deviations, **times}.get(name),
+                "first": x,
+                "total": found.total[name],
+            }
+            for name, x in found.first.items()
+        ]
+        kind = problem.outputs
+        force = kind.observables[f"pull_off_{kind.name_of('force')}"]
+        unit = force.unit.text if problem.scales() is None else force.unit.si
+        return Answer(
+            found,
+            record=lambda: _record(found, rows, unit),
+            words=lambda: _words(found, rows, force.words, unit),
+            files={"csv": rows_as_csv(rows)},
+            pictures={"plot": lambda: draw_uncertainty(found)},
+        )
+
+    def _known(self, caller: Caller) -> tuple[Any, dict[str, Any], dict[str, float]]:
+        """Return the problem, sampled parts, and the deviations of ln of the material's times."""
+        stated = self.stated(caller)
+        problem: Any = stated.problem
+        sampled: dict[str, Any] = {}
+        times: dict[str, float] = {}
+        given = [name for name in ("passport", "study") if getattr(self, name) is not None]
+        if given and problem.scales() is None:
+            raise InputError(f"`{given[0]}` needs a problem with dimensions, in SI")
+        if self.passport is not None:
+            problem, sampled, times = self._of_passport(problem, caller)
+        elif self.temperature is not None or self.temperature_uncertainty is not None:
+            raise InputError("a temperature needs a passport, which has the shift of the times")
+        elif stated.deviation > 0:
+            times["shift"] = stated.deviation * log(10.0)
+        if self.study is not None:
+            from viscotack.identify import interfaces
+            from viscotack.identify.forward import law_of
+
+            fit = fitted(self.study, caller).fit
+            growth = None if fit.growth is None else fit.growth.law
+            law = law_of(fit.work_of_adhesion, fit.equilibrium_gap, growth)
+            problem = replace(problem, traction=law)
+            sampled["traction"] = interfaces(fit, _INTERFACES, seed=self.seed)
+        return problem, sampled, times
+
+    def _of_passport(
+        self, problem: Any, caller: Caller
+    ) -> tuple[Any, dict[str, Any], dict[str, float]]:
+        """Return the problem on the material of the passport, its solids, and its times."""
+        from viscotack.model.materials.passport_uncertainty import allowed, shift_error
+
+        passport = passport_of(self.passport, caller)
+        if self.temperature is not None:
+            passport = passport.moved_to(self.temperature)
+        problem = replace(problem, material=passport.material)
+        solids, times = allowed(passport), {}
+        if (kelvin := self.temperature_uncertainty) is not None:
+            times["temperature"] = shift_error(passport, kelvin)
+            if not times["temperature"]:
+                raise InputError(
+                    f"{passport.name}: the temperature dependence of its times is unknown; omit "
+                    "`temperature_uncertainty`"
+                )
+        if not solids and not times:
+            raise InputError(
+                f"{passport.name}: the uncertainty of this material is unknown (no sampled solids "
+                "and no intervals); omit passport, or state scatter of its constants"
+            )
+        return problem, {"material": solids} if solids else {}, times
+
+
+# Number of interfaces sampled from a study.
+_INTERFACES = 64
+
+
+def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict[str, Any]:
+    """Return the numbers of the answer."""
+    return {
+        "pull_off": found.pull_off_force,
+        "median": found.median,
+        "interval": list(found.interval),
+        "unit": unit,
+        "confidence": found.confidence,
+        "deviation": found.deviation,
+        "inputs": rows,
+        "index_error": found.index_error,
+        "interpolation_error": found.interpolation_error,
+        "methods": dict(found.methods),
+    }
+
+
+def _words(found: "Uncertainty", rows: list[dict[str, Any]], force: str, unit: str) -> str:
+    """Return the answer as lines."""
+    low, high = found.interval
+    tiers = ", ".join(f"{name} ({count})" for name, count in found.methods.items())
+    lines = [
+        f"{force} {readable(found.pull_off_force, unit)}, in {found.confidence:.0%} of the cases "
+        f"{readable(low, unit, to=high)}",
+        f"by {tiers}",
+        "share of the variance of ln(force), alone and with the other inputs:",
+    ]
+    width = max(len(row["input"]) for row in rows)
+    for row in sorted(rows, key=lambda x: -x["total"]):
+        by = "" if row["deviation"] is None else f"  (deviation {row['deviation']:.3g})"
+        lines.append(f"  {row['input']:{width}s}  {row['first']:6.1%}  {row['total']:6.1%}{by}")
+    return "\n".join(lines)

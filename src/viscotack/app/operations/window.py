@@ -1,0 +1,221 @@
+"""The operation ``window``: pick and print by speed and preload."""
+
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
+
+from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
+from .simulate import Accuracy
+
+
+class OfWindow(Request):
+    """Determine where a stamp picks an object from a donor and prints it on a receiver.
+
+    The object has a contact with the stamp and one with donor or receiver, which carry the same
+    force. Which opens first follows from two steady cracks in series, with intervals;
+    docs/pick_and_print.md describes the file and the theory. With [scatter] the answer has the
+    probabilities to pick and to print, with temperatures or dwells a map for each.
+
+    Example: viscotack window stamp.toml --plot window.png
+    """
+
+    word: ClassVar = "window"
+    outputs: ClassVar = (
+        csv_file("Write a row for each speed and preload; - is standard output."),
+        csv_file("Write a row for each critical speed; - is standard output.", "critical"),
+        picture("Draw the map of speed and preload to a .png, .pdf or .svg file."),
+    )
+    takes_own: ClassVar = True
+
+    file: Annotated[
+        Path,
+        File(
+            "The contacts [stamp], [donor] and [receiver], and [pull] with speeds and preloads.",
+            metavar="WINDOW.toml",
+            argument=True,
+        ),
+    ]
+    simulate: Annotated[
+        bool,
+        Option("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
+    ] = False
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+
+    def answer(self, caller: Caller) -> Answer:
+        """Evaluate every speed and preload of each map, telling ``share``."""
+        from viscotack.design.window import read_window, window
+        from viscotack.plot.window import draw_window
+
+        from .parts.tables import rows_as_csv
+
+        file = caller.file(self.file)
+        stated = read_window(file, also=caller.also, beside=caller.within(file).file)
+        files = stated.variants or ((None, None, stated),)
+        maps, chances = [], []
+        for number, (_, _, each) in enumerate(files):
+
+            def tell(share: float, done: int = number) -> None:
+                caller.tell({"share": (done + share) / len(files)})
+
+            maps.append(
+                window(
+                    **_contacts(each),
+                    simulate=self.simulate,
+                    accuracy=self.accuracy,
+                    time_limit=self.time_limit,
+                    progress=tell,
+                )
+            )
+            chances.append(_chances(each, maps[-1]))
+        cells, critical, parts = [], [], []
+        for place, found, known in zip(files, maps, chances, strict=True):
+            at = _place(*place)
+            rows = [_cell(cell) | _yields(known, i) for i, cell in enumerate(found.cells)]
+            cells += [at | row for row in rows]
+            critical += [at | _critical(each) for each in found.critical_speeds]
+            head = _title(*place)
+            parts.append((head and f"{head}\n") + _words(found) + _yield_words(found, known))
+        first = _place(*files[0])
+        columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
+        return Answer(
+            tuple(maps) if stated.variants else maps[0],
+            record=lambda: {"cells": cells, "critical_speeds": critical},
+            words=lambda: "\n\n".join(parts),
+            files={
+                "csv": rows_as_csv(cells, columns),
+                "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
+            },
+            pictures={"plot": lambda: draw_window(*maps, titles=[_title(*x) for x in files])},
+        )
+
+
+def _place(temperature: float | None, dwell: float | None, _: Any) -> dict[str, float]:
+    """Return temperature and dwell of a map as columns."""
+    both = {"temperature_K": temperature, "dwell_s": dwell}
+    return {name: value for name, value in both.items() if value is not None}
+
+
+def _title(temperature: float | None, dwell: float | None, _: Any) -> str:
+    """Return temperature and dwell of a map in words."""
+    words = [] if temperature is None else [f"at {temperature - 273.15:.4g} degC"]
+    return ", ".join(words + ([] if dwell is None else [f"after {readable(dwell, 's')}"]))
+
+
+def _contacts(stated: Any) -> dict[str, Any]:
+    """Return the contacts, speeds and preloads of a file as options of a map."""
+    names = ("stamp", "donor", "receiver", "speeds", "preloads", "stiffness")
+    return {name: getattr(stated, name) for name in names}
+
+
+def _chances(stated: Any, found: Any) -> tuple[Any, ...]:
+    """Return the yield of each cell of a map; nothing without scatter."""
+    from viscotack.design.window import window_yield
+
+    if stated.scatter is None:
+        return ()
+    options = _contacts(stated) | {"speeds": found.speeds, "preloads": found.preloads}
+    return window_yield(**options, scatter=stated.scatter)
+
+
+def _yields(chances: tuple[Any, ...], number: int) -> dict[str, Any]:
+    """Return the columns of a cell with its yield."""
+    if not chances:
+        return {}
+    one = chances[number]
+    (low, high), (least, most) = one.pick_interval or _NONE, one.print_interval or _NONE
+    values = one.pick, low, high, one.print, least, most, one.transfer
+    return dict(zip(_YIELD, values, strict=True))
+
+
+def _yield_words(found: Any, chances: tuple[Any, ...]) -> str:
+    """Return the best yield of each preload in words."""
+    lines = []
+    for j, load in enumerate(found.preloads):
+        row = chances[j * len(found.speeds) : (j + 1) * len(found.speeds)]
+        for name in ("pick", "print", "transfer"):
+            known = [each for each in row if getattr(each, name) is not None]
+            if known:
+                best = max(known, key=lambda each: getattr(each, name))
+                lines.append(
+                    f"best {name} at {readable(load, 'N', digits=3)}: "
+                    f"{getattr(best, name):.1%} at {readable(best.speed, 'm/s', digits=3)}"
+                )
+    return "".join(f"\n{line}" for line in lines)
+
+
+_NONE = (None, None)
+_YIELD = (
+    "pick_probability",
+    "pick_low",
+    "pick_high",
+    "print_probability",
+    "print_low",
+    "print_high",
+    "transfer_probability",
+)
+_OF_BASE = ("opens", "tension_N", "held", "method")
+_CELL = (
+    "speed_m_per_s",
+    "preload_N",
+    "word",
+    *(f"{base}_{name}" for base in ("donor", "receiver") for name in _OF_BASE),
+    "why",
+)
+_CRITICAL = (
+    "base",
+    "preload_N",
+    "critical_speed_m_per_s",
+    "low_m_per_s",
+    "high_m_per_s",
+    "opens_below",
+    "opens_above",
+    "method",
+)
+
+
+def _cell(cell: Any) -> dict[str, Any]:
+    """Return the row of a speed and a preload."""
+    row = dict.fromkeys(_CELL)
+    row |= {"speed_m_per_s": cell.speed, "preload_N": cell.preload, "word": cell.word}
+    for base in ("donor", "receiver"):
+        one = getattr(cell, base)
+        if one is not None:
+            opens = None if one.opened is None else (base, "stamp")[one.opened]
+            values = opens, one.tension, one.held, one.method
+            row |= {f"{base}_{name}": x for name, x in zip(_OF_BASE, values, strict=True)}
+    return row | {"why": cell.why}
+
+
+def _critical(one: Any) -> dict[str, Any]:
+    """Return the row of a critical speed."""
+    low, high = one.interval
+    values = one.base, one.preload, one.speed, low, high, one.below, one.above, one.method
+    return dict(zip(_CRITICAL, values, strict=True))
+
+
+def _words(found: Any) -> str:
+    """Return the map as rows of words, and the critical speeds."""
+    width = max(len(cell.word) for cell in found.cells) + 2
+    speeds = [readable(v, "m/s", digits=3) for v in found.speeds]
+    width = max(width, *(len(each) + 2 for each in speeds))
+    loads = [readable(F, "N", digits=3) for F in found.preloads]
+    first = max(len("preload"), *map(len, loads))
+    lines = [f"{'preload':>{first}}" + "".join(f"{each:>{width}}" for each in speeds)]
+    for j, load in enumerate(loads):
+        words = (found.at(i, j).word for i in range(len(speeds)))
+        lines.append(f"{load:>{first}}" + "".join(f"{word:>{width}}" for word in words))
+    for one in found.critical_speeds:
+        low, high = (
+            None if end is None else readable(end, "m/s", digits=3) for end in one.interval
+        )
+        between = f"{low or 'below the map'} to {high or 'above the map'}"
+        lines.append(
+            f"{one.base} at {readable(one.preload, 'N', digits=3)}: the {one.below} opens below "
+            f"{readable(one.speed, 'm/s', digits=3)} ({between}), the {one.above} above"
+        )
+    reasons = dict.fromkeys(cell.why for cell in found.cells if cell.word == "undecided")
+    return "\n".join([*lines, *(f"undecided: {why}" for why in reasons)])

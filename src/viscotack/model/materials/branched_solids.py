@@ -1,0 +1,372 @@
+"""Linear viscoelastic solids with no branch, one branch, or a series of branches."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.cards import Pairs, conform
+from viscotack.errors import InputError
+from viscotack.model.materials import checks
+from viscotack.model.materials.checks import like_input, nonnegative
+from viscotack.model.materials.constants import (
+    GlassyModulus,
+    PoissonRatio,
+    RetardationTime,
+    RubberyModulus,
+)
+from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.material import Complex, Real
+from viscotack.model.materials.modes import Modes, compressed, maxwell, voigt
+
+_MOST_BRANCHES = 10_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Elastic:
+    """Elastic solid, without memory.
+
+    Parameters
+    ----------
+    rubbery_modulus : float
+        Young's modulus E0 [Pa], positive.
+    poisson_ratio : float
+        Poisson ratio nu, between 0 and 0.5.
+
+    Examples
+    --------
+    >>> rubber = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    >>> f"{rubber.contact_modulus:.4g} Pa"
+    '1.333e+06 Pa'
+    """
+
+    word: ClassVar[str] = "elastic"
+
+    rubbery_modulus: RubberyModulus
+    poisson_ratio: PoissonRatio
+
+    def __post_init__(self):
+        conform(self)
+
+    @property
+    def glassy_modulus(self) -> float:
+        """Short-time Young's modulus [Pa], here the rubbery one."""
+        return self.rubbery_modulus
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus k, dimensionless, here 1."""
+        return 1.0
+
+    @property
+    def contact_modulus(self) -> float:
+        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
+        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of dimensionless times [s]: 1 s, as there is no characteristic time."""
+        return 1.0
+
+    def relaxation(self, time: npt.ArrayLike) -> Real:
+        """Return the relaxation modulus [Pa], constant, at times [s]."""
+        t = nonnegative("time", time, "s")
+        return like_input(np.full(t.shape, self.rubbery_modulus))
+
+    def creep(self, time: npt.ArrayLike) -> Real:
+        """Return the creep compliance [1/Pa], constant, at times [s]."""
+        t = nonnegative("time", time, "s")
+        return like_input(np.full(t.shape, 1 / self.rubbery_modulus))
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
+        """Return the complex modulus [Pa], real and constant, at angular frequencies [rad/s]."""
+        w = nonnegative("omega", omega, "rad/s")
+        return like_input(np.full(w.shape, complex(self.rubbery_modulus)))
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
+        """Return the complex compliance [1/Pa], real and constant, at frequencies [rad/s]."""
+        w = nonnegative("omega", omega, "rad/s")
+        return like_input(np.full(w.shape, complex(1 / self.rubbery_modulus)))
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Return the modes of an elastic solid: an empty set."""
+        checks.window(shortest=shortest, longest=longest, tolerance=tolerance)
+        return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
+
+    def reduced(self) -> "Elastic":
+        """Return the dimensionless solid: rubbery modulus 1, Poisson ratio 0."""
+        return Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StandardSolid:
+    r"""Standard linear solid with one retardation time.
+
+    .. math:: E_0 C(t) = 1 + (k - 1) e^{-t/\tau_0}, \quad k = E_0/E_\infty
+
+    (Eq. 3.26 of Maghami, PhD thesis (2025)).
+
+    Parameters
+    ----------
+    rubbery_modulus : float
+        Long-time Young's modulus E0 [Pa], positive.
+    glassy_modulus : float
+        Short-time Young's modulus [Pa], not below the rubbery one.
+    tau0 : float
+        RETARDATION time [s], positive. The relaxation time is k tau0: `relaxation_time`.
+    poisson_ratio : float
+        Poisson ratio nu, between 0 and 0.5.
+
+    Examples
+    --------
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=2.0, poisson_ratio=0.5
+    ... )
+    >>> f"{solid.creep(2.0) * 1e6:.4f} 1/MPa, relaxes in {solid.relaxation_time:.2f} s"
+    '0.6689 1/MPa, relaxes in 0.20 s'
+    """
+
+    word: ClassVar[str] = "sls"
+
+    rubbery_modulus: RubberyModulus
+    glassy_modulus: GlassyModulus
+    tau0: RetardationTime
+    poisson_ratio: PoissonRatio
+
+    def __post_init__(self):
+        conform(self)
+        checks.stiffens(self)
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
+        return self.rubbery_modulus / self.glassy_modulus
+
+    @property
+    def contact_modulus(self) -> float:
+        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
+        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of dimensionless times [s]: the retardation time tau0."""
+        return self.tau0
+
+    @property
+    def relaxation_time(self) -> float:
+        """Relaxation time k tau0 [s], never longer than the retardation time."""
+        return self.modulus_ratio * self.tau0
+
+    def relaxation(self, time: npt.ArrayLike) -> Real:
+        """Return the relaxation modulus [Pa], from glassy to rubbery, at times [s]."""
+        t = nonnegative("time", time, "s")
+        E0, Einf = self.rubbery_modulus, self.glassy_modulus
+        return like_input(E0 + (Einf - E0) * np.exp(-t / self.relaxation_time))
+
+    def creep(self, time: npt.ArrayLike) -> Real:
+        """Return the creep compliance [1/Pa], from glassy to rubbery, at times [s] (Eq. 3.26)."""
+        t = nonnegative("time", time, "s")
+        C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
+        # Eq. 3.26 with expm1, which avoids cancellation for t << tau0
+        return like_input(Cinf - (C0 - Cinf) * np.expm1(-t / self.tau0))
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
+        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
+        w = nonnegative("omega", omega, "rad/s")
+        E0, Einf = self.rubbery_modulus, self.glassy_modulus
+        return like_input(E0 + (Einf - E0) * maxwell(w * self.relaxation_time))
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
+        """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
+        w = nonnegative("omega", omega, "rad/s")
+        C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
+        return like_input(Cinf + (C0 - Cinf) * voigt(w * self.tau0))
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Return the single mode, or none if it relaxes before `shortest` [s]; see `Material`."""
+        shortest, longest, tolerance = checks.window(
+            shortest=shortest, longest=longest, tolerance=tolerance
+        )
+        k = self.modulus_ratio
+        return compressed(
+            k,
+            np.array([1 - k]),
+            np.array([self.tau0]),
+            shortest=shortest,
+            longest=longest,
+            tolerance=tolerance,
+            error=1e-15,
+        )
+
+    def reduced(self) -> "StandardSolid":
+        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
+        glassy = self.glassy_modulus / self.rubbery_modulus
+        return StandardSolid(
+            rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prony:
+    r"""Generalised Maxwell (Wiechert) solid: a spring in parallel with Maxwell branches.
+
+    .. math:: R(t) = E_0 + \sum_i E_i e^{-t/\tau_i}
+
+    Parameters
+    ----------
+    rubbery_modulus : float
+        Long-time Young's modulus E0 [Pa], positive.
+    branches : sequence of (float, float)
+        Modulus E_i [Pa] and RELAXATION time tau_i [s] of each branch, both positive, all times
+        different. Stored as a tuple sorted by time.
+    poisson_ratio : float
+        Poisson ratio nu, between 0 and 0.5.
+
+    Notes
+    -----
+    The creep compliance is exact: its retardation times are the zeros of the modulus between the
+    relaxation times, see :func:`viscotack.model.materials.interconversion.reciprocal`.
+
+    References
+    ----------
+    Park & Schapery (1999), Methods of interconversion between linear viscoelastic material
+    functions. Part I, International Journal of Solids and Structures 36, 1653-1675.
+
+    Examples
+    --------
+    >>> solid = Prony(
+    ...     rubbery_modulus=1e6, branches=[(5e6, 1e-3), (4e6, 1.0)], poisson_ratio=0.5
+    ... )
+    >>> solid.branches[0], solid.modulus_ratio
+    ((5000000.0, 0.001), 0.1)
+    >>> f"{solid.relaxation(1.0):.4g} Pa, {solid.creep(1.0):.4g} 1/Pa"
+    '2.472e+06 Pa, 3.446e-07 1/Pa'
+    """
+
+    word: ClassVar[str] = "prony"
+
+    rubbery_modulus: RubberyModulus
+    branches: Annotated[
+        tuple[tuple[float, float], ...],
+        Pairs(
+            ("Pa", "s"),
+            "E_i, tau_i",
+            "modulus and relaxation time of each branch",
+            example='[["5 MPa", "1 ms"], ["4 MPa", "1 s"]]',
+        ),
+    ]
+    poisson_ratio: PoissonRatio
+
+    def __post_init__(self):
+        conform(self)
+        checks.store(self, branches=_branches(self.branches))
+
+    @property
+    def glassy_modulus(self) -> float:
+        """Short-time Young's modulus [Pa]: the rubbery one and all branches."""
+        return self.rubbery_modulus + sum(modulus for modulus, _ in self.branches)
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus k, dimensionless, in (0, 1)."""
+        return self.rubbery_modulus / self.glassy_modulus
+
+    @property
+    def contact_modulus(self) -> float:
+        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
+        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of dimensionless times [s]: the longest relaxation time."""
+        return self.branches[-1][1]
+
+    def relaxation(self, time: npt.ArrayLike) -> Real:
+        """Return the relaxation modulus [Pa], from glassy to rubbery, at times [s]."""
+        t = nonnegative("time", time, "s")
+        E, tau = np.array(self.branches).T
+        return like_input(self.rubbery_modulus + np.exp(-t[..., None] / tau) @ E)
+
+    def creep(self, time: npt.ArrayLike) -> Real:
+        """Return the creep compliance [1/Pa], from glassy to rubbery, at times [s]."""
+        t = nonnegative("time", time, "s")
+        C, rate = self._retardation()
+        return like_input(1 / self.glassy_modulus - np.expm1(-t[..., None] * rate) @ C)
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
+        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
+        w = nonnegative("omega", omega, "rad/s")
+        E, tau = np.array(self.branches).T
+        return like_input(self.rubbery_modulus + maxwell(w[..., None] * tau) @ E)
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
+        """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
+        return 1 / self.complex_modulus(omega)
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
+
+        The modes are exact, one per branch; modes outside the window are merged if the tolerance
+        allows it.
+        """
+        shortest, longest, tolerance = checks.window(
+            shortest=shortest, longest=longest, tolerance=tolerance
+        )
+        C, rate = self._retardation()
+        return compressed(
+            self.modulus_ratio,
+            self.rubbery_modulus * C[::-1],
+            1 / rate[::-1],
+            shortest=shortest,
+            longest=longest,
+            tolerance=tolerance,
+            error=1e-14,
+        )
+
+    def reduced(self) -> "Prony":
+        """Return the dimensionless solid: rubbery modulus 1, longest time 1, Poisson ratio 0."""
+        E0, unit = self.rubbery_modulus, self.time_unit
+        branches = tuple((E / E0, tau / unit) for E, tau in self.branches)
+        return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
+
+    def _retardation(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return the compliances [1/Pa] and retardation rates [1/s], rates ascending."""
+        E, tau = np.array(self.branches[::-1]).T
+        return reciprocal(self.rubbery_modulus, E, 1 / tau)
+
+
+def _branches(given) -> tuple[tuple[float, float], ...]:
+    """Return checked (modulus [Pa], relaxation time [s]) pairs, sorted by time."""
+    advice = "give branches=[(modulus in Pa, relaxation time in s), ...]"
+    try:
+        pairs = [tuple(pair) for pair in given]
+    except TypeError:
+        raise InputError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
+    if len(pairs) > _MOST_BRANCHES:
+        raise InputError(
+            f"a series has at most {_MOST_BRANCHES:,} branches, got {len(pairs):,}; ten per decade "
+            "of time are sufficient for any solid"
+        )
+    if not pairs:
+        raise InputError("branches must not be empty; use Elastic for a solid without branches")
+    for pair in pairs:
+        if len(pair) != 2:
+            raise InputError(f"each branch must be a pair of numbers, got {pair!r}; {advice}")
+    checked = sorted(
+        (
+            (
+                checks.positive("the modulus of a branch", modulus, "Pa"),
+                checks.positive("the relaxation time of a branch", time, "s"),
+            )
+            for modulus, time in pairs
+        ),
+        key=lambda branch: branch[1],
+    )
+    for (_, time), (_, following) in zip(checked, checked[1:], strict=False):
+        if following < time * (1 + 1e-9):
+            raise InputError(
+                "relaxation times of branches must differ by more than 1e-9 (relative), got "
+                f"{time!r} s and {following!r} s; merge the two branches by adding their moduli"
+            )
+    return tuple(checked)

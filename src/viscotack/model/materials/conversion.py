@@ -1,0 +1,245 @@
+r"""Convert between relaxation form, retardation form and approximate Prony series of a solid.
+
+A generalised Maxwell solid (parallel branches, :class:`Prony`) and a chain of Voigt elements
+(:class:`RetardationSeries`) are two forms of the same material:
+
+.. math::
+
+    R(t) = E_0 + \sum_i E_i e^{-t/\tau_i} , \qquad
+    C(t) = \frac{1}{E_\infty} + \sum_j C_j (1 - e^{-t/\lambda_j})
+
+Their times differ: each retardation time is longer than its relaxation time. The conversion is
+exact, see :mod:`viscotack.model.materials.interconversion`.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from viscotack.cards import conform
+from viscotack.errors import InputError
+from viscotack.model.materials import checks
+from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
+from viscotack.model.materials.constants import GlassyModulus, PoissonRatio
+from viscotack.model.materials.interconversion import reciprocal
+from viscotack.model.materials.material import Material
+from viscotack.model.materials.scaling import scaled
+
+
+@dataclass(frozen=True, kw_only=True)
+class RetardationSeries:
+    """Retardation form of a solid: Voigt elements in series with a spring.
+
+    Parameters
+    ----------
+    glassy_modulus : float
+        Short-time Young's modulus [Pa], that of the spring.
+    elements : sequence of (float, float)
+        Compliance C_j [1/Pa] and RETARDATION time lambda_j [s] of each element, both positive.
+        Stored as a tuple sorted by time.
+    poisson_ratio : float
+        Poisson ratio nu, between 0 and 0.5.
+
+    Examples
+    --------
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=2.0, poisson_ratio=0.5
+    ... )
+    >>> ((compliance, time),) = retardation_series(solid).elements
+    >>> f"{compliance:.12g} 1/Pa in {time:.12g} s"
+    '9e-07 1/Pa in 2 s'
+    """
+
+    glassy_modulus: GlassyModulus
+    elements: tuple[tuple[float, float], ...]
+    poisson_ratio: PoissonRatio
+
+    def __post_init__(self):
+        checked = [
+            (
+                checks.positive("the compliance of an element", C, "1/Pa"),
+                checks.positive("the retardation time of an element", time, "s"),
+            )
+            for C, time in self.elements
+        ]
+        if not checked:
+            raise InputError("elements must not be empty; use Elastic for a solid without elements")
+        conform(self)
+        checks.store(
+            self,
+            elements=tuple(sorted(checked, key=lambda element: element[1])),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PronyForm:
+    """A Prony series that approximates a solid, and its error.
+
+    Attributes
+    ----------
+    material : Prony
+        The series; its rubbery modulus is exactly that of the solid.
+    error : float
+        Largest relative error of the complex modulus between the two frequencies, evaluated on a
+        grid of 40 points per decade; 0 if the solid is itself a sum of exponentials.
+    frequencies : tuple of float
+        Angular frequencies [rad/s] between which it is valid. Above the higher one the series is
+        too soft, because the spectrum above it is part of the instantaneous compliance.
+    """
+
+    material: Prony
+    error: float
+    frequencies: tuple[float, float]
+
+
+def retardation_series(material: Prony | StandardSolid) -> RetardationSeries:
+    """Convert a solid to its retardation form, exact to round-off.
+
+    Examples
+    --------
+    >>> solid = Prony(
+    ...     rubbery_modulus=1e6, branches=[(5e6, 1e-3), (4e6, 1.0)], poisson_ratio=0.5
+    ... )
+    >>> series = retardation_series(solid)
+    >>> [f"{C:.4g} 1/Pa in {time:.4g} s" for C, time in series.elements]
+    ['9.968e-08 1/Pa in 0.001998 s', '8.003e-07 1/Pa in 5.004 s']
+    >>> f"{relaxation_series(series).branches[1][1]:.14g}"
+    '1'
+    """
+    solid = relaxation_form(material)
+    E, tau = np.array(solid.branches[::-1]).T
+    C, rate = reciprocal(solid.rubbery_modulus, E, 1 / tau)
+    return RetardationSeries(
+        glassy_modulus=solid.glassy_modulus,
+        elements=tuple(zip(C, 1 / rate, strict=True)),
+        poisson_ratio=solid.poisson_ratio,
+    )
+
+
+def relaxation_series(series: RetardationSeries) -> Prony:
+    """Convert a retardation form to a Prony series, exact to round-off."""
+    C, time = np.array(series.elements).T
+    E, tau = reciprocal(1 / series.glassy_modulus, C, time)
+    return Prony(
+        # a sum of positive terms, without cancellation
+        rubbery_modulus=1 / (1 / series.glassy_modulus + float(np.sum(C))),
+        branches=tuple(zip(E, tau, strict=True)),
+        poisson_ratio=series.poisson_ratio,
+    )
+
+
+def relaxation_form(material: Prony | StandardSolid) -> Prony:
+    """Return a solid of exponentials as a Prony series: itself, or one branch.
+
+    Examples
+    --------
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=2.0, poisson_ratio=0.5
+    ... )
+    >>> relaxation_form(solid).branches
+    ((9000000.0, 0.2),)
+    """
+    if isinstance(material, Prony):
+        return material
+    if not isinstance(material, StandardSolid) or material.modulus_ratio == 1:
+        raise InputError(
+            f"{type(material).__name__} is not a sum of exponentials; use prony_form for an "
+            "approximation"
+        )
+    return Prony(
+        rubbery_modulus=material.rubbery_modulus,
+        branches=((material.glassy_modulus - material.rubbery_modulus, material.relaxation_time),),
+        poisson_ratio=material.poisson_ratio,
+    )
+
+
+def prony_form(
+    material: Material, *, frequencies: tuple[float, float], tolerance: float = 3e-4
+) -> PronyForm:
+    """Approximate the complex modulus of a solid by a Prony series between two frequencies.
+
+    Uses the exact modes of the creep, as few as the tolerance allows, with exact
+    interconversion and without fitting. A solid of exponentials is returned unchanged.
+
+    Parameters
+    ----------
+    material : StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
+        The solid; not an elastic one.
+    frequencies : (float, float)
+        Lowest and highest angular frequency [rad/s], positive.
+    tolerance : float
+        Largest relative error of the complex modulus between them, in (0, 1). The default
+        changes the simulated pull-off force of a power law by less than 1e-4.
+
+    Raises
+    ------
+    ValueError
+        If the solid is elastic, or the tolerance cannot be reached (below about 1e-10).
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import RetardationPowerLaw
+    >>> solid = RetardationPowerLaw(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e8, exponent=0.5, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> form = prony_form(solid, frequencies=(1.0, 1e6))
+    >>> len(form.material.branches), form.error < 3e-4
+    (19, True)
+    """
+    low, high = (checks.positive("a frequency", w, "rad/s") for w in frequencies)
+    if not 0 < tolerance < 1:
+        raise InputError(f"tolerance is relative and must lie between 0 and 1, got {tolerance:g}")
+    if low >= high:
+        raise InputError(f"frequencies must ascend, got {low:g} and {high:g} rad/s")
+    if isinstance(material, Prony) or isinstance(material, StandardSolid):
+        return PronyForm(material=relaxation_form(material), error=0.0, frequencies=(low, high))
+    if material.modulus_ratio == 1 or isinstance(material, Elastic):
+        raise InputError("an elastic solid does not relax, so it has no Prony series")
+    omega = np.geomspace(low, high, 2 + int(40 * np.log10(high / low)))
+    exact = material.complex_modulus(omega)
+    least = float(np.min(np.abs(material.complex_compliance(omega))) * material.rubbery_modulus)
+    # The modulus of a mode varies as omega tau, more slowly than exp(-t/tau): widen the time
+    # window.
+    error = np.inf
+    for finer in (30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4):
+        part = min(tolerance * finer, 0.5)
+        modes = material.retardation_modes(
+            shortest=part / high, longest=1 / (part * low), tolerance=max(part * least, 1e-14)
+        )
+        E, tau = reciprocal(modes.instantaneous, np.array(modes.weights), np.array(modes.times))
+        keep = E > 0  # a mode too weak to move its pole gives no branch
+        series = Prony(
+            rubbery_modulus=material.rubbery_modulus,
+            branches=tuple(zip(material.rubbery_modulus * E[keep], tau[keep], strict=True)),
+            poisson_ratio=material.poisson_ratio,
+        )
+        error = float(np.max(np.abs(np.asarray(series.complex_modulus(omega)) / exact - 1)))
+        if error <= tolerance:
+            return PronyForm(material=series, error=error, frequencies=(low, high))
+    raise InputError(
+        f"the closest series has an error of {error:.1e}, above the tolerance {tolerance:g}; "
+        "increase the tolerance"
+    )
+
+
+def slowed(material: Any, factor: float) -> Any:
+    """Multiply all times of a solid by a factor, as a change of temperature does.
+
+    Parameters
+    ----------
+    material : Material
+        Any solid; its times are the numbers whose cards have a unit of time.
+    factor : float
+        Shift factor a_T, positive; above 1 for a slower solid.
+
+    Examples
+    --------
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=2.0, poisson_ratio=0.5
+    ... )
+    >>> slowed(solid, 100.0).tau0
+    200.0
+    """
+    a = checks.positive("factor", factor, "-")
+    return scaled(material, modulus=1.0, time=a)

@@ -1,0 +1,92 @@
+"""Protocol of materials: their attributes and methods with units and signs."""
+
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.model.materials.modes import Modes
+
+Real = float | npt.NDArray[np.float64]
+Complex = complex | npt.NDArray[np.complex128]
+
+
+class Material(Protocol):
+    """Linear viscoelastic, isotropic solid with a constant Poisson ratio.
+
+    A protocol for type checkers, see for example :class:`viscotack.StandardSolid`. A new material
+    needs these attributes and methods only. Quantities are uniaxial (E, not the contact modulus
+    E*), in SI, angular frequencies in rad/s. Methods accept a number or an array and return the
+    same shape. Times and frequencies must be in [0, inf]; other values raise ValueError.
+    """
+
+    @property
+    def rubbery_modulus(self) -> float:
+        """Long-time Young's modulus E0 [Pa]."""
+        ...
+
+    @property
+    def glassy_modulus(self) -> float:
+        """Short-time Young's modulus [Pa], not below the rubbery one."""
+        ...
+
+    @property
+    def poisson_ratio(self) -> float:
+        """Poisson ratio nu, dimensionless, in [0, 0.5]."""
+        ...
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
+        ...
+
+    @property
+    def contact_modulus(self) -> float:
+        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
+        ...
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of dimensionless times [s]."""
+        ...
+
+    def relaxation(self, time: npt.ArrayLike) -> Real:
+        """Return the stress after a unit step of strain [Pa], from glassy to rubbery."""
+        ...
+
+    def creep(self, time: npt.ArrayLike) -> Real:
+        """Return the strain after a unit step of stress [1/Pa], from glassy to rubbery."""
+        ...
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
+        """Return E' + i E'' [Pa], both parts not negative."""
+        ...
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
+        """Return 1/(E' + i E'') = C' - i C'' [1/Pa]."""
+        ...
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Approximate the creep by exponential modes in a window of time.
+
+        Parameters
+        ----------
+        shortest, longest : float
+            Times [s] between which the modes must be valid, positive.
+        tolerance : float
+            Largest absolute error of E0 C(t), dimensionless, in (0, 1). For fast events in a solid
+            of small k, request a fraction of E0 C(shortest). Theories of cracks request 1e-14 k:
+            below `viscotack.model.materials.modes.FINEST`, 3e-14, rounding limits the accuracy,
+            and the closest modes are returned.
+
+        Returns
+        -------
+        Modes
+            With a stated error for shortest <= time <= longest, at most the larger of the tolerance
+            and `FINEST`.
+        """
+        ...
+
+    def reduced(self) -> "Material":
+        """Return the dimensionless solid: rubbery modulus 1, time unit 1, Poisson ratio 0."""
+        ...

@@ -1,0 +1,263 @@
+"""Material passport: a material with its origin, uncertainty and range of validity."""
+
+import math
+from dataclasses import dataclass, replace
+from statistics import NormalDist, fmean, pstdev
+from typing import Any
+
+from viscotack.errors import InputError
+from viscotack.model.materials.checks import rests, temperatures
+from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
+
+# Beginning of the sentence of a fit on a liquid.
+LIQUID = "this is a liquid"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Origin:
+    """Origin of a material.
+
+    Attributes
+    ----------
+    reference : str
+        Publication or laboratory, as text.
+    doi : str
+        DOI of the publication.
+    file, sha256, format : str
+        Name, hash and format of the fitted file.
+    made_by : str
+        Program and version that created the passport.
+    notes : tuple of str
+        Decisions between file and numbers.
+    """
+
+    reference: str = ""
+    doi: str = ""
+    file: str = ""
+    sha256: str = ""
+    format: str = ""
+    made_by: str = ""
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """Quality of a fit.
+
+    Attributes
+    ----------
+    numbers, constants : int
+        Number of measured values, and of fitted constants.
+    scatter : float or None
+        Standard deviation of ln(measured/fitted); None if unknown.
+    level : float
+        Confidence level of the intervals.
+    intervals : tuple of (str, float, float)
+        Name, lower and upper end [SI] of each interval; 0 and inf where there is no bound.
+    undetermined, cautions : tuple of str
+        Sentences on undetermined constants, and on the quality of the fit.
+    """
+
+    numbers: int
+    constants: int
+    level: float
+    scatter: float | None = None
+    intervals: tuple[tuple[str, float, float], ...] = ()
+    undetermined: tuple[str, ...] = ()
+    cautions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Passport:
+    """A material with its temperature shift, origin and uncertainty.
+
+    Parameters
+    ----------
+    name : str
+        Name of the material.
+    material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
+        Tensile solid at `temperature`, with a constant Poisson ratio.
+    temperature : float or None
+        Temperature of `material` [K].
+    shift : WLF, Arrhenius, TabulatedShift or None
+        Temperature dependence of its times.
+    fitted_shift : FittedShift or None
+        Law fitted to a measured table of shifts.
+    temperatures : (float, float) or None
+        Lowest and highest measured temperature [K].
+    frequencies : (float, float) or None
+        Lowest and highest measured angular frequency [rad/s], reduced to `temperature`.
+    measured : str or None
+        Measured kind of modulus, "E" or "G"; None if unknown.
+    origin : Origin
+        Origin of the material.
+    evidence : Evidence or None
+        Quality of the fit.
+    allowed : tuple of Material
+        Solids sampled from the uncertainty of the measurement at the same temperature, to propagate
+        the joint uncertainty of all constants to predictions.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> from viscotack.model.materials.shift import WLF
+    >>> rubber = Passport(
+    ...     name="rubber",
+    ...     material=StandardSolid(
+    ...         rubbery_modulus=1e6, glassy_modulus=1e9, tau0=0.1, poisson_ratio=0.5
+    ...     ),
+    ...     temperature=293.15,
+    ...     shift=WLF(reference_temperature=293.15, c1=8.0, c2=100.0),
+    ... )
+    >>> f"{rubber.at_temperature(273.15).tau0:.3g} s"
+    '10 s'
+    """
+
+    name: str
+    material: Any
+    temperature: float | None = None
+    shift: Shift | None = None
+    fitted_shift: FittedShift | None = None
+    temperatures: tuple[float, float] | None = None
+    frequencies: tuple[float, float] | None = None
+    measured: str | None = None
+    origin: Origin = Origin()
+    evidence: Evidence | None = None
+    allowed: tuple[Any, ...] = ()
+
+    def __post_init__(self):
+        for solid in (self.material, *self.allowed):
+            rests(solid)
+        if not hasattr(self.material, "retardation_modes"):
+            raise InputError(
+                f"material must be a solid of viscotack, got {type(self.material).__name__}"
+            )
+        if self.shift is not None and self.temperature is None:
+            raise InputError("a shift needs the temperature [K] of the material")
+        if self.measured not in ("E", "G", None):
+            raise InputError(f"measured must be 'E', 'G' or None, got {self.measured!r}")
+        for name in ("temperature", "temperatures"):
+            if (value := getattr(self, name)) is not None:
+                temperatures(name, value)
+        for name in ("temperatures", "frequencies"):
+            pair = getattr(self, name)
+            if pair is not None and not 0 < pair[0] <= pair[1]:
+                raise InputError(f"{name} must be positive and ascend, got {pair}")
+
+    @property
+    def liquid(self) -> str:
+        """The sentence of the fit on a liquid, whose rubbery modulus is no property; else empty."""
+        said = () if self.evidence is None else self.evidence.undetermined
+        return next((text for text in said if text.startswith(LIQUID)), "")
+
+    def refuse_liquid(self, what: str) -> None:
+        """Raise an error if the material is a liquid; `what` cannot be done with one."""
+        if self.liquid:
+            raise InputError(
+                f"{self.name or 'the material'} has no rubbery plateau ({self.liquid.split('.')[0]}"
+                f"): {what}. If it is a solid, measure at lower frequencies or state "
+                "--rubbery-modulus in `viscotack material fit`"
+            )
+
+    def shift_factor(self, temperature: float) -> float:
+        """Return a_T, the factor on the times of the material at another temperature [K].
+
+        Raises
+        ------
+        ValueError
+            Without a shift law, or outside the measured temperatures or the law's range.
+        """
+        if temperature == self.temperature:
+            return 1.0
+        if self.shift is None or self.temperature is None:
+            known = "" if self.temperature is None else f" from {_both(self.temperature)}"
+            raise InputError(
+                f"{self.name}: the temperature dependence of its times is unknown{known}"
+            )
+        if self.temperatures is not None:
+            low, high = self.temperatures
+            if not low - BESIDE <= temperature <= high + BESIDE:
+                raise InputError(
+                    f"{self.name} was measured from {_both(low)} to {_both(high)}, got "
+                    f"{_both(temperature)}; superposition is not extrapolated"
+                )
+        law = self.shift
+        decades = float(law.log10_shift(temperature)) - float(law.log10_shift(self.temperature))
+        return 10.0**decades
+
+    def shift_deviation(self, temperature: float) -> float:
+        """Return the standard deviation of log10 a_T at a temperature [K]; 0 if unknown."""
+        if self.temperature is None or not isinstance(self.shift, TabulatedShift):
+            return 0.0
+        return self.shift.deviation(temperature, self.temperature)
+
+    def at_temperature(self, temperature: float) -> Any:
+        """Return the material at another temperature [K], with its times multiplied by a_T.
+
+        Moduli are unchanged: the small temperature dependence of the rubbery modulus is neglected.
+
+        Raises
+        ------
+        ValueError
+            As :meth:`shift_factor`.
+        """
+        return slowed(self.material, self.shift_factor(temperature))
+
+    def moved_to(self, temperature: float) -> "Passport":
+        """Return the passport of the same material at another temperature [K]."""
+        a = self.shift_factor(temperature)
+        frequencies = self.frequencies and (self.frequencies[0] / a, self.frequencies[1] / a)
+        deviation = self.shift_deviation(temperature)
+        note = f"moved from {_both(self.temperature)} to {_both(temperature)}, a_T = {a:.6g}"
+        if deviation > 0:
+            note += f", standard deviation of log10 a_T {deviation:.2g}"
+        if self.temperature is None or temperature == self.temperature:
+            return self
+        evidence = self.evidence
+        if evidence is not None:
+            # combine two independent errors of ln tau0; the second is that of the shift
+            wider = NormalDist().inv_cdf((1 + evidence.level) / 2) * deviation * math.log(10)
+            moved = tuple(
+                _moved(interval, getattr(self.material, "tau0", math.nan), a, wider)
+                for interval in evidence.intervals
+            )
+            evidence = replace(evidence, intervals=moved)
+        return replace(
+            self,
+            material=slowed(self.material, a),
+            temperature=float(temperature),
+            frequencies=frequencies,
+            origin=replace(self.origin, notes=(*self.origin.notes, note)),
+            evidence=evidence,
+            allowed=tuple(
+                slowed(solid, a * 10 ** (deviation * z))
+                for solid, z in zip(self.allowed, _scattered(len(self.allowed)), strict=True)
+            ),
+        )
+
+
+def _scattered(count: int) -> list[float]:
+    """Return deterministic numbers of mean 0 and deviation 1, evenly spread and unordered."""
+    # golden-section steps cover the unit interval evenly
+    drawn = [NormalDist().inv_cdf((0.5 + 0.6180339887 * i) % 1.0) for i in range(count)]
+    if count < 2:
+        return [0.0] * count
+    return [(x - fmean(drawn)) / pstdev(drawn) for x in drawn]
+
+
+def _moved(
+    interval: tuple[str, float, float], tau0: float, factor: float, wider: float
+) -> tuple[str, float, float]:
+    """Move an interval to another temperature; `wider` is the half-width of ln(factor)."""
+    name, low, high = interval
+    if name != "tau0":
+        return interval
+    # an open end stays open
+    down = math.hypot(math.log(tau0 / low), wider) if low > 0 else math.inf
+    up = math.hypot(math.log(high / tau0), wider)
+    return name, tau0 * factor * math.exp(-down), tau0 * factor * math.exp(up)
+
+
+def _both(temperature: float | None) -> str:
+    return "" if temperature is None else f"{temperature - 273.15:.4g} C ({temperature:.5g} K)"

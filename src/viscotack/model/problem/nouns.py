@@ -1,0 +1,171 @@
+"""Known classes of laws, materials, shapes and bodies, including user-defined ones.
+
+There is no registry: a class is recognised by its attributes, and `word` is its name in
+files and options.
+"""
+
+import importlib.util
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from viscotack.cards import check_carded
+from viscotack.errors import InputError
+from viscotack.files.bounded import LARGEST_TEXT, read_bytes
+from viscotack.model.geometry import BODIES, SHAPES
+from viscotack.model.materials.words import MODELS
+from viscotack.model.traction import LAWS
+
+# What a class of each kind must have: fields, methods and properties.
+MEMBERS = {
+    "laws": (
+        "work_of_adhesion",
+        "equilibrium_gap",
+        "traction",
+        "energy",
+        "energy_beyond",
+        "stiffness",
+        "strength",
+        "edge_gap",
+        "reduced",
+    ),
+    "materials": (
+        "rubbery_modulus",
+        "glassy_modulus",
+        "poisson_ratio",
+        "modulus_ratio",
+        "contact_modulus",
+        "time_unit",
+        "relaxation",
+        "creep",
+        "complex_modulus",
+        "complex_compliance",
+        "retardation_modes",
+        "reduced",
+    ),
+    "shapes": ("symmetry", "gap", "flank", "reduced"),
+    "bodies": ("symmetries", "influence", "decay_length", "reduced"),
+}
+_SINGULAR = {"laws": "law", "materials": "material", "shapes": "shape", "bodies": "body"}
+
+
+@dataclass(frozen=True)
+class Nouns:
+    """The known classes.
+
+    Attributes
+    ----------
+    laws, materials, shapes, bodies : mapping
+        Word in files and options -> class.
+    observables : tuple
+        User-defined numbers of results.
+    """
+
+    laws: Mapping[str, Any]
+    materials: Mapping[str, Any]
+    shapes: Mapping[str, Any]
+    bodies: Mapping[str, Any]
+    observables: tuple[Any, ...] = ()
+
+
+def known(also: Iterable[Any] = ()) -> Nouns:
+    """Return the known classes, including user-defined classes and observables.
+
+    Raises
+    ------
+    ValueError
+        If one is not a law, material, shape, body or observable, or its name or word is already
+        used.
+    """
+    also = tuple(also)
+    nouns = {"laws": LAWS, "materials": MODELS, "shapes": SHAPES, "bodies": BODIES}
+    own = {room: dict(classes) for room, classes in nouns.items()}
+    observables = []
+    for noun in also:
+        if hasattr(noun, "function") and not isinstance(noun, type):
+            if noun.name in {other.name for other in observables}:
+                raise InputError(f"two observables have the name {noun.name}; rename one")
+            observables.append(noun)
+            continue
+        room = room_of(noun)
+        check_carded(noun)
+        if any(noun.word in classes for classes in own.values()):
+            raise InputError(
+                f"{noun.__name__} has the word {noun.word!r}, which is already used; choose another"
+            )
+        own[room][noun.word] = noun
+    return Nouns(**own, observables=tuple(observables))
+
+
+def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
+    """Return the laws, materials, shapes, bodies and observables defined in Python files.
+
+    The files are executed.
+
+    Raises
+    ------
+    FileNotFoundError
+        If a file does not exist.
+    ValueError
+        If a file is not valid Python, or defines none of these.
+    """
+    found: list[Any] = []
+    for path in dict.fromkeys(Path(path).resolve() for path in paths):
+        found += _defined(path, sha256(read_bytes(path, LARGEST_TEXT)).hexdigest())
+    return tuple(found)
+
+
+@lru_cache(maxsize=32)
+def _defined(path: Path, content: str) -> tuple[Any, ...]:
+    name = f"viscotack_own_{content[:16]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise InputError(f"{path} is not a Python file; give one that ends in .py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except (Exception, SystemExit) as error:
+        del sys.modules[name]
+        raise InputError(f"{path} cannot be read: {type(error).__name__}: {error}") from error
+    found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))
+    if not found:
+        raise InputError(
+            f"{path} defines no law, material, shape, body or observable; docs/own.md shows an "
+            "example"
+        )
+    return found
+
+
+def _is_own(thing: Any, module: str) -> bool:
+    if isinstance(thing, type):
+        return thing.__module__ == module and hasattr(thing, "word") and is_dataclass(thing)
+    return is_dataclass(thing) and hasattr(thing, "function") and hasattr(thing, "words")
+
+
+def missing_members(noun: Any, room: str) -> list[str]:
+    """Return the members of a kind that a class or an object lacks."""
+    named = {field.name for field in fields(noun)} if is_dataclass(noun) else set()
+    return [name for name in MEMBERS[room] if not hasattr(noun, name) and name not in named]
+
+
+def room_of(noun: Any) -> str:
+    """Return the kind of a class, a key of `MEMBERS`; InputError names missing members."""
+    name = getattr(noun, "__name__", noun)
+    wrong = f"{name!r} is not a law, material, shape or body"
+    if not (isinstance(noun, type) and is_dataclass(noun)):
+        raise InputError(f"{wrong}, which are frozen dataclasses; nor is it an Observable")
+    if not isinstance(getattr(noun, "word", None), str):
+        raise InputError(f'{wrong}: it has no word; write word: ClassVar[str] = "a-name"')
+    missing = {room: missing_members(noun, room) for room in MEMBERS}
+    room = min(MEMBERS, key=lambda each: len(missing[each]) / len(MEMBERS[each]))
+    if missing[room]:
+        raise InputError(
+            f"{wrong}: as a {_SINGULAR[room]} it lacks {', '.join(missing[room])}; "
+            "docs/own.md describes each"
+        )
+    return room

@@ -1,0 +1,367 @@
+"""State of a soft body at one instant, and its change by a step, a jump or a new mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import isnan
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from viscotack.model.materials import Modes
+from viscotack.model.traction import grows
+from viscotack.simulate.ageing import Contacted
+from viscotack.simulate.closed_gap import pressed_shut
+from viscotack.simulate.contacts.contact import Contact, Relaxed
+from viscotack.simulate.equilibrium import Balance, descend
+from viscotack.simulate.gap_limits import least_gap, room
+from viscotack.simulate.growth import Frozen, Opening, Stepped, bend, driven
+from viscotack.simulate.history import Snapshot
+from viscotack.simulate.interface import Faces
+from viscotack.simulate.machine import Hold
+from viscotack.simulate.memory import Memory, Step
+from viscotack.simulate.surface import Surface
+
+# The iterations of a step end when one reduces the energy by less than this fraction. The force is
+# then accurate to 1e-7, and steps at large Tabor numbers take three times fewer iterations.
+_LEAST_GAIN = 1e-10
+
+
+# Number of previous instants stored for prediction.
+_TRAIL = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Passed:
+    """Data of a past instant, used to predict the next one and to integrate over the steps.
+
+    Attributes
+    ----------
+    seen : Snapshot
+        Recorded quantities of the instant.
+    heat : ndarray, shape (M,)
+        Rate of heat of each mode [output force times h0 per time].
+    """
+
+    seen: Snapshot
+    heat: npt.NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Rates:
+    """Rates of change over the last step, used only to predict the next step.
+
+    At rest the rates are zero and marked as unknown, so they are not used in the error estimate.
+    """
+
+    relaxed: npt.NDArray
+    edge: float
+    gap: npt.NDArray  # in the frame of the moving edge
+    known: bool = True
+    followed: npt.NDArray | None = None  # of e, in the frame of the moving edge
+
+
+@dataclass(frozen=True, eq=False)
+class Extra:
+    """Additional traction of an interface that exceeds its law at rest, at one instant.
+
+    Attributes
+    ----------
+    bonds : Opening or Contacted
+        Opening speed of the gap, or time in contact.
+    nodal : ndarray, shape (N,)
+        Nodal forces in excess of the quasi-static ones, tension positive.
+    flank : float
+        Force on the flank in excess of the quasi-static one [output unit], tension positive.
+    """
+
+    bonds: Opening | Contacted
+    nodal: npt.NDArray
+    flank: float
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Complete solver state at one instant: recorded quantities and data for the next step.
+
+    `trail` holds the last few instants including this one; after a rest only this one.
+    """
+
+    seen: Snapshot
+    surface: Surface
+    gap: npt.NDArray
+    relaxed: npt.NDArray  # e: displacement of the relaxed solid under this pressure
+    nodal: npt.NDArray  # F: nodal forces
+    memory: Memory
+    rates: Rates
+    trail: tuple[Passed, ...]
+    extra: Extra | None = None  # None if the law depends on the gap alone
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Result of a trial step: the state after it and its error estimate.
+
+    `error` is the error of assuming a pressure linear in time, as a displacement [h0]. It is zero
+    if the rates before the step are unknown, infinite if no stable equilibrium was found. `bend` is
+    the relative change of the attraction due to the change of opening speeds in the step.
+    """
+
+    after: State
+    error: float
+    iterations: int
+    released: bool
+    bend: float = 0.0
+
+    @property
+    def lost(self) -> bool:
+        """Whether no equilibrium was found and the contact was not released."""
+        return not (np.isfinite(self.error) or self.released)
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """Constant data of a run: the contact and the retardation modes of the solid.
+
+    The traction law of the contact is that at rest. `growing` is the law itself if its tension
+    grows with the opening speed or with the time in contact, otherwise None.
+    """
+
+    contact: Contact
+    modes: Modes
+    weights: npt.NDArray
+    growing: Any = None
+
+    @property
+    def runs(self) -> bool:
+        """Whether a crack that is unstable runs at a finite speed instead of jumping."""
+        return grows(self.growing)
+
+    @cached_property
+    def times(self) -> npt.NDArray:
+        """Retardation times of the modes."""
+        return np.asarray(self.modes.times)
+
+    def first(self, start: Relaxed) -> State:
+        """Return the relaxed state, in which every mode is in equilibrium."""
+        gap, surface = start.gap, start.surface
+        bonds = self._bonds_of_rest(gap)
+        if isinstance(bonds, Contacted):
+            # the edge is where loading has left it; inside, old bonds hold the gap tighter
+            free, hold = surface.rigid_gap, Hold(np.inf, depth=start.depth)
+            gap = descend(surface, self.law(bonds), free, 1.0, gap, hold).gap
+        e = gap - (surface.rigid_gap - start.depth)
+        faces = surface.interface.at(self.law(bonds), gap)
+        many = (len(self.weights), 1)
+        memory = Memory(np.tile(e, many), np.tile(-faces.tension, many))
+        edge, rates = surface.edge(gap, self.contact.law.edge_gap), _at_rest(gap)
+        return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, bonds)
+
+    def _bonds_of_rest(self, gap: npt.NDArray) -> Opening | Contacted | None:
+        """Return the bonds of a relaxed contact."""
+        if self.growing is None:
+            return None
+        if self.runs:
+            return Opening.none(gap)
+        return Contacted.relaxed(self.contact.law, self.growing, gap)
+
+    def after(
+        self, state: State, s: Step, hold: Hold, most_iterations: int, largest_gain: float
+    ) -> Trial:
+        """Advance the state by one trial time step; for `largest_gain` see `descend`."""
+        surface, base = state.surface, self.contact.law
+        bonds = None if state.extra is None else state.extra.bonds
+        law: Any = base
+        if bonds is not None:
+            law = bonds.stepped(base, self.growing, state.gap, s.length)
+        free = surface.rigid_gap + state.memory.inherited(s, state.relaxed)
+        guess = _shifted(state, state.rates.edge * s.length) + s.length * state.rates.gap
+        guess = np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span))
+        machine, balance, speed = self.net(hold, state), None, None
+        if isinstance(law, Stepped):
+            balance, speed = driven(surface, law, free, s.compliance, guess, machine)
+        if balance is None:
+            balance = descend(
+                surface,
+                law,  # type: ignore[arg-type]
+                free,
+                s.compliance,
+                guess,
+                machine,
+                least_gain=_LEAST_GAIN,
+                largest_gain=largest_gain,
+                most_iterations=most_iterations,
+            )
+        gap, faces, bent = balance.gap, balance.faces, 0.0
+        if isinstance(law, Stepped):
+            speed = law.speed(gap) if speed is None else speed
+            bonds = law.opening(state.gap, speed, s.length)
+            bent = bend(law, gap, bonds, surface.area)
+            faces = surface.interface.at(self.law(bonds), gap)
+        elif isinstance(bonds, Contacted):  # bonds that break now pull less from the next step on
+            bonds = bonds.after(base, state.gap, gap, s.length)
+        e = (gap - free + balance.depth) / s.compliance
+        edge = surface.edge(gap, self.contact.law.edge_gap)
+        moved = 0.0 if isnan(edge - state.seen.edge) else edge - state.seen.edge
+        change = e - state.relaxed
+        most = float(np.abs(change - s.length * state.rates.relaxed).max())
+        rates = Rates(
+            relaxed=change / s.length,
+            edge=moved / s.length,
+            gap=(gap - _shifted(state, moved)) / s.length,
+        )
+        memory = state.memory.advanced(s, state.relaxed, e, state.nodal, -faces.tension)
+        time, depth = state.seen.time + s.length, balance.depth
+        after = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds, state.trail)
+        error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
+        return Trial(after, error, balance.iterations, balance.released, bent)
+
+    def remeshed(self, state: State, nodes: npt.NDArray, hold: Hold) -> State | Balance:
+        """Return the state on new nodes, or the unstable balance if no equilibrium was found.
+
+        Displacements are interpolated to the new nodes; the gaps are then solved for again.
+        """
+        surface, old = self.contact.surface(nodes), state.surface.position
+
+        def carried(fields: npt.NDArray) -> npt.NDArray:
+            return CubicSpline(old, fields, axis=-1)(nodes)
+
+        last, many = state.rates, len(self.weights)
+        followed = () if last.followed is None else (last.followed,)
+        fields = carried(
+            np.vstack([state.memory.displacement, state.gap, last.relaxed, last.gap, *followed])
+        )
+        d = surface.free_beyond(old[-1], fields[:many])
+        rates = replace(
+            last,
+            relaxed=fields[many + 1],
+            gap=fields[many + 2],
+            followed=fields[many + 3] if followed else None,
+        )
+        memory = Memory(d, d @ surface.stiffness)
+        c = self.modes.instantaneous
+        free = surface.rigid_gap + self.weights @ d
+        guess = np.maximum(fields[many], least_gap(self.contact.span))
+        bonds = None if state.extra is None else state.extra.bonds.carried(old, nodes)
+        machine, balance, speed = self.net(hold, state), None, None
+        law: Any = self.law(bonds)
+        if isinstance(bonds, Opening) and bonds.length:
+            # update speeds with the gaps: frozen speeds would give closing gaps the traction of
+            # opening
+            law = Stepped.again(self.contact.law, self.growing, guess, bonds)
+            balance, speed = driven(surface, law, free, c, guess, machine)
+        if balance is None:
+            balance = descend(surface, law, free, c, guess, machine)
+        if not balance.stable:
+            return balance
+        if isinstance(bonds, Opening) and bonds.length:
+            speed = law.speed(balance.gap) if speed is None else speed
+            bonds = replace(bonds, speed=speed)
+        gap, depth = balance.gap, balance.depth
+        e = (gap - free + depth) / c
+        edge = surface.edge(gap, self.contact.law.edge_gap)
+        faces = balance.faces if bonds is None else surface.interface.at(self.law(bonds), gap)
+        time = state.seen.time
+        moved = self.state(time, depth, edge, surface, faces, e, memory, rates, bonds)
+        return replace(moved, trail=state.trail) if len(state.trail) > 1 else moved
+
+    def law(self, bonds: Opening | Contacted | None) -> Any:
+        """Return the law with opening speeds or contact times frozen; None for the law at rest."""
+        if bonds is None:
+            return self.contact.law
+        return Frozen(self.contact.law, bonds.factor(self.growing))
+
+    def transferred(self, before: State, after: State) -> float:
+        """Return the heat in an interface that ages when its gaps are balanced on other nodes."""
+        if after.extra is None or not isinstance(after.extra.bonds, Contacted):
+            return 0.0
+        gap = CubicSpline(before.surface.position, before.gap)(after.surface.position)
+        heat = after.extra.bonds.heat(self.contact.law, self.growing, gap, after.gap, 0.0)
+        return after.surface.unit * float(after.surface.area @ heat)
+
+    def friction(self, before: State, after: State) -> float:
+        """Return the heat in the interface over a step, 0 if the law depends on the gap alone."""
+        if before.extra is None or after.extra is None:
+            return 0.0
+        bonds, surface, gap = before.extra.bonds, before.surface, before.gap
+        if isinstance(bonds, Contacted):
+            length = after.seen.time - before.seen.time
+            heat = bonds.heat(self.contact.law, self.growing, gap, after.gap, length)
+            return surface.unit * float(surface.area @ heat)
+        nodal = 0.5 * (before.extra.nodal + after.extra.nodal)
+        flank = 0.5 * (before.extra.flank + after.extra.flank)
+        lifted = before.seen.depth - after.seen.depth
+        return surface.unit * float(nodal @ (after.gap - gap)) + flank * lifted
+
+    def pressed(self, state: State) -> float:
+        """Return the pressure [dg/h0] where a search has closed the gap completely, 0 if open."""
+        return pressed_shut(state.surface, state.gap, state.relaxed)
+
+    def at_rest(self, state: State) -> State:
+        """Return the state with rates reset, where the previous rates do not apply."""
+        extra = state.extra
+        if extra is not None:
+            extra = replace(extra, bonds=extra.bonds.forgotten())
+        passed = self._passed(state.seen, state.surface, state.relaxed, state.nodal, state.memory)
+        return replace(state, rates=_at_rest(state.gap), trail=(passed,), extra=extra)
+
+    def _passed(
+        self, seen: Snapshot, surface: Surface, e: npt.NDArray, F: npt.NDArray, memory: Memory
+    ) -> Passed:
+        each = np.einsum("ij,ij->i", e - memory.displacement, F - memory.force)
+        return Passed(seen, surface.unit * (self.weights / self.times * each))
+
+    def net(self, hold: Hold, state: State) -> Hold:
+        """Return the hold minus the flank force, which is not on any node and changes slowly."""
+        if hold.rigid:
+            return hold
+        law = self.law(None if state.extra is None else state.extra.bonds)
+        flank = state.surface.flank_force(law, state.gap) / state.surface.unit
+        return replace(hold, load=hold.load - flank)
+
+    def state(
+        self,
+        time: float,
+        depth: float,
+        edge: float,
+        surface: Surface,
+        faces: Faces,
+        relaxed: npt.NDArray,
+        memory: Memory,
+        rates: Rates,
+        bonds: Opening | Contacted | None,
+        before: tuple[Passed, ...] = (),
+    ) -> State:
+        """Assemble the state at an instant with its recorded quantities and the earlier trail."""
+        law, gap, nodal = self.law(bonds), faces.gap, -faces.tension
+        resting, extra, at_rest = faces, None, self.contact.law
+        if bonds is not None:
+            resting = surface.interface.at(at_rest, gap)
+            flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
+            extra = Extra(bonds, faces.tension - resting.tension, flank)
+        instant = 0.5 * self.modes.instantaneous * float(relaxed @ nodal)
+        seen = Snapshot(
+            time=time,
+            depth=depth,
+            edge=edge,
+            force=surface.unit * float(nodal.sum()) + surface.flank_force(law, gap),
+            elastic=surface.unit * (instant + memory.stored(self.weights)),
+            interface=surface.unit * resting.energy + surface.flank_energy(at_rest, gap),
+            inner=surface.inner_edges(gap, at_rest.edge_gap),
+        )
+        trail = (*before[1 - _TRAIL :], self._passed(seen, surface, relaxed, nodal, memory))
+        return State(seen, surface, gap, relaxed, nodal, memory, rates, trail, extra)
+
+
+def _at_rest(gap: npt.NDArray) -> Rates:
+    zero = np.zeros_like(gap)
+    return Rates(zero, 0.0, zero, known=False)
+
+
+def _shifted(state: State, distance: float) -> npt.NDArray:
+    """Return the gap with its profile shifted outwards by a distance."""
+    x = state.surface.position
+    return np.interp(x - distance, x, state.gap)

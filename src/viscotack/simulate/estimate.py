@@ -1,0 +1,168 @@
+"""Error estimate of a simulation, from a second run with coarser settings.
+
+Every error is of second order. A run with errors four times as large differs from the main run by
+three times the error of the main run. Errors may cancel in the difference, and no error is much
+smaller than the accuracy of the settings. The estimate therefore has a safety factor and a floor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import hypot
+
+import numpy as np
+
+from viscotack.clock import TimeUp
+from viscotack.result import Result
+from viscotack.result.dead_load import time_held
+from viscotack.result.observables import (
+    PullOff,
+    depth_shift,
+    equal_peak,
+    fold_shift,
+    peaks,
+    pull_off,
+    step_shift,
+    work_lost,
+    work_to,
+)
+from viscotack.result.parts import move_numbers, moves_of, waits
+from viscotack.simulate.loop_error import hysteresis_errors
+from viscotack.simulate.preload import Beginning
+
+# Ratio of the errors of the coarser run to those of the main run.
+COARSER = 4.0
+# Safety factors on the difference of the two runs over COARSER - 1 ...
+_MARGIN = {"force": 3.0, "work": 3.5, "time": 3.4, "depth": 3.3}
+# ... and smallest errors as fractions of the accuracy, because errors may cancel in the difference.
+# They are relative to the value itself; for the depth, to the travel in tension.
+_FLOOR = {"force": 0.2, "work": 0.4, "time": 1.0, "depth": 0.4}
+# An error of the force moves its minimum, and what the drive does beside it is lost or won. Error
+# of the force, in units of the accuracy, assumed where it changes over the depths of the contact.
+_MOVED = {"work": 0.85, "depth": 0.5}
+# Additional factor for elastic solids: only the nodes hold the edge, and the error of its position
+# on the nodes does not decrease with second order.
+_ELASTIC = 1.6
+# Springs side by side snap off node by node: their errors are of first order in the distance of the
+# nodes, which is sqrt(2) times as large in the companion (tests/ladder/test_bodies.py).
+_SPRINGS = 3.0
+# Relative error 1: the value is unknown.
+_ALL = 1.0
+
+
+def estimated(
+    result: Result,
+    companion: Callable[[], Result],
+    beginning: Beginning | None,
+    travel: float,
+    accuracy: float,
+) -> Result:
+    """Return the result with its errors by name from a coarser companion, none without one.
+
+    Those of force, work, hysteresis and time are relative, that of the depth of the pull-off is in
+    h0. Where the force has several peaks, that of the companion which is nearest to the pull-off is
+    compared with it. The depth of the start adds what it might change where the march began at
+    another one.
+    """
+    try:
+        coarse = companion() if beginning is None else beginning.light
+    except (ValueError, TimeUp):  # no start or no time left: no estimate
+        return result
+    errors = _of_end(result, coarse, beginning, travel, accuracy) or {}
+    loops = hysteresis_errors(result, coarse, accuracy, COARSER)
+    if loops is not None:
+        errors["hysteresis"] = float(np.nanmax(loops))
+    return replace(result, error_estimate=errors or None, hysteresis_errors=loops)
+
+
+def _of_end(
+    result: Result,
+    coarse: Result,
+    beginning: Beginning | None,
+    travel: float,
+    accuracy: float,
+) -> dict[str, float] | None:
+    """Return the errors of the pull-off, or of the time held, by name; None where one has none."""
+    if _holds(result) != _holds(coarse):
+        return None
+    try:
+        if _holds(result):
+            value, other = time_held(result), time_held(coarse)
+            estimate = {"time": from_difference("time", abs(value - other) / value, accuracy)}
+        else:
+            found = pull_off(result)
+            alike = min(peaks(coarse), key=lambda peak: abs(peak.depth - found.depth))
+            estimate = _of_pull_off(result, found, coarse, alike, travel, accuracy)
+    except ValueError:  # no pull-off, no time held
+        return None
+    if beginning is not None:
+        for name in estimate:
+            estimate[name] += getattr(beginning.start, _OF_START[name])
+    if "force" in estimate:
+        _add_branch(result, estimate)
+    return estimate
+
+
+# Attribute of `ShallowStart` with the effect of the start on each error.
+_OF_START = {"force": "force", "work": "work", "depth": "shift"}
+
+
+def _of_pull_off(
+    result: Result, found: PullOff, coarse: Result, alike: PullOff, travel: float, accuracy: float
+) -> dict[str, float]:
+    """Return the errors at a pull-off, from the matching peak of the coarser run."""
+    work, other = work_to(result, found), work_to(coarse, alike)
+    energy = found.force * result.problem.outputs.energy_factor(result.groups)
+    off = {"work": abs(work - other), "depth": abs(found.depth - alike.depth)}
+    size = {"work": abs(work), "depth": abs(work) / energy}
+    slope, more = accuracy / travel, _ELASTIC if result.groups.modulus_ratio == 1 else 1.0
+    if result.groups.body.decay_length == 0:
+        more *= _SPRINGS
+    shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
+    share = abs(found.force - alike.force) / found.force
+    force = more * from_difference("force", share, accuracy)
+    # under a growing load both end by chance near the largest force, and may end at one place;
+    # where the force bends within a step, both may have their minimum at the same wrong place
+    place = hypot(fold_shift(result, force), step_shift(result))
+    chance = {"work": place * energy, "depth": place}
+    error = {
+        name: hypot(
+            chance[name],
+            more
+            * hypot(
+                _MARGIN[name] * off[name] / (COARSER - 1),
+                _FLOOR[name] * accuracy * size[name],
+                _MOVED[name] * shift[name],
+            ),
+        )
+        for name in off
+    }
+    return {
+        "force": force,
+        # without a way to the minimum nothing is known of the work on it
+        "work": min(error["work"] / abs(work), _ALL) if work else _ALL,
+        "depth": error["depth"],
+    }
+
+
+def from_difference(name: str, share: float, accuracy: float) -> float:
+    """Return the error estimated from a relative difference to the coarser run."""
+    return max(_MARGIN[name] * share / (COARSER - 1), _FLOOR[name] * accuracy)
+
+
+def _add_branch(result: Result, estimate: dict[str, float]) -> None:
+    """Extend the errors of work and depth to a second peak if either may be the larger."""
+    known = replace(result, error_estimate=estimate).posed(result.groups)
+    if (other := equal_peak(known)) is None:
+        return
+    found = pull_off(result)
+    work = work_to(result, found)
+    away = abs(work_to(result, other) - work) / abs(work) if work else _ALL
+    estimate["work"] = min(max(estimate["work"], away), _ALL)
+    estimate["depth"] = max(estimate["depth"], abs(other.depth - found.depth))
+
+
+def _holds(result: Result) -> bool:
+    """Return whether a test ends with a held load, so that its error is that of the time."""
+    return waits(moves_of(result)[int(move_numbers(result)[-1])], "force")

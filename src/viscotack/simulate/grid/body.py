@@ -1,0 +1,140 @@
+"""State of a soft body under a map of heights at one instant, and its change by a step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.model.materials import Modes
+from viscotack.simulate.body import Rates, Trial
+from viscotack.simulate.equilibrium import GONE
+from viscotack.simulate.grid.descent import Found, equilibrium
+from viscotack.simulate.grid.map_contact import MapContact
+from viscotack.simulate.history import Snapshot
+from viscotack.simulate.machine import Hold
+from viscotack.simulate.memory import Memory, Step
+
+# Largest sum of unbalanced tractions over that of all.
+_UNBALANCED = 3e-5
+
+
+@dataclass(frozen=True, eq=False)
+class GridState:
+    """Complete solver state at one instant: recorded quantities and data for the next step.
+
+    The names are those of :class:`viscotack.simulate.body.State`; fields of the surface are flat
+    arrays of its pixels, `moved` and `moving` are e and its rate on the domain of the transforms.
+    """
+
+    seen: Snapshot
+    surface: MapContact
+    gap: npt.NDArray
+    relaxed: npt.NDArray  # e: displacement of the relaxed solid under this traction
+    nodal: npt.NDArray  # F: forces on the pixels
+    memory: Memory
+    rates: Rates
+    moved: npt.NDArray
+    moving: npt.NDArray | None = None
+    extra: None = None
+    trail: tuple[()] = ()  # no step is taken in the frame of an edge
+
+
+@dataclass(frozen=True, eq=False)
+class GridBody:
+    """Constant data of a run: the contact and the retardation modes of the solid."""
+
+    contact: MapContact
+    modes: Modes
+    weights: npt.NDArray
+    growing: None = None
+    runs: bool = False
+
+    def first(self, found: Found) -> GridState:
+        """Return the relaxed state, in which every mode is in equilibrium."""
+        e, many = self.contact.plane.within(found.moved), (len(self.weights), 1)
+        force = self.contact.area * found.held
+        memory = Memory(np.tile(e, many), np.tile(force, many))
+        seen = self._seen(0.0, found, e, force, memory)
+        return GridState(seen, self.contact, found.gap, e, force, memory, _at_rest(e), found.moved)
+
+    def after(
+        self, state: GridState, s: Step, hold: Hold, most_iterations: int, largest_gain: float
+    ) -> Trial:
+        """Advance the state by one trial time step."""
+        contact, plane = self.contact, self.contact.plane
+        area = contact.area
+        free = contact.rigid_gap
+        if self.weights.size:
+            inherited = (s.weights * s.decay) @ state.memory.force
+            inherited = inherited + float(s.weights @ s.drive[:, 0]) * state.nodal
+            free = free + plane.within(plane.moved(inherited / area))
+        guess = state.moved if state.moving is None else state.moved + s.length * state.moving
+        depth = state.seen.depth
+        if not hold.rigid:
+            tail = contact.tail_force(depth) / contact.unit
+            hold = replace(hold, stiffness=hold.stiffness / area, load=(hold.load - tail) / area)
+        found = equilibrium(
+            plane,
+            contact.law,
+            free,
+            s.compliance,
+            s.compliance * guess,
+            hold,
+            depth=depth,
+            tolerance=_UNBALANCED,
+            most_iterations=most_iterations,
+        )
+        moved = found.moved / s.compliance
+        e, force = plane.within(moved), area * found.held
+        change = e - state.relaxed
+        memory = state.memory.advanced(s, state.relaxed, e, state.nodal, force)
+        after = GridState(
+            self._seen(state.seen.time + s.length, found, e, force, memory),
+            contact,
+            found.gap,
+            e,
+            force,
+            memory,
+            Rates(change / s.length, 0.0, np.zeros(1)),
+            moved,
+            (moved - state.moved) / s.length,
+        )
+        away = change - s.length * state.rates.relaxed
+        most = float(np.sqrt(np.mean(away**2)))
+        error = (s.curvature * most if state.rates.known else 0.0) if found.stable else np.inf
+        return Trial(after, error, found.iterations, found.released)  # type: ignore[arg-type]
+
+    def pressed(self, state: GridState) -> float:
+        """Return the pressure [dg/h0] where a search has closed the gap completely, 0 if open."""
+        gone = state.gap < GONE
+        return float(state.nodal[gone].max()) / self.contact.area if gone.any() else 0.0
+
+    def at_rest(self, state: GridState) -> GridState:
+        """Return the state with rates reset, where the previous rates do not apply."""
+        return replace(state, rates=_at_rest(state.relaxed), moving=None)
+
+    def friction(self, before: GridState, after: GridState) -> float:
+        """Return 0: the law depends on the gap alone."""
+        return 0.0
+
+    def _seen(
+        self, time: float, found: Found, e: npt.NDArray, force: npt.NDArray, memory: Memory
+    ) -> Snapshot:
+        """Return the recorded quantities of an instant."""
+        contact, depth, unit = self.contact, found.depth, self.contact.unit
+        touching = int(np.count_nonzero(found.gap < contact.law.edge_gap))
+        instant = 0.5 * self.modes.instantaneous * float(e @ force)
+        return Snapshot(
+            time=time,
+            depth=depth,
+            edge=float(np.sqrt(touching * contact.area / np.pi)) if touching else np.nan,
+            force=contact.force_under(found.tension, depth),
+            elastic=unit * (instant + memory.stored(self.weights)),
+            interface=unit * contact.area * found.energy + contact.tail_energy(depth),
+        )
+
+
+def _at_rest(e: npt.NDArray) -> Rates:
+    return Rates(np.zeros_like(e), 0.0, np.zeros(1), known=False)

@@ -1,0 +1,190 @@
+"""A run on a grid: relaxed start, legs and history."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.model.materials import Modes
+from viscotack.model.protocol import Apart, AtDepth, AtRadius, Start
+from viscotack.simulate.grid.body import GridBody
+from viscotack.simulate.grid.checkpoint import Checkpoint
+from viscotack.simulate.grid.descent import Found, equilibrium
+from viscotack.simulate.grid.map_contact import MapContact
+from viscotack.simulate.grid.recorded import Fixed, Frames, GridRun
+from viscotack.simulate.grid.stored import (
+    continued,
+    found_arrays,
+    found_of,
+    loading_arrays,
+    loading_of,
+    run_arrays,
+)
+from viscotack.simulate.history import SMALLEST_ENERGY, EnergyTerms, History, Lowest
+from viscotack.simulate.machine import Hold, Leg
+from viscotack.simulate.march import through
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.state import MarchState
+
+# Steps in which a relaxed contact is loaded, and gap [range of the law] from which.
+_LOADINGS, _APART = 16, 4.0
+_MOST_LOADINGS = 400
+# Largest number of iterations of a relaxed state, which may jump into contact.
+_PATIENCE = 500
+# Largest sum of unbalanced tractions of a relaxed state over that of all.
+_UNBALANCED = 1e-7
+
+
+def relaxed(
+    contact: MapContact, start: Start | Apart, checkpoint: Checkpoint | None = None
+) -> Found:
+    """Return the relaxed state that a slow approach from far away reaches.
+
+    Under a tensile force it is the contact that is left when a compressed one is unloaded.
+    """
+    if checkpoint is None:
+        return _relaxed(contact, start, None)
+    found = checkpoint.part("start", found_of)
+    if found is None:
+        found = _relaxed(contact, start, checkpoint)
+        checkpoint.keep("start", found_arrays(found), instead_of="loading")
+    return found
+
+
+def _relaxed(contact: MapContact, start: Start | Apart, checkpoint: Checkpoint | None) -> Found:
+    plane, law, span = contact.plane, contact.law, contact.span
+    apart = _APART * span
+
+    def at(depth: float, guess: Found | None) -> Found:
+        moved = np.zeros(plane.domain) if guess is None else guess.moved
+        return _balanced(contact, moved, Hold(np.inf, depth=depth), depth)
+
+    def keep(found: Found, number: int, depth: float, step: float) -> None:
+        if checkpoint is not None and checkpoint.due:
+            checkpoint.keep("loading", loading_arrays(found, number, depth, step))
+
+    if isinstance(start, Apart):
+        return _checked(at(1 - start.gap, None))
+    if isinstance(start, AtRadius):
+        raise InputError("a map has no contact radius to start at; give a depth or a force")
+    begun = None if checkpoint is None else checkpoint.part("loading", loading_of)
+    if isinstance(start, AtDepth):
+        found, first = (None, 0) if begun is None else begun[:2]
+        depths = np.linspace(-apart, start.depth, _LOADINGS)
+        for number in range(first, _LOADINGS):
+            found = at(float(depths[number]), found)
+            keep(found, number + 1, start.depth, 0.0)
+        assert found is not None
+        return _checked(found)
+    deepest = np.inf if not plane.mean_is_zero else float(contact.rigid_gap.mean()) - 1
+    found, first = None, 0
+    depth, step = min(-apart, deepest), 0.25 * contact.travel
+    if begun is not None:
+        found, first, depth, step = begun
+    for number in range(first, _MOST_LOADINGS):
+        found = at(depth, found)
+        force = contact.force_under(found.tension, depth)
+        touches = np.any(found.gap < law.edge_gap)
+        if depth >= deepest or (touches and force >= max(start.force, 0.0)):
+            break
+        depth, step = min(depth + step, deepest), 1.2 * step
+        keep(found, number + 1, depth, step)
+    assert found is not None
+    load = (start.force - contact.tail_force(depth)) / (contact.unit * contact.area)
+    return _checked(_balanced(contact, found.moved, Hold(0.0, load=load), depth))
+
+
+def _balanced(contact: MapContact, moved: npt.NDArray, hold: Hold, depth: float) -> Found:
+    return equilibrium(
+        contact.plane,
+        contact.law,
+        contact.rigid_gap,
+        1.0,
+        moved,
+        hold,
+        depth=depth,
+        tolerance=_UNBALANCED,
+        most_iterations=_PATIENCE,
+    )
+
+
+def _checked(found: Found) -> Found:
+    if found.stable:
+        return found
+    raise ArithmeticError("no equilibrium of the surface was found")
+
+
+def march_on_grid(
+    contact: MapContact,
+    start: Found,
+    modes: Modes,
+    legs: tuple[Leg, ...],
+    settings: Settings,
+    *,
+    stiffness: float | None = None,
+    frames: int = 0,
+    checkpoint: Checkpoint | None = None,
+    part: str = "main",
+    progress: Callable[[float], None] | None = None,
+) -> GridRun:
+    """Integrate a relaxed body through all legs; see :func:`viscotack.simulate.march.march`.
+
+    Up to `frames` frames are kept. The history is an attribute of the run. A run that is a part of
+    the checkpoint continues from there.
+    """
+    history = History(SMALLEST_ENERGY * contact.span, stiffness)
+    body = GridBody(contact, modes, np.asarray(modes.weights))
+    keeper = _Keeper(checkpoint, part)
+    run = GridRun(body, settings, legs, False, history, frames=Frames(frames), told=keeper.take)  # type: ignore[arg-type]
+    at = keeper.begun(run)
+    if at is None:
+        state, leg = body.first(start), legs[0]
+        books = EnergyTerms(0.0, np.zeros(len(body.weights)))
+        at = MarchState(state, books, Fixed(), leg, 0, state.seen, leg.least_step, Lowest())  # type: ignore[arg-type]
+    if not history.outcome:
+        through(run, at, "detached", progress)
+        keeper.end()
+    return run
+
+
+class _Keeper:
+    """Writes a run to its part of a checkpoint, now and then and at its end."""
+
+    def __init__(self, checkpoint: Checkpoint | None, part: str) -> None:
+        self.checkpoint, self.part = checkpoint, part
+        self.run: GridRun | None = None
+        self.at: MarchState | None = None
+        self.counted = (0, 0, 0)
+
+    def begun(self, run: GridRun) -> MarchState | None:
+        """Continue from the checkpoint; None if it does not have the run."""
+        self.run = run
+        if self.checkpoint is None:
+            return None
+        return self.checkpoint.part(self.part, lambda arrays: continued(run, arrays))
+
+    def take(self, at: MarchState) -> None:
+        """Take a place that is kept, and write it if it is time."""
+        assert self.run is not None
+        history = self.run.history
+        self.at, self.counted = at, (history.iterations, history.rejected, len(history.events))
+        # the first place is before the machine is attached
+        if self.checkpoint is not None and self.checkpoint.due and len(history.snapshots) > 1:
+            self._write()
+
+    def end(self) -> None:
+        """Write the run after its end, or the last place before the time limit."""
+        assert self.run is not None
+        history = self.run.history
+        if self.checkpoint is None or len(history.snapshots) < 2:
+            return
+        if history.outcome != "time":
+            self.counted = history.iterations, history.rejected, len(history.events)
+        self._write()
+
+    def _write(self) -> None:
+        assert self.run is not None and self.at is not None and self.checkpoint is not None
+        self.checkpoint.keep(self.part, run_arrays(self.run, self.at, self.counted))

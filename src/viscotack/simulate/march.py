@@ -1,0 +1,226 @@
+"""Time integration of a soft body through the legs of a loading history.
+
+A leg begins with the machine attached to the contact in its present state. The time loop then tries
+a step and shortens it until it is accepted. Steps are taken in the frame of the moving crack where
+the edge travels (:mod:`.travelling`), otherwise in the frame of the solid (:mod:`.steps`). If even
+the shortest step fails, the solver treats it as a jump (:mod:`.jumps`). After each step the solver
+checks whether the leg or the whole run has ended, and whether the fine nodes must follow the edge
+(:mod:`.remesh`). Module :mod:`.books` defines the recorded quantities.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from viscotack.clock import TimeUp
+from viscotack.model.materials import Modes
+from viscotack.simulate.body import Body
+from viscotack.simulate.contacts.contact import Contact, Relaxed
+from viscotack.simulate.gap_limits import separated
+from viscotack.simulate.history import SMALLEST_ENERGY, EnergyTerms, History, Lowest, Snapshot
+from viscotack.simulate.jumps import followed, shortest_step
+from viscotack.simulate.last_peak import over
+from viscotack.simulate.machine import Leg
+from viscotack.simulate.memory import step
+from viscotack.simulate.mesh import Grading, Mesh
+from viscotack.simulate.remesh import opening
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.state import MarchState, Run
+from viscotack.simulate.steps import arrived, clipped, is_shortest, shortened, tried, weighed
+from viscotack.simulate.travelling import ahead, travelled
+
+# Absolute tolerance within which a target depth, force or edge counts as reached, in its unit.
+_MET = 1e-9
+# Relative change of a dead load in its first step if it begins at a limit point.
+_NOTICED = 1e-3
+
+
+def march(
+    contact: Contact,
+    start: Relaxed,
+    modes: Modes,
+    legs: tuple[Leg, ...],
+    grading: Grading,
+    settings: Settings,
+    *,
+    until: str,
+    stiffness: float | None = None,
+    growing: Any = None,
+    profiles: bool = False,
+    progress: Callable[[float], None] | None = None,
+    watch: Callable[[Snapshot], None] | None = None,
+) -> History:
+    """Integrate a relaxed body through all legs and return the history.
+
+    `until` is "pull-off" (stop after the largest tension of the last leg, see :mod:`.later`) or
+    "detached" (stop when the surfaces have separated). `stiffness` is the spring stiffness of the
+    machine [output force/h0]. The traction law of the contact is that at rest; `growing` is the law
+    itself if its tension grows with the opening speed or the time in contact, otherwise None.
+
+    The outcome is one of these words:
+
+    - "pull-off", "detached" or "end" (of the last leg): the run is complete;
+    - "steps" or "time": the limit on steps or on wall time was reached;
+    - "shut": the surfaces were pressed together harder than the law can repel;
+    - "lost": no equilibrium was found;
+    - "unheld": no contact exists that can carry the dead load.
+    """
+    history = History(SMALLEST_ENERGY * contact.span, stiffness)
+    body = Body(contact, modes, np.asarray(modes.weights), growing)
+    run = Run(body, settings, legs, profiles, history)
+    return through(run, first_place(run, start, grading), until, progress, watch)
+
+
+def through(
+    run: Run,
+    at: MarchState,
+    until: str,
+    progress: Callable[[float], None] | None = None,
+    watch: Callable[[Snapshot], None] | None = None,
+) -> History:
+    """Integrate through all legs of a run from a relaxed place; see :func:`march`.
+
+    A run that has a history continues from a place after a step.
+    """
+    history, continues = run.history, bool(run.history.snapshots)
+    if not continues:
+        run.keep(at)
+    try:
+        at = _judged(run, at, until) if continues else _begun(run, at, 0)
+        while not history.outcome:
+            told = len(history.snapshots)
+            at = _stepped(run, at)
+            if not history.outcome:
+                at = _judged(run, at, until)
+            if progress is not None:
+                progress(_share(run, at))
+            if watch is not None:
+                for snapshot in history.snapshots[told:]:  # empty if no further step was found
+                    watch(snapshot)
+    except TimeUp as limit:
+        history.outcome, history.reason = "time", str(limit)
+    return history
+
+
+def advanced(run: Run, at: MarchState, leg: Leg) -> MarchState:
+    """Return the place at the end of a leg that continues smoothly from a place of another run."""
+    at = replace(at, leg=leg, number=0, began=at.seen)
+    while not run.history.outcome:
+        at = _stepped(run, at)
+        if not run.history.outcome:
+            at = _judged(run, at, "detached")
+    return at
+
+
+def first_place(run: Run, start: Relaxed, grading: Grading) -> MarchState:
+    """Return the initial solver state, before the machine is attached."""
+    state, leg = run.body.first(start), run.legs[0]
+    mesh = Mesh(
+        finest=grading,
+        opening=opening(state, run.body.contact),
+        lattice=start.lattice,
+        grading=grading,
+        edge=0.0 if np.isnan(start.edge) else start.edge,
+        narrows=run.body.runs,
+    )
+    books = EnergyTerms(0.0, np.zeros(len(run.body.weights)))
+    return MarchState(state, books, mesh, leg, 0, state.seen, leg.least_step, Lowest())
+
+
+def _begun(run: Run, at: MarchState, number: int) -> MarchState:
+    """Begin a leg: attach the machine to the contact in its present state."""
+    before = at.seen
+    leg = _noticed(run.legs[number].beginning(before), before)
+    begun = replace(
+        at,
+        state=run.body.at_rest(at.state),
+        leg=leg,
+        number=number,
+        began=before,
+        dt=leg.least_step,
+        lowest=Lowest(),
+    )
+    if leg.dead_load and leg.rate == 0 and not before.edge > 0:
+        run.history.outcome = "unheld"  # unstable: attraction grows as the surfaces approach
+        return begun
+    turns = number > 0 and leg.outwards and not at.leg.outwards
+    if turns and begun.seen.edge > 0:
+        lattice = replace(begun.mesh, lattice=begun.seen.edge)
+        return followed(run, replace(begun, mesh=lattice))
+    return begun
+
+
+def _noticed(leg: Leg, before: Snapshot) -> Leg:
+    """Return a leg whose first change of dead load exceeds the residual of the equilibrium.
+
+    Separated surfaces that attract each other are at a limit point under a dead load. A growing
+    load makes them jump together; round-off must not make them jump apart instead.
+    """
+    if not (leg.dead_load and leg.rate > 0) or before.edge > 0:
+        return leg
+    least = min(_NOTICED * abs(before.force) / leg.rate, leg.duration)
+    return replace(leg, least_step=max(leg.least_step, least))
+
+
+def _stepped(run: Run, at: MarchState) -> MarchState:
+    """Advance by one step, shortened until it is accepted or cannot be shortened further."""
+    while True:
+        at = clipped(run, at)
+        goal = ahead(run, at)
+        if goal is not None:
+            at = replace(at, dt=goal.dt)
+            attempt = travelled(run, at, goal)
+        else:
+            s = step(run.body.modes, at.dt)
+            if is_shortest(run, at, s):
+                return shortest_step(run, at, s)
+            attempt = weighed(run, at, s, tried(run, at, s))
+        shorter = shortened(run, at, attempt)
+        if shorter is None:
+            assert attempt is not None
+            after = arrived(at, attempt)
+            run.keep(after)
+            return after
+        at = shorter
+
+
+def _judged(run: Run, at: MarchState, until: str) -> MarchState:
+    """Check whether the leg or the run has ended, and remesh if the edge has left the nodes."""
+    history, last = run.history, at.number == len(run.legs) - 1
+    if last and at.leg.opens and separated(at.state.gap, run.body.contact.span):
+        history.outcome = "detached"
+    elif last and until == "pull-off" and over(run, at):
+        history.outcome = "pull-off"
+    elif len(history.snapshots) > run.settings.most_steps:
+        history.outcome = "steps"
+    elif at.ahead <= _MET or at.left <= 0:
+        if not last:
+            return _begun(run, at, at.number + 1)
+        history.outcome = "end"
+    elif at.mesh.left_by(at.seen.edge, at.seen.inner) or narrowed(run, at):
+        return followed(run, at)
+    return at
+
+
+def narrowed(run: Run, at: MarchState) -> bool:
+    """Return whether the cohesive zone has become too short for the present nodes."""
+    if not (at.mesh.narrows and at.seen.edge > 2 * at.mesh.grading.spacing):
+        return False
+    return at.mesh.too_coarse(opening(at.state, run.body.contact))
+
+
+def _share(run: Run, at: MarchState) -> float:
+    """Return the completed fraction of the run, 0 to 1; all legs have the same weight."""
+    edge, leg, whole = at.seen.edge, at.leg, at.leg.missing(at.began)
+    if isfinite(leg.duration):
+        part = 1 - at.left / leg.duration
+    elif isfinite(whole):
+        part = 1 - at.ahead / whole if whole > 0 else 1.0
+    else:
+        part = 1 - (edge / at.began.edge if edge > 0 else 0.0) if at.began.edge > 0 else 0.0
+    return (at.number + min(max(part, 0.0), 1.0)) / len(run.legs)

@@ -1,0 +1,300 @@
+"""Simulation of a pull on a rough surface."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Callable
+from dataclasses import asdict, replace
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+import scipy
+
+from viscotack.clock import TimeUp, limited
+from viscotack.errors import InputError
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.protocol import Move
+from viscotack.result import Event, Outcome
+from viscotack.simulate.bounds import check_clock
+from viscotack.simulate.estimate import COARSER, from_difference
+from viscotack.simulate.grid.checkpoint import EVERY, Checkpoint
+from viscotack.simulate.grid.descent import Found
+from viscotack.simulate.grid.recorded import Frame, GridRun
+from viscotack.simulate.grid.run import march_on_grid, relaxed
+from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
+from viscotack.simulate.machine import spring_energy
+from viscotack.simulate.settings import Settings
+from viscotack.simulate.solver import modes_of_run
+from viscotack.simulate.verdict import status_of
+from viscotack.version import __version__
+
+from .problem import COARSE, COARSEST, FINE, RoughProblem
+from .result import FieldMap, RoughResult
+
+# Largest relative error of the force by pixels per zone, measured on spheres (research/grid.py
+# pixels); that of an elastic solid, whose edge moves from pixel to pixel.
+_PIXELS = (1.0, 1.5, 2.0, 3.0, 4.0)
+_ERRORS = (0.12, 0.05, 0.02, 4.5e-3, 1.3e-3)
+# Relative error of the force times the number of pixels of a patch of contact at the largest
+# tension: what pixels do not know of the summits between them. Equal bumps of 4 and 12 pixels with
+# 1.7 pixels in a zone differ by 0.66 to 0.71 over this number from pixels half as large.
+_FEW = 0.7
+# Error of the work by pixels over that of the force, of viscoelastic and of elastic solids.
+_WORK = (2.0, 3.0)
+_SMALLEST = 1e-300
+# Share of the main run in the total work.
+_MAIN = 0.65
+
+
+def pull(
+    problem: RoughProblem,
+    *,
+    accuracy: float = DEFAULT_ACCURACY,
+    estimate_error: bool = True,
+    maps: int = 0,
+    time_limit: float | None = None,
+    force_coarse: bool = False,
+    checkpoint: str | os.PathLike[str] | None = None,
+    every: float = EVERY,
+    progress: Callable[[float], None] | None = None,
+) -> RoughResult:
+    """Press a rough surface against a soft body and pull it off, by simulation on its pixels.
+
+    Parameters
+    ----------
+    problem : RoughProblem
+        Surface, solid, interface and test.
+    accuracy : float
+        Relative error of the pull-off force that steps and modes of the solid are made for; the
+        error of the pixels is that of the map.
+    estimate_error : bool
+        Whether errors are estimated, from a second run with coarser steps, which takes half as
+        long, and the pixels per zone.
+    maps : int
+        Up to how many maps of gap and pressure are kept, besides that of the largest tension.
+    time_limit : float, optional
+        Wall time after which the simulation stops [s]; what was found so far is returned.
+    force_coarse : bool
+        Whether to answer although a zone at an edge has less than one pixel.
+    checkpoint : path, optional
+        File (.npz) in which the run is kept, and from which it continues, to the same digits, after
+        a kill or the time limit. The finished run stays there too.
+    every : float
+        Wall time between two writes of this file [s]; a kill loses this and the step under way.
+    progress : callable, optional
+        Called with the completed share of the work, 0 to 1.
+
+    Returns
+    -------
+    RoughResult
+        Curves, errors and maps in SI.
+
+    Raises
+    ------
+    ValueError
+        If the pixels are too coarse, the start is not possible, the time limit is met before the
+        test begins, or the checkpoint is of another problem.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, LennardJones, Retraction
+    >>> from viscotack.model.surfaces import sphere
+    >>> glass = sphere(96, 20e-6, radius=5e-3)
+    >>> problem = RoughProblem(
+    ...     surface=glass,
+    ...     material=Elastic(rubbery_modulus=0.4e6, poisson_ratio=0.5),
+    ...     traction=LennardJones(work_of_adhesion=0.15, equilibrium_gap=4e-6),
+    ...     protocol=Retraction(start=AtDepth(4e-6), speed=1e-6),
+    ... )
+    >>> found = pull(problem, estimate_error=False)
+    >>> f"{found.pull_off_force * 1e3:.2f} mN"
+    '3.76 mN'
+    """
+    began = perf_counter()
+    warnings = _resolved(problem, force_coarse)
+    settings = Settings.for_accuracy(accuracy)
+    share = _MAIN if estimate_error else 1.0
+    kept = None
+    if checkpoint is not None:
+        kept = Checkpoint.opened(Path(checkpoint), _key(problem, settings, maps), every)
+
+    def part(begin: float, end: float) -> Callable[[float], None] | None:
+        tell = progress
+        return None if tell is None else lambda done: tell(begin + (end - begin) * done)
+
+    with limited(time_limit):
+        try:
+            start = relaxed(problem.contact, problem.units.start(problem.protocol.start), kept)
+        except TimeUp as limit:
+            raise InputError(f"{limit} before the relaxed start was found") from None
+        except ArithmeticError as reason:
+            raise InputError(f"the relaxed start was not found: {reason}") from None
+        run = _run(problem, start, settings, maps, kept, "main", part(0.0, share))
+        result = _result(problem, run, settings, warnings)
+        if estimate_error and result.outcome is not Outcome.STOPPED:
+            coarser = settings.coarser(COARSER)
+            light = _run(problem, start, coarser, 0, kept, "light", part(share, 1.0))
+            coarse = _result(problem, light, settings, ())
+            if coarse.outcome is not Outcome.STOPPED:
+                result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
+    statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
+    return replace(result, statistics=statistics)
+
+
+def _resolved(problem: RoughProblem, forced: bool) -> tuple[str, ...]:
+    """Return a warning where a zone has few pixels; InputError where it has less than one."""
+    pixels = problem.zone.pixels
+    if pixels >= COARSE:
+        return ()
+    law = problem.traction
+    longer = law.equilibrium_gap * np.sqrt(FINE / pixels)
+    words = (
+        f"the zone at an edge is {problem.zone.length:.3g} m long and has {pixels:.2g} pixels of "
+        f"{problem.surface.pixel:.3g} m; {FINE:g} are needed, as with pixels of "
+        f"{problem.zone.length / FINE:.3g} m, or an equilibrium gap of {longer:.3g} m"
+    )
+    if pixels < COARSEST and not forced:
+        raise InputError(words)
+    return (words,)
+
+
+def _run(
+    problem: RoughProblem,
+    start: Found,
+    settings: Settings,
+    maps: int,
+    kept: Checkpoint | None,
+    part: str,
+    progress: Callable[[float], None] | None,
+) -> GridRun:
+    """Simulate the test."""
+    contact, units, test = problem.contact, problem.units, problem.protocol
+    material = problem.material.reduced()
+    moves: tuple[Move, ...] = units.moves(test.moves)
+    rate, stiffness = units.speed(test.speed), units.stiffness(test.stiffness)
+    legs = legs_of(moves, rate, stiffness, contact, settings)  # type: ignore[arg-type]
+    began: Any = _Start(start.depth, contact.force_under(start.tension, start.depth))
+    depths = reached(began, moves, contact)  # type: ignore[arg-type]
+    check_clock(legs, moves, depths, contact)  # type: ignore[arg-type]
+    spring = spring_travel(began, depths, moves, stiffness, material.modulus_ratio, contact)  # type: ignore[arg-type]
+    longest = longest_time(depths, moves, rate, contact, spring)  # type: ignore[arg-type]
+    modes = modes_of_run(material, legs, longest, settings)
+    return march_on_grid(
+        contact,
+        start,
+        modes,
+        legs,
+        settings,
+        stiffness=stiffness,
+        frames=maps,
+        checkpoint=kept,
+        part=part,
+        progress=progress,
+    )
+
+
+def _key(problem: RoughProblem, settings: Settings, maps: int) -> str:
+    """Return an identifier of what the digits of a run depend on."""
+    surface = problem.surface
+    parts = repr([problem.material, problem.traction, problem.protocol, problem.body])
+    about = [parts, surface.pixel, surface.periodic, surface.beyond, surface.heights.shape]
+    versions = [__version__, np.__version__, scipy.__version__]
+    text = json.dumps([about, asdict(settings), maps, versions], sort_keys=True)
+    return hashlib.sha256(text.encode() + surface.heights.tobytes()).hexdigest()
+
+
+class _Start(NamedTuple):
+    """Depth [h0] and force [output unit] of a relaxed start."""
+
+    depth: float
+    force: float
+
+
+def _result(
+    problem: RoughProblem, run: GridRun, settings: Settings, warnings: tuple[str, ...]
+) -> RoughResult:
+    """Return the result of a run in SI."""
+    history, contact = run.history, problem.contact
+    law = problem.traction
+    h0, force_unit, time = law.equilibrium_gap, problem.force, problem.time
+    energy = force_unit * h0
+    seen, books = history.snapshots, history.books
+    force = np.array([s.force for s in seen])
+    units = problem.units
+    stiffness = units.stiffness(problem.protocol.stiffness)
+    spring, depth = spring_energy(force, stiffness), np.array([s.depth for s in seen])
+    residual = float(np.max(np.abs(history.imbalances())))
+    touching = np.array(run.touching)
+    legs = np.array(history.legs)
+    last = int(np.argmax(legs == len(run.legs) - 1)) if legs[-1] == len(run.legs) - 1 else 0
+
+    def shown(frame: Frame) -> FieldMap:
+        return FieldMap(
+            frame.time * time,
+            frame.depth * h0,
+            frame.force * force_unit,
+            frame.gap * np.float32(h0),
+            frame.pressure * np.float32(law.work_of_adhesion / h0),
+        )
+
+    return RoughResult(
+        time=time * np.array([s.time for s in seen]),
+        depth=h0 * depth,
+        drive=h0 * (depth if stiffness is None else depth + force / stiffness),
+        force=force_unit * force,
+        area=touching[:, 0] * problem.surface.pixel**2,
+        patches=touching[:, 1],
+        work=energy * (np.array([b.work for b in books]) + spring - spring[0]),
+        elastic=energy * np.array([s.elastic for s in seen]),
+        interface=energy * np.array([s.interface for s in seen]),
+        heat=energy * np.array([b.heat.sum() for b in books]),
+        jumps=energy * np.array([b.jumps for b in books]),
+        last_leg=last,
+        status=status_of(history, residual, contact.law),
+        events=tuple(
+            Event(e.kind, e.time * time, e.depth * h0, e.force * force_unit, e.energy * energy)
+            for e in history.events
+        ),
+        energy_residual=residual,
+        strongest=shown(run.frames.strongest[0]),
+        nominal_area=problem.surface.area,
+        pixel=problem.surface.pixel,
+        warnings=warnings,
+        maps=tuple(shown(frame) for frame in run.frames.kept),
+        statistics={
+            "steps": len(seen) - 1,
+            "newton_iterations": history.iterations,
+            "rejected_steps": history.rejected,
+            "pixels": problem.surface.heights.size,
+            "modes": len(run.body.weights),
+        },
+    )
+
+
+def _errors(
+    problem: RoughProblem, result: RoughResult, coarse: RoughResult, accuracy: float
+) -> dict[str, float]:
+    """Return the relative errors of force and work: of the pixels, and of steps and modes."""
+    pixels = float(np.exp(np.interp(np.log(problem.zone.pixels), np.log(_PIXELS), np.log(_ERRORS))))
+    at = result.at_pull_off
+    touching = result.area[at] / result.pixel**2 / max(result.patches[at], 1)
+    pixels = float(np.hypot(pixels, _FEW / max(touching, 1.0)))
+    found = {"force": pixels}
+    pairs = {"force": (result.pull_off_force, coarse.pull_off_force)}
+    if result.has_separated and coarse.has_separated:
+        elastic = problem.material.modulus_ratio == 1
+        # what the balance misses; before a jump the work may be a small part of all energies
+        lost = (
+            result.energy_residual * result.hysteresis / max(result.work_of_separation, _SMALLEST)
+        )
+        found["work"] = float(np.hypot(_WORK[elastic] * pixels, lost))
+        pairs["work"] = (result.work_of_separation, coarse.work_of_separation)
+    for name, (value, other) in pairs.items():
+        if (scale := max(value, other)) > 0:
+            steps = from_difference(name, abs(value - other) / scale, accuracy)
+            found[name] = float(np.hypot(found[name], steps))
+    return found
