@@ -11,8 +11,8 @@ import openpyxl
 import pytest
 
 from viscotack import load as load_result
-from viscotack import pads
 from viscotack.app.operations import ask
+from viscotack.design import arrays
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.bounded import read_bytes
@@ -145,7 +145,7 @@ def test_a_map_of_too_many_pixels_or_bumps_is_refused_before_it_is_made(make, mo
 
 
 def test_too_many_draws_of_an_array_are_refused_before_it_is_pulled(monkeypatch, tmp_path):
-    monkeypatch.setattr(pads, "pull_array", lambda *given, **more: 1 / 0)
+    monkeypatch.setattr(arrays, "pull_array", lambda *given, **more: 1 / 0)
     example = Path("examples/array/wafer_pad.toml")
     file = tmp_path / "array.toml"
     file.write_text(

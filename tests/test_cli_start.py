@@ -14,7 +14,7 @@ HELPED = (
     "scipy.special",
     "pint",
     "matplotlib",
-    "viscotack.simulate",
+    "viscotack.simulate.march",
 )
 PREDICTED = (*HELPED, "scipy.interpolate", "scipy.integrate", "viscotack.campaign")
 

@@ -111,7 +111,7 @@ def test_a_tier_accepts_the_bodies_on_its_list_alone(tier, body):
     kind = type(getattr(body, "base", body))
     assert (reason == "") == (kind in listed), reason
     if reason:
-        assert f"the body is {kind.__name__}" in reason
+        assert f"the body is {kind.word}" in reason
 
 
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)

@@ -223,9 +223,9 @@ def test_what_was_not_learned_is_refused_by_name():
         ("size is 640 a0", punch_of(size=640.0, rate=1e9)),
         ("modulus_ratio is 0.8", punch_of(ratio=0.8)),
         ("preload_force is 50 sigma0", punch_of(start=vt.AtForce(50.0))),
-        ("the body is Bonded", glued),
+        ("the body is bonded", glued),
         ("the solid has 2 branches", punch_of(material=branches)),
-        ("the traction law is Dugdale", punch_of(traction=vt.Dugdale(1.0, 1.0))),
+        ("the traction law is dugdale", punch_of(traction=vt.Dugdale(1.0, 1.0))),
         ("the machine moves before", punch_of(moves=(vt.Dwell(1.0),))),
         ("a stiffness of 2", punch_of(stiffness=2.0)),
     ):

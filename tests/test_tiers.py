@@ -69,7 +69,7 @@ SHORT_PUNCH = vt.Groups(
 @pytest.mark.parametrize("noun", OWN)
 def test_every_tier_but_the_simulation_refuses_a_noun_it_was_not_verified_for(tier, noun):
     reason = refusal(tier, OWN[noun])
-    assert "Own" in reason or "FlatPunch" in reason, (tier.name, reason)
+    assert "Own" in reason or "for punch" in reason, (tier.name, reason)
 
 
 @pytest.mark.parametrize("tier", TIERS, ids=lambda t: t.name)
@@ -143,7 +143,7 @@ def punch():
 def test_a_larger_budget_uses_the_simulation_where_no_surrogate_applies():
     law = vt.Exponential(1.0, 1.0, 1.0)
     case = groups(tabor=6.0, rate=1.0, start=vt.AtDepth(60.0), traction=law)
-    with pytest.raises(vt.OutOfRange, match="the traction law is Exponential"):
+    with pytest.raises(vt.OutOfRange, match="the traction law is exponential"):
         vt.predict(case, budget=AT_ONCE)
     theory, simulated = vt.predict(case), vt.predict(case, budget=10.0)
     assert theory.method in {tier.name for tier in THEORIES}
@@ -293,7 +293,7 @@ def test_advice_has_the_force_of_predict_as_its_headline():
 def test_theories_refuse_power_laws_by_relaxation(kind):
     material = vt.RelaxationPowerLaw(**UNIT, glassy_modulus=30.0, exponent=0.5, tau0=1.0)
     (tier,) = (t for t in THEORIES if t.name == kind)
-    assert "the solid is RelaxationPowerLaw" in refusal(tier, groups(material=material))
+    assert "the solid is relaxation-power-law" in refusal(tier, groups(material=material))
 
 
 @pytest.mark.parametrize("tabor", [0.03, 0.5, 3.24, 20.0])

@@ -122,7 +122,7 @@ def test_a_relaxing_solid_holds_a_disc_harder_and_accounts_for_its_energy():
         (lambda: vt.Disc(1e-3, 2e-3, 1e-3), "up to the radius"),
         (lambda: vt.solve(groups(start=vt.AtRadius(0.5))), "start it at a depth or a force"),
         (lambda: vt.crack_contact(groups()), "rise ever more steeply"),
-        (lambda: vt.predict(groups()), "the shape is Disc"),
+        (lambda: vt.predict(groups()), "the shape is disc"),
         (lambda: vt.solve(groups(300.0)), "Tabor number"),
     ],
 )

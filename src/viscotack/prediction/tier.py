@@ -22,6 +22,11 @@ class Uncertain(OutOfRange):
     """A problem in the range of a surrogate, which is not certain of its answer."""
 
 
+def _word(kind: Any) -> str:
+    """Return the word of a class of shapes, bodies, laws, solids or starts."""
+    return getattr(kind, "word", kind.__name__)
+
+
 @dataclass(frozen=True)
 class Verified:
     """The classes for which a tier was compared with simulations; one tuple per kind.
@@ -64,8 +69,10 @@ class Verified:
             ("start", type(groups.start), self.starts),
         ):
             if given not in allowed:
-                names = ", ".join(each.__name__ for each in allowed)
-                return f"the {what} is {given.__name__}; verified only for {names}"
+                names = [_word(each) for each in allowed]
+                # a class of the user may have the word of its base
+                own = f" of class {given.__name__}" if _word(given) in names else ""
+                return f"the {what} is {_word(given)}{own}; verified only for {', '.join(names)}"
         if groups.moves and not self.moves:
             return (
                 f"the machine moves before the retraction: {groups.moves[0]!r}; verified only for "

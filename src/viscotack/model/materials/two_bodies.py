@@ -62,7 +62,7 @@ def effective_solid(
         if not isinstance(solid, Elastic | Prony | StandardSolid):
             raise InputError(
                 "the solids of two bodies must be Elastic, Prony or StandardSolid, got "
-                f"{type(solid).__name__}; `prony_form` approximates it"
+                f"{type(solid).__name__}; prony_form approximates it"
             )
     same = first.poisson_ratio == second.poisson_ratio
     nu = first.poisson_ratio if same else 0.0
