@@ -117,7 +117,7 @@ def write_reference(app, config):
     """Write the pages of the reference: the public names by module, in the order of data flow."""
     import viscotack
 
-    rooms = (*viscotack._ROOMS, "design.control", "testing")
+    rooms = (*viscotack._ROOMS.values(), "testing")
     folder = ROOT / "docs/reference"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()

@@ -15,6 +15,8 @@ from viscotack.errors import InputError
 if TYPE_CHECKING:
     from .request import Answer, Request
 
+__all__ = ["ask", "operation", "operations"]
+
 
 @dataclass(frozen=True)
 class Listed:
