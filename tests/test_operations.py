@@ -1,5 +1,6 @@
 """Operations: declared once, and answered alike by every door."""
 
+import contextlib
 import os
 import shutil
 from pathlib import Path
@@ -19,7 +20,9 @@ from front_ends import (
 )
 from stated import PUNCH, SPHERE
 from viscotack.app.operations import operation, operations
-from viscotack.app.operations.request import request_of
+from viscotack.app.operations.flags import FLAGS
+from viscotack.app.operations.request import Caller, Contact, request_of
+from viscotack.app.operations.statement import statement
 from viscotack.app.operations.study import read_study, study_text
 from viscotack.errors import InputError
 
@@ -224,6 +227,25 @@ def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
     study.write_text('operation = "simulate"\nproblem = "lens.toml"\n[write]\ncsv = "lens.toml"')
     assert run(["study", study])[0] == 2
     assert (folder / "lens_1_um_s.csv").read_bytes() == before
+
+
+GARBAGE = [{}, {"a": 1}, True, "x", -1, 1e308, float("nan"), "1e400", b"x", object(), [None], "\0"]
+
+
+@pytest.mark.parametrize("word", operations())
+def test_an_option_of_a_wrong_kind_is_refused_and_nothing_else(word):
+    kind = operation(word)
+    for name in kind.model_fields:
+        for value in GARBAGE:
+            with contextlib.suppress(InputError):
+                request_of(kind, {name: value})
+
+
+@pytest.mark.parametrize("name", [name.replace("-", "_") for name in FLAGS])
+def test_a_flag_of_a_wrong_kind_is_refused_and_nothing_else(name):
+    for value in GARBAGE:
+        with contextlib.suppress(InputError, OSError):
+            statement({**SPHERE, name: value}, Contact(""), Caller())
 
 
 def test_every_operation_has_a_question_here():

@@ -245,6 +245,12 @@ def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
     known_flags = flags_of((word,))
     if unknown := [name for name in said if name not in known_flags]:
         raise InputError(f"a {word} has no option {quoted(unknown[:1])}; leave it out")
+    for name, value in said.items():
+        several = value if known_flags[name].many and isinstance(value, list | tuple) else [value]
+        if any(isinstance(x, bool) or not isinstance(x, str | int | float) for x in several):
+            raise InputError(f"{name} must be text or a number, got {value!r:.60}", field=name)
+    for name in {"material", "law", "points"} & said.keys():
+        said[name] = str(said[name])
     if "set" in said:
         raise InputError("set replaces a number of a file; give the option itself", field="set")
     only_si = [n for n in said if not known_flags[n].pure and n != "temperature"]
@@ -386,7 +392,7 @@ def needs_of(words: str, nouns: Any, *, in_si: bool = False) -> list[str]:
 
 def _refuse_missing(word: str, said: Mapping[str, Any], in_si: bool, nouns: Any) -> None:
     """Raise InputError that lists all missing flags."""
-    solid = str(said.get("material", _usual(word)))
+    solid = said.get("material", _usual(word))
     kind = nouns.materials.get(solid.partition(":")[0])
     elastic, moved = solid == "elastic", "move" in said
     of_solid = [name.replace("_", "-") for name in needs_of(solid, nouns, in_si=in_si)]

@@ -145,7 +145,7 @@ def number_of(card: Quantity, **more: Any) -> Number:
 class Text(_Read):
     """Text, checked and converted by a function."""
 
-    to: Callable[[str], Any] = field(default=str, kw_only=True)
+    to: Callable[[Any], Any] = field(default=str, kw_only=True)
 
     def read(self, value: Any) -> Any:
         """Return what the function makes of the text; a value that is no text is kept."""

@@ -110,6 +110,8 @@ def _of_case(given: Mapping[str, Any], option: Contact, caller: Caller) -> State
     from viscotack.model.problem.tables import Reading
     from viscotack.units import parse
 
+    if not isinstance(given[_CASE], str | Path):
+        raise InputError(f"case must be the name of a file, got {given[_CASE]!r:.60}", field=_CASE)
     case = caller.file(given[_CASE])
     beside = [n for n in given if n not in (_CASE, _TEMPERATURE, _SET, _INDENTER)]
     if beside:
@@ -153,7 +155,7 @@ def _with_numbers(problem: Any, said: Any, tables: Mapping[str, Any]) -> Any:
     from viscotack.units import parse
 
     known, values = inputs_of(problem), dict[str, float]()
-    for words in [said] if isinstance(said, str) else said:
+    for words in said if isinstance(said, list | tuple) else [said]:
         name, equals, text = (part.strip() for part in str(words).partition("="))
         if name in values:
             raise InputError(f"set: {name} is given twice; leave one out", field=_SET)

@@ -34,12 +34,14 @@ def _sign(value: Any) -> int:
     return sign
 
 
-def _unit_of(quantity: str) -> Callable[[str], str]:
+def _unit_of(quantity: str) -> Callable[[Any], str]:
     """Return a function that checks the unit of a quantity: "force", "travel" or "time"."""
 
-    def read(words: str) -> str:
+    def read(words: Any) -> str:
         from viscotack.lab.formats.headings import UNITS, scale
 
+        if not isinstance(words, str):
+            raise InputError(f"must be a unit, got {words!r:.60}")
         scale(words, UNITS[quantity])
         return words
 
