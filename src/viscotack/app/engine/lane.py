@@ -5,14 +5,19 @@ cancelled or too slow ends with its process.
 """
 
 import asyncio
+import sys
 import traceback
 from collections.abc import Callable
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing.connection import Connection
 from typing import Any
 
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.system import FRESH, Processes, begin_worker
+
+if sys.platform == "win32":
+    from multiprocessing.connection import PipeConnection as Connection
+else:
+    from multiprocessing.connection import Connection
 
 # Interval between two looks at a task [s], and memory that a process may take [bytes].
 _LOOK, _MOST_MEMORY = 0.05, 4 * 2**30
