@@ -23,6 +23,7 @@ from viscotack.app.operations.request import (
     is_many,
     option_of,
     options,
+    quoted,
     request_of,
 )
 from viscotack.errors import InputError
@@ -134,9 +135,8 @@ def _run(kind: type[Request], indenter: str | None, said: dict[str, Any]) -> Non
     as_json, own = said.pop("json_"), said.pop("with_", None) or ()
     force = said.pop("force_", False)
     with wrong_input(kind):
-        given = {name: said.get(name) for name in kind.model_fields if name in said}
-        contacts = {n: option_of(x) for n, x in kind.model_fields.items()}
-        for option in contacts.values():
+        given = {name: said[name] for name in kind.model_fields if name in said}
+        for option in map(option_of, kind.model_fields.values()):
             if isinstance(option, Contact):
                 given |= _problem(option, indenter, said)
         asked = request_of(kind, given)
@@ -150,7 +150,8 @@ def _problem(option: Contact, indenter: str | None, said: Mapping[str, Any]) -> 
     flags = {n.removeprefix("of_"): x for n, x in said.items() if n.startswith("of_") and x}
     named = [str(x) for x in (said.get("what_"), said.get("case_")) if x is not None]
     found: dict[str, Any] = {}
-    tables = [name for name in named if option.table and Path(name).suffix in (".csv", ".xlsx")]
+    endings = (".csv", ".xlsx") if option.table else ()
+    tables = [name for name in named if Path(name).suffix.lower() in endings]
     files = [name for name in named if name not in tables and name not in option.indenters]
     words = [name for name in named if name in option.indenters]
     if len(tables) > 1 or len(files) > 1:
@@ -161,7 +162,7 @@ def _problem(option: Contact, indenter: str | None, said: Mapping[str, Any]) -> 
         found[option.table] = tables[0]
         if not files and not words:
             if flags:
-                raise InputError(f"{tables[0]} is a table of cases; leave out {', '.join(flags)}")
+                raise InputError(f"{tables[0]} is a table of cases; leave out {quoted(flags)}")
             return found
     if files and not Path(files[0]).suffix and option.expected:
         raise InputError(f"{option.expected}, got {files[0]!r}")

@@ -56,7 +56,8 @@ def app_command(
         from viscotack.model.problem.nouns import own_nouns
 
         files = [str(Path(path).resolve()) for path in own or ()]
-        query = "" if case is None else _query(case, own_nouns(files))
+        also = own_nouns(files)
+        query = "" if case is None else _query(case, also)
         token, names = _token(host), _NAMES if host in _LOCAL else ()
         engine = Engine(Limits(workers=workers), own=files)
         behind = served(engine, hosts=names, token=token)

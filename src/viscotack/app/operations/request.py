@@ -412,16 +412,6 @@ class Caller:
         """Return the caller of the names inside a file, which are relative to its folder."""
         return self if self.sent else replace(self, folder=file.parent)
 
-    def naming(self, words: str, before: tuple[str, ...], endings: tuple[str, ...] = ()) -> str:
-        """Return words in which the name of a file, as in ``prony:FILE``, is its path."""
-        for keyword in before:
-            # the first one, and not the end of another word
-            begin = f":{words}".find(f":{keyword}")
-            end = begin + len(keyword)
-            if begin >= 0 and words[end:]:
-                return f"{words[:end]}{self.file(words[end:])}"
-        return str(self.file(words)) if words.endswith(endings or "\0") else words
-
     def rows(self, given: Any) -> tuple[Mapping[str, Any], ...]:
         """Return the rows of an option, which may be in a file."""
         if not isinstance(given, Path):

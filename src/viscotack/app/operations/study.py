@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel
-
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import is_standard_output
@@ -104,7 +102,7 @@ def study_text(request: Request, folder: Path = Path()) -> str:
             value = value if value.lstrip().startswith("[") else os.path.relpath(value, folder)
         else:
             value = _each(value, lambda x: os.path.relpath(x, folder) if isinstance(x, Path) else x)
-        if isinstance(value, BaseModel) or not isinstance(value, str | float | int | list):
+        if not isinstance(value, str | float | int | list):
             raise InputError(
                 f"a study names files: write the {type(value).__name__} to a file and give its name"
             )

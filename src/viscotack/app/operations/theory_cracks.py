@@ -231,7 +231,7 @@ class OfSteadyCrack(Scales):
         given = self.given
         solid, _ = self.solid(caller, "power-law" if "exponent" in given else "sls")
         crack = SteadyCrack(
-            solid, law_from_words(caller.naming(self.law or LennardJones.word, ("table:",)))
+            solid, law_from_words(self.law or LennardJones.word, beside=caller.file)
         )
         units = self.units
         v = self._speeds(crack, units)

@@ -1,6 +1,6 @@
 """Traction laws as tables, [interface], and as words of an option."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -75,8 +75,12 @@ def table_of_law(law: Any, *, pure: bool = False) -> dict[str, Any]:
     return {k: v for k, v in table.items() if not (pure and k in _SCALES)}
 
 
-def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
+def law_from_words(
+    words: str, laws: Mapping[str, Any] = LAWS, beside: Callable[[str], Path] = Path
+) -> Traction:
     """Return the reduced law stated by an option: its name and, after a colon, its constants.
+
+    `beside` returns the path of a file that it names.
 
     Examples
     --------
@@ -93,7 +97,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     """
     return law_from_table(
         table_of_words(words, laws),
-        Reading("the law", replace(known(), laws=laws), Path, pure=True),
+        Reading("the law", replace(known(), laws=laws), beside, pure=True),
     )
 
 
