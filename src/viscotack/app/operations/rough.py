@@ -1,5 +1,6 @@
 """The operation ``rough``: a rough surface pulled off a soft body."""
 
+import os
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -15,6 +16,8 @@ from .simulate import Accuracy
 
 # Frames of a film, by default.
 _FRAMES = 60
+# The bandwidth of memory limits the transforms with more threads.
+_MOST_THREADS = 8
 
 
 class OfRough(Request):
@@ -107,6 +110,7 @@ class OfRough(Request):
             time_limit=self.time_limit,
             force_coarse=self.anyway,
             checkpoint=self.checkpoint,
+            threads=min(os.cpu_count() or 1, _MOST_THREADS),
             progress=lambda share: caller.tell({"share": share}),
         )
         spread, measures = problem.roughness, stickiness(problem)

@@ -10,7 +10,11 @@ b being the gap at depth 0 that the memory of the solid leaves, and the last ter
 machine. The tangent S/c + diag(phi'') is only applied, never stored. Conjugate gradients stop where
 they meet negative curvature, and the search continues along what they have found, so the iteration
 descends to a stable state. The elastic energy is quadratic along a search direction, so that the
-line search evaluates only the law.
+line search evaluates only the law. Where a few pixels would limit a step, as at a front that jumps
+into contact, these stop alone, if the energy falls.
+
+Conjugate gradients, which find a direction to 3 %, are in single precision; residuals, energies and
+states are in double precision.
 
 The tangent is stiff in contact, where the law repels, and soft elsewhere. With D+ its positive
 part, s the median of S over c and :math:`\theta = D_+/(D_+ + s/10)`, the preconditioner
@@ -48,8 +52,13 @@ _LEAST = 1e-6
 # Length of a step out of an equilibrium that is not stable [range of the law], and iterations after
 # which it is taken.
 _KICK, _LINGERED = 0.05, 5
-# A search along a direction of negative curvature goes at most so far [range of the law].
-_FAR = 1.0
+# A search along a direction of negative curvature goes at most so far, and what conjugate gradients
+# have found is prolonged by so much of it [range of the law].
+_FAR, _PROLONGED = 1.0, 0.3
+# Largest number of halvings of a step.
+_HALVINGS = 20
+# Part of a step below which the pixels that limit it stop alone.
+_LIMITED = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,26 +99,29 @@ class Found:
 
 @dataclass(frozen=True, eq=False)
 class _Tangent:
-    """Second derivative of the energy by displacements and, with a spring, the depth."""
+    """Second derivative of the energy by displacements and, with a spring, the depth.
+
+    Fields and transforms are in single precision, tractions have no mean that the body cannot hold.
+    """
 
     plane: Plane
     elastic: npt.NDArray  # transform of S/c
     inverse: npt.NDArray  # transform of c G
     compliance: float  # c
-    curvature: npt.NDArray  # of the law, on the domain
+    curvature: npt.NDArray  # of the law, on the surface
     spring: float | None  # of the machine, None if rigid
 
     def times(self, v: npt.NDArray, depth: float) -> tuple[npt.NDArray, float]:
-        bent = self.curvature * (v - depth) if depth else self.curvature * v
         rows, columns = self.plane.shape
+        at_surface = v[:rows, :columns]
+        bent = self.curvature * (at_surface - depth) if depth else self.curvature * at_surface
         result = self.plane.applied(self.elastic, v)
-        if self.plane.periodic:
-            result += bent
-        else:
-            result[:rows, :columns] += bent[:rows, :columns]
+        result[:rows, :columns] += bent
+        if self.plane.mean_is_zero:
+            result -= result.mean()
         if self.spring is None:
             return result, 0.0
-        return result, self.spring * depth - float(bent[:rows, :columns].sum())
+        return result, self.spring * depth - float(bent.sum(dtype=float))
 
     def preconditioner(self) -> Callable[[npt.NDArray, float], tuple[npt.NDArray, float]]:
         positive = np.maximum(self.curvature, 0.0)
@@ -117,15 +129,21 @@ class _Tangent:
         share = positive / (positive + _SHARE * usual)
         own, rest = share / (positive + usual), np.sqrt(1 - share)
         plane, inverse = self.plane, self.inverse
-        balanced = plane.mean_is_zero
+        rows, columns = plane.shape
 
         def times(r: npt.NDArray) -> npt.NDArray:
-            z = own * r + rest * plane.applied(inverse, rest * r)
-            return z - z.mean() if balanced else z
+            z = r.copy()
+            z[:rows, :columns] *= rest
+            z = plane.applied(inverse, z)
+            z[:rows, :columns] *= rest
+            z[:rows, :columns] += own * r[:rows, :columns]
+            if plane.mean_is_zero:
+                z -= z.mean()
+            return z
 
         if self.spring is None:
             return lambda r, s: (times(r), 0.0)
-        softness = 1 / (self.spring + float(positive.sum()) + _SHARE * usual)
+        softness = 1 / (self.spring + float(positive.sum(dtype=float)) + _SHARE * usual)
         return lambda r, s: (times(r), softness * s)
 
 
@@ -164,10 +182,12 @@ def equilibrium(
     most_iterations : int
         Largest number of iterations of Newton's method.
     """
-    depth = hold.depth if hold.rigid else depth
-    spring = None if hold.rigid else hold.stiffness
+    depth = float(hold.depth if hold.rigid else depth)
+    # numbers of NumPy would make fields of single precision double
+    spring, compliance = None if hold.rigid else float(hold.stiffness), float(compliance)
     span = effective_range(law)
-    elastic, inverse = plane.stiffness / compliance, plane.compliance * compliance
+    elastic = plane.stiffness / compliance
+    single = elastic.astype(np.float32), (plane.compliance * compliance).astype(np.float32)
     v, gap = _admitted(plane, free - depth, guess, span)
     held = plane.applied(elastic, v)
     if float(gap.min()) < GONE:  # the mean plane is pressed through the surface
@@ -190,26 +210,34 @@ def equilibrium(
         scale = max(float(np.abs(tension).sum()), _LEAST * law.strength * gap.size)
         if iteration > 1 and stable and missing <= tolerance * scale:
             return found(iteration, True)
-        curvature = plane.widened(law.stiffness(gap))
-        tangent = _Tangent(plane, elastic, inverse, compliance, curvature, spring)
+        curvature = law.stiffness(gap).astype(np.float32).reshape(plane.shape)
+        tangent = _Tangent(plane, *single, compliance, curvature, spring)
         saddle = iteration > _LINGERED and missing <= tolerance * scale
-        step, lowered, stable = _direction(tangent, residual, unheld, span if saddle else 0.0)
-        at_surface = plane.within(step) - lowered
-        slope = float(np.vdot(residual, step)) + unheld * lowered
-        stretched = plane.applied(elastic, step)
-        quadratic = float(np.vdot(step, stretched))
-        quadratic += spring * lowered**2 if spring else 0.0
-        linear = float(np.vdot(held, step))
-        linear += (spring * depth - hold.load) * lowered if spring is not None else 0.0
-        part = _longest(at_surface, gap, span, stable)
-        while True:
+        step, lowered, stable = _direction(tangent, residual, unheld, span, saddle)
+        part = _longest(plane.within(step) - lowered, gap, span, stable)
+        ways = [(step, lowered, part, _HALVINGS)]
+        if part < _LIMITED:
+            ways.insert(0, (*_stopped(plane, step, lowered, gap, span, stable), 1.0, 0))
+        for step, lowered, part, halvings in ways:
+            at_surface = plane.within(step) - lowered
+            slope = float(np.vdot(residual, step)) + unheld * lowered
+            stretched = plane.applied(elastic, step)
+            quadratic = float(np.vdot(step, stretched))
+            quadratic += spring * lowered**2 if spring else 0.0
+            linear = float(np.vdot(held, step))
+            linear += (spring * depth - hold.load) * lowered if spring is not None else 0.0
             trial = gap + part * at_surface
-            energies, pulls = energy_and_traction(law, trial)
-            total = float(energies.sum())
-            gained = part * linear + 0.5 * part**2 * quadratic + total - energy
-            if gained <= 1e-4 * part * slope + 1e-13 * abs(energy) or part < 1e-6:
+            while True:
+                energies, pulls = energy_and_traction(law, np.maximum(trial, GONE))
+                total = float(energies.sum())
+                gained = part * linear + 0.5 * part**2 * quadratic + total - energy
+                falls = gained <= 1e-4 * part * slope + 1e-13 * abs(energy)
+                if falls or not halvings:
+                    break
+                part, halvings = 0.5 * part, halvings - 1
+                trial = gap + part * at_surface
+            if falls:
                 break
-            part *= 0.5
         v, held = v + part * step, held + part * stretched
         depth, gap, tension, energy = depth + part * lowered, trial, pulls, total
         smallest = int(gap.argmin())
@@ -218,7 +246,7 @@ def equilibrium(
         opens = at_surface[smallest] > 0
         if spring == 0 and opens and released(gap, span):
             return found(iteration, False, True)
-        stable = stable and (part == 1.0 or missing < 10 * tolerance * scale)
+        stable = stable and len(ways) == 1 and (part == 1.0 or missing < 10 * tolerance * scale)
     return found(most_iterations, False)
 
 
@@ -231,7 +259,7 @@ def _residual(
         residual = residual - residual.mean()
     if hold.rigid:
         return residual, 0.0
-    return residual, hold.stiffness * depth - hold.load - float(tension.sum())
+    return residual, float(hold.stiffness * depth - hold.load - tension.sum())
 
 
 def _longest(change: npt.NDArray, gap: npt.NDArray, span: float, stable: bool) -> float:
@@ -244,43 +272,69 @@ def _longest(change: npt.NDArray, gap: npt.NDArray, span: float, stable: bool) -
     return part
 
 
+def _stopped(
+    plane: Plane, step: npt.NDArray, lowered: float, gap: npt.NDArray, span: float, stable: bool
+) -> tuple[npt.NDArray, float]:
+    """Return a step in which each pixel stops by itself where its gap would close too far."""
+    change = plane.within(step) - lowered
+    part = 1.0 if stable else min(1.0, _FAR * span / float(np.abs(change).max()))
+    least = -_LARGEST_CLOSING * room(gap, span)
+    raised = plane.widened(np.maximum(least - part * change, 0.0))
+    if plane.mean_is_zero:
+        raised -= raised.mean()
+    return part * step + raised, part * lowered
+
+
 def _direction(
-    tangent: _Tangent, residual: npt.NDArray, unheld: float, saddle: float
+    tangent: _Tangent,
+    residual: npt.NDArray,
+    unheld: float,
+    span: float,
+    saddle: bool,
 ) -> tuple[npt.NDArray, float, bool]:
     """Return a direction of descent by conjugate gradients, and whether no curvature is negative.
 
     The direction is that of Newton's method unless negative curvature is met; then it is what was
-    found before, or the first direction. At an equilibrium that is not stable, where `saddle` is
-    the range of the law and not 0, it is that of the negative curvature, a part of the range long.
+    found before, prolonged along the negative curvature, or the first direction. At an equilibrium
+    that is not stable, a saddle, it is that of the negative curvature, a part of the range long.
     """
     apply = tangent.preconditioner()
-    r, s = -residual, -unheld
-    x, lowered = np.zeros_like(residual), 0.0
+    r, s = -residual.astype(np.float32), -unheld
+    x, lowered = np.zeros_like(r), 0.0
     z, y = apply(r, s)
-    p, d = z, y
+    p, d = z.copy(), y
     product = float(np.vdot(r, z)) + s * y
     first = product
     if not first > 0:  # an even surface in equilibrium
-        return x, lowered, True
+        return x.astype(float), lowered, True
+    held = np.empty_like(r)
+    stable = True
     for many in range(1, _MOST_INNER + 1):
         bent, unbalanced = tangent.times(p, d)
-        if tangent.plane.mean_is_zero:
-            bent = bent - bent.mean()
         curvature = float(np.vdot(p, bent)) + d * unbalanced
-        if not curvature > 0 and saddle:
-            longer = _KICK * saddle / max(float(np.abs(p).max()), abs(d))
-            return longer * p, longer * d, False
         if not curvature > 0:
-            return (p, d, False) if many == 1 else (x, lowered, False)
+            stable = False
+            largest = max(float(np.abs(p).max()), abs(d))
+            if saddle:
+                length, x, lowered = _KICK * span / largest, np.zeros_like(r), 0.0
+            elif many == 1:
+                length = 1.0
+            else:
+                length = _PROLONGED * span / largest
+            x, lowered = x + length * p, lowered + length * d
+            break
         length = product / curvature
-        x, lowered = x + length * p, lowered + length * d
-        r, s = r - length * bent, s - length * unbalanced
+        x += np.multiply(p, length, out=held)
+        r -= np.multiply(bent, length, out=held)
+        lowered, s = lowered + length * d, s - length * unbalanced
         z, y = apply(r, s)
         before, product = product, float(np.vdot(r, z)) + s * y
         if product <= _INNER**2 * first:
-            return x, lowered, True
-        p, d = z + (product / before) * p, y + (product / before) * d
-    return x, lowered, True
+            break
+        p *= product / before
+        p += z
+        d = y + (product / before) * d
+    return x.astype(float), lowered, stable
 
 
 def _admitted(

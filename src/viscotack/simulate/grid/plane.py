@@ -122,7 +122,7 @@ class Plane:
         field = field.reshape(self.shape)
         if self.periodic:
             return field
-        wide = np.zeros(self.domain)
+        wide = np.zeros(self.domain, field.dtype)
         wide[: self.shape[0], : self.shape[1]] = field
         return wide
 
