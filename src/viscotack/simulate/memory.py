@@ -49,6 +49,20 @@ class Step:
     drive: npt.NDArray
     curvature: float
 
+    def heat(self, start: npt.NDArray, mixed: npt.NDArray, ramp: float) -> npt.NDArray:
+        """Return the heat of each mode from the products of fields over the nodes.
+
+        With y = e - d and f = F - z at the start of the step, and the changes de and dF in it, they
+        are y f and y dF, shape (M,), and de dF.
+        """
+        x = self.length / self.times
+        # y(s) = y exp(-s) + v (1 - exp(-s)) with v = de/x; integrals of the three products
+        one, two = -np.expm1(-x), -np.expm1(-2 * x) / 2
+        # the last integral loses digits by cancellation for short steps; use its series there
+        series = x**3 / 3 - x**4 / 4 + 7 * x**5 / 60
+        square = np.where(x < 1e-3, series, x - one - one**2 / 2)
+        return self.weights * (start * two + mixed / x * one**2 + ramp / x**2 * square)
+
 
 def step(modes: Modes, length: float) -> Step:
     """Return the recursion for a step of this length [time units of the modes]."""
@@ -90,16 +104,8 @@ class Memory:
     def heat(self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray):
         """Return the heat dissipated by each mode in that step, shape (M,) [dg beta^2]."""
         y, f = e - self.displacement, F - self.force
-        x = s.length / s.times
-        # y(s) = y exp(-s) + v (1 - exp(-s)) with v = (e1 - e)/x; integrals of the three products
-        one, two = -np.expm1(-x), -np.expm1(-2 * x) / 2
-        start = np.einsum("ij,ij->i", y, f)
-        mixed = (y @ (F1 - F)) / x
-        ramp = float((e1 - e) @ (F1 - F)) / x**2
-        # the last integral loses digits by cancellation for short steps; use its series there
-        series = x**3 / 3 - x**4 / 4 + 7 * x**5 / 60
-        square = np.where(x < 1e-3, series, x - one - one**2 / 2)
-        return s.weights * (start * two + mixed * one**2 + ramp * square)
+        start, mixed = np.einsum("ij,ij->i", y, f), y @ (F1 - F)
+        return s.heat(start, mixed, float((e1 - e) @ (F1 - F)))
 
     def stored(self, weights: npt.NDArray) -> float:
         """Return the elastic energy in the springs of the modes [dg beta^2]."""

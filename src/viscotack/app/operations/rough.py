@@ -79,6 +79,10 @@ class OfRough(Request):
             "are neighbours."
         ),
     ] = False
+    device: Annotated[
+        Literal["cpu", "cuda"],
+        Option("Where to compute: cuda is a GPU, by CuPy, for maps from about 512 x 512 pixels."),
+    ] = "cpu"
     time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 600.0
     checkpoint: Annotated[
         Path | None,
@@ -110,6 +114,7 @@ class OfRough(Request):
             time_limit=self.time_limit,
             force_coarse=self.anyway,
             checkpoint=self.checkpoint,
+            device=self.device,
             threads=min(os.cpu_count() or 1, _MOST_THREADS),
             progress=lambda share: caller.tell({"share": share}),
         )

@@ -11,7 +11,7 @@ from viscotack.errors import InputError
 from viscotack.units import positive
 
 # Smallest and largest number of pixels of a side, and the largest of a generated map.
-FEWEST, MOST, MOST_GENERATED = 8, 4096, 2048
+FEWEST, MOST, MOST_GENERATED = 8, 8192, 4096
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,7 @@
 """Protocol of traction laws, and measures of their range."""
 
 from functools import lru_cache
-from typing import Annotated, Protocol, runtime_checkable
+from typing import Annotated, Any, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -64,7 +64,8 @@ class Traction(Protocol):
 
 def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return gaps as an array; raise an error unless all are positive."""
-    h = np.asarray(gap, dtype=float)
+    # arrays of other libraries, such as those on a GPU, stay what they are
+    h: Any = gap if getattr(gap, "dtype", None) == np.float64 else np.asarray(gap, dtype=float)
     if h.size and not h.min() > 0:
         raise InputError(f"gap must be positive, got a minimum of {h.min()} m")
     return h

@@ -20,6 +20,46 @@ from viscotack.simulate.memory import Memory, Step
 _UNBALANCED = 3e-5
 
 
+class GridMemory(Memory):
+    """Displacement and force of every mode on the device of the grid, one mode after the other.
+
+    Fields of all modes at once would take most of the memory of a run.
+    """
+
+    def advanced(
+        self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray
+    ) -> GridMemory:
+        """Return the memory after a step."""
+
+        def recur(field: npt.NDArray, first: npt.NDArray, last: npt.NDArray) -> npt.NDArray:
+            found, part = np.empty_like(field), np.empty_like(first)
+            for j, (decay, (begin, end)) in enumerate(
+                zip(s.decay.tolist(), s.drive.tolist(), strict=True)
+            ):
+                mode = np.multiply(field[j], decay, out=found[j])
+                mode += np.multiply(first, begin, out=part)
+                mode += np.multiply(last, end, out=part)
+            return found
+
+        return GridMemory(recur(self.displacement, e, e1), recur(self.force, F, F1))
+
+    def heat(
+        self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray
+    ) -> npt.NDArray:
+        """Return the heat of each mode in a step, on the host."""
+        dF = F1 - F
+        start, mixed = np.zeros(len(s.times)), np.zeros(len(s.times))
+        for j in range(len(s.times)):
+            y = e - self.displacement[j]
+            start[j], mixed[j] = float(y @ (F - self.force[j])), float(y @ dF)
+        return s.heat(start, mixed, float((e1 - e) @ dF))
+
+    def stored(self, weights: npt.NDArray) -> float:
+        """Return the elastic energy in the springs of the modes."""
+        both = zip(weights.tolist(), self.displacement, self.force, strict=True)
+        return 0.5 * sum(weight * float(d @ z) for weight, d, z in both)
+
+
 @dataclass(frozen=True, eq=False)
 class GridState:
     """Complete solver state at one instant: recorded quantities and data for the next step.
@@ -55,7 +95,7 @@ class GridBody:
         """Return the relaxed state, in which every mode is in equilibrium."""
         e, many = self.contact.plane.within(found.moved), (len(self.weights), 1)
         force = self.contact.area * found.held
-        memory = Memory(np.tile(e, many), np.tile(force, many))
+        memory = GridMemory(np.tile(e, many), np.tile(force, many))
         seen = self._seen(0.0, found, e, force, memory)
         return GridState(seen, self.contact, found.gap, e, force, memory, _at_rest(e), found.moved)
 
@@ -65,9 +105,9 @@ class GridBody:
         """Advance the state by one trial time step."""
         contact, plane = self.contact, self.contact.plane
         area = contact.area
-        free = contact.rigid_gap
+        free = contact.free
         if self.weights.size:
-            inherited = (s.weights * s.decay) @ state.memory.force
+            inherited = plane.field(s.weights * s.decay) @ state.memory.force
             inherited = inherited + float(s.weights @ s.drive[:, 0]) * state.nodal
             free = free + plane.within(plane.moved(inherited / area))
         guess = state.moved if state.moving is None else state.moved + s.length * state.moving

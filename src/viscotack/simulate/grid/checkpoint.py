@@ -26,8 +26,8 @@ from viscotack.files.whole import writing_whole
 
 # Wall time after which a run is written again [s]; a kill loses this and the step under way.
 EVERY = 30.0
-# Most bytes of a file: 2048 x 2048 pixels and 100 modes.
-_LARGEST = 8e9
+# Most bytes of a file: 8192 x 8192 pixels and 50 modes.
+_LARGEST = 6e10
 _NAME = re.compile(r"key|(loading|start|main|light)\.[a-z_]{1,20}")
 
 Arrays = dict[str, npt.NDArray[Any]]

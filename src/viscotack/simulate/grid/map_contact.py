@@ -14,7 +14,7 @@ apex at depth 0 and the energy :math:`\varphi` of the law,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,7 +23,7 @@ import numpy.typing as npt
 from viscotack.model.protocol import AtDepth, Start
 from viscotack.model.surfaces.statistics import rms_curvature
 from viscotack.model.traction import Traction, effective_range
-from viscotack.simulate.grid.plane import Plane
+from viscotack.simulate.grid.plane import Device, Plane
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _ANGLES, _WEIGHTS = (_POINTS + 1) * np.pi / 8, _WEIGHTS * np.pi / 8
@@ -53,10 +53,19 @@ class MapContact:
     beyond: float | None = None
     apex: float = 1.0
 
+    def on(self, device: Device) -> MapContact:
+        """Return the contact with its fields on another device."""
+        return replace(self, plane=replace(self.plane, device=device))
+
     @property
     def span(self) -> float:
         """The range of the law [h0]."""
         return effective_range(self.law)
+
+    @cached_property
+    def free(self) -> npt.NDArray:
+        """The rigid gap on the device of the plane."""
+        return self.plane.field(self.rigid_gap)
 
     @property
     def area(self) -> float:

@@ -7,26 +7,30 @@ surface without neighbours lies in a domain twice as wide in both directions. Th
 has the compliance of pressed squares (Love, 1929) up to the width of the surface, and a layer its
 transfer function, because a load on it is not felt far away. Outside the surface no tractions act.
 
+Fields are arrays of NumPy, or of CuPy on a GPU: NumPy's functions accept both.
+
 Tractions that vary over a pixel move its centre less than their mean does. The factor
 :math:`\exp(q^2 \Delta x^2/48)` on :math:`\hat G` corrects most of this error in free space.
 """
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from importlib import import_module
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 from scipy import fft
 
+from viscotack.errors import InputError
 from viscotack.model.geometry import Body, HalfSpace, Layer
 
+Device = Literal["cpu", "cuda"]
 # Without types, which SciPy states for several libraries of arrays.
-_forward: Any = fft.rfft2
-_back: Any = fft.irfft2
-_fast_length: Any = fft.next_fast_len
+_fft: Any = fft
 
 # Correction of tractions that vary over a pixel, fitted to spheres of revolution.
 _WITHIN_PIXEL = 48.0
@@ -46,19 +50,35 @@ class Plane:
         The body below, in the same unit.
     periodic : bool
         Whether the surface repeats in both directions.
+    device : "cpu" or "cuda"
+        Where its fields are.
     """
 
     shape: tuple[int, int]
     pixel: float
     body: Body = HalfSpace()
     periodic: bool = False
+    device: Device = "cpu"
+
+    @cached_property
+    def library(self) -> tuple[Any, Any]:
+        """Library of the arrays, and its Fourier transforms."""
+        return libraries(self.device)
+
+    def field(self, values: Any) -> Any:
+        """Return values as a field on the device."""
+        return self.library[0].asarray(values)
+
+    def zeros(self, kind: Any = float) -> Any:
+        """Return a field of the domain that is zero."""
+        return self.library[0].zeros(self.domain, kind)
 
     @cached_property
     def domain(self) -> tuple[int, int]:
         """Rows and columns of the domain of the transforms."""
         if self.periodic:
             return self.shape
-        rows, columns = (_fast_length(2 * side, real=True) for side in self.shape)
+        rows, columns = (_fft.next_fast_len(2 * side, real=True) for side in self.shape)
         return rows, columns
 
     @cached_property
@@ -84,9 +104,9 @@ class Plane:
                 if not (self.periodic or found[0, 0]):
                     # Glued and incompressible: G rises like q^2; its mean near q = 0
                     found[0, 0] = found[0, 1] / (2 * np.pi)
-            return found
-        found = _forward(_love(self.domain, self.pixel)).real
-        return found * np.exp((q * self.pixel) ** 2 / _WITHIN_PIXEL)
+            return self.field(found)
+        found = _fft.rfft2(_love(self.domain, self.pixel)).real
+        return self.field(found * np.exp((q * self.pixel) ** 2 / _WITHIN_PIXEL))
 
     @cached_property
     def stiffness(self) -> npt.NDArray:
@@ -100,10 +120,10 @@ class Plane:
         """Median of the stiffness over the wave numbers, of a preconditioner."""
         return float(np.median(self.stiffness))
 
-    @property
+    @cached_property
     def mean_is_zero(self) -> bool:
         """Whether the mean displacement is zero, so that the depth is that of the mean plane."""
-        return self.compliance[0, 0] == 0
+        return float(self.compliance[0, 0]) == 0
 
     def moved(self, traction: npt.NDArray) -> npt.NDArray:
         """Return the displacements of the domain under tractions on the surface."""
@@ -115,20 +135,62 @@ class Plane:
 
     def applied(self, transfer: npt.NDArray, field: npt.NDArray) -> npt.NDArray:
         """Return a field of the domain, multiplied by a transfer function."""
-        return _back(transfer * _forward(field), s=self.domain, overwrite_x=True)
+        transform = self.library[1]
+        found = transform.rfft2(field)
+        found *= transfer
+        return transform.irfft2(found, s=self.domain, overwrite_x=True)
 
     def widened(self, field: npt.NDArray) -> npt.NDArray:
         """Return a field of the surface on the domain, zero outside."""
         field = field.reshape(self.shape)
         if self.periodic:
             return field
-        wide = np.zeros(self.domain, field.dtype)
+        wide = self.zeros(field.dtype)
         wide[: self.shape[0], : self.shape[1]] = field
         return wide
 
     def within(self, field: npt.NDArray) -> npt.NDArray:
         """Return the part of a field of the domain that lies on the surface, as a flat array."""
         return field[: self.shape[0], : self.shape[1]].ravel()
+
+
+def libraries(device: Device) -> tuple[Any, Any]:
+    """Return the library of arrays of a device, and its Fourier transforms.
+
+    Raises
+    ------
+    InputError
+        If CuPy or a GPU is missing.
+    """
+    if device == "cpu":
+        return np, fft
+    try:
+        cupy: Any = import_module("cupy")
+        transforms = import_module("cupyx.scipy.fft")
+    except ImportError:
+        raise InputError(
+            'device "cuda" needs CuPy: pip install "viscotack[gpu]"', field="device"
+        ) from None
+    try:
+        cupy.cuda.runtime.getDeviceCount()
+    except cupy.cuda.runtime.CUDARuntimeError as error:
+        raise InputError(f'device "cuda" has no GPU: {error}', field="device") from None
+    return cupy, transforms
+
+
+def memory(device: Device) -> float:
+    """Return the bytes of memory of a device; infinity where the system does not tell."""
+    if device == "cuda":
+        return float(libraries(device)[0].cuda.runtime.memGetInfo()[1])
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):
+        return float("inf")
+
+
+def on_host(field: Any) -> npt.NDArray:
+    """Return a field as an array of NumPy."""
+    return field if isinstance(field, np.ndarray) else field.get()
 
 
 def _love(domain: tuple[int, int], pixel: float) -> npt.NDArray:

@@ -13,6 +13,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from viscotack.simulate.grid.body import GridState
+from viscotack.simulate.grid.plane import on_host
 from viscotack.simulate.history import Snapshot
 from viscotack.simulate.state import MarchState, Run
 
@@ -88,10 +89,10 @@ class GridRun(Run):
         state: GridState = at.state  # type: ignore[assignment]
         contact = state.surface
         shape, seen = contact.plane.shape, at.seen
-        close = (state.gap < contact.law.edge_gap).reshape(shape)
+        close = on_host(state.gap < contact.law.edge_gap).reshape(shape)
         self.touching.append((int(close.sum()), patches(close, contact.plane.periodic)))
-        pressure = (state.nodal / contact.area).astype(np.float32).reshape(shape)
-        gap = np.minimum(state.gap, _LARGEST_GAP).astype(np.float32).reshape(shape)
+        pressure = on_host((state.nodal / contact.area).astype(np.float32)).reshape(shape)
+        gap = on_host(np.minimum(state.gap, _LARGEST_GAP).astype(np.float32)).reshape(shape)
         self.frames.take(Frame(seen.time, seen.depth, seen.force, gap, pressure))
         self.told(at)
 

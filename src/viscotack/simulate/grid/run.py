@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -47,7 +48,7 @@ def relaxed(
     """
     if checkpoint is None:
         return _relaxed(contact, start, None)
-    found = checkpoint.part("start", found_of)
+    found = checkpoint.part("start", partial(found_of, contact.plane))
     if found is None:
         found = _relaxed(contact, start, checkpoint)
         checkpoint.keep("start", found_arrays(found), instead_of="loading")
@@ -59,7 +60,7 @@ def _relaxed(contact: MapContact, start: Start | Apart, checkpoint: Checkpoint |
     apart = _APART * span
 
     def at(depth: float, guess: Found | None) -> Found:
-        moved = np.zeros(plane.domain) if guess is None else guess.moved
+        moved = plane.zeros() if guess is None else guess.moved
         return _balanced(contact, moved, Hold(np.inf, depth=depth), depth)
 
     def keep(found: Found, number: int, depth: float, step: float) -> None:
@@ -70,7 +71,7 @@ def _relaxed(contact: MapContact, start: Start | Apart, checkpoint: Checkpoint |
         return _checked(at(1 - start.gap, None))
     if isinstance(start, AtRadius):
         raise InputError("a map has no contact radius to start at; give a depth or a force")
-    begun = None if checkpoint is None else checkpoint.part("loading", loading_of)
+    begun = None if checkpoint is None else checkpoint.part("loading", partial(loading_of, plane))
     if isinstance(start, AtDepth):
         found, first = (None, 0) if begun is None else begun[:2]
         depths = np.linspace(-apart, start.depth, _LOADINGS)
@@ -87,7 +88,7 @@ def _relaxed(contact: MapContact, start: Start | Apart, checkpoint: Checkpoint |
     for number in range(first, _MOST_LOADINGS):
         found = at(depth, found)
         force = contact.force_under(found.tension, depth)
-        touches = np.any(found.gap < law.edge_gap)
+        touches = bool((found.gap < law.edge_gap).any())
         if depth >= deepest or (touches and force >= max(start.force, 0.0)):
             break
         depth, step = min(depth + step, deepest), 1.2 * step
@@ -101,7 +102,7 @@ def _balanced(contact: MapContact, moved: npt.NDArray, hold: Hold, depth: float)
     return equilibrium(
         contact.plane,
         contact.law,
-        contact.rigid_gap,
+        contact.free,
         1.0,
         moved,
         hold,

@@ -11,13 +11,13 @@ import numpy.typing as npt
 
 from viscotack.result import Event
 from viscotack.simulate.body import Rates
-from viscotack.simulate.grid.body import GridState
+from viscotack.simulate.grid.body import GridMemory, GridState
 from viscotack.simulate.grid.checkpoint import Arrays
 from viscotack.simulate.grid.descent import Found
+from viscotack.simulate.grid.plane import Plane, on_host
 from viscotack.simulate.grid.recorded import Fixed, Frame, GridRun
 from viscotack.simulate.history import EnergyTerms, Lowest, Snapshot
 from viscotack.simulate.machine import Leg
-from viscotack.simulate.memory import Memory
 from viscotack.simulate.state import MarchState
 
 # Attributes that are stored: fields of the surface, and numbers.
@@ -33,12 +33,14 @@ _OF_HISTORY = ("outcome", "pressed", "reason", "left", "nodes")
 def found_arrays(found: Found) -> Arrays:
     """Return a relaxed state as arrays."""
     about = {name: getattr(found, name) for name in _OF_FOUND}
-    return {name: getattr(found, name) for name in _FIELDS_OF_FOUND} | {"about": _text(about)}
+    fields = {name: on_host(getattr(found, name)) for name in _FIELDS_OF_FOUND}
+    return fields | {"about": _text(about)}
 
 
-def found_of(arrays: Arrays) -> Found:
+def found_of(plane: Plane, arrays: Arrays) -> Found:
     """Reconstruct the relaxed state from the output of :func:`found_arrays`."""
-    return Found(**{name: arrays[name] for name in _FIELDS_OF_FOUND}, **_values(arrays["about"]))
+    fields = {name: plane.field(arrays[name]) for name in _FIELDS_OF_FOUND}
+    return Found(**fields, **_values(arrays["about"]))
 
 
 def loading_arrays(found: Found, number: int, depth: float, step: float) -> Arrays:
@@ -47,10 +49,10 @@ def loading_arrays(found: Found, number: int, depth: float, step: float) -> Arra
     return found_arrays(found) | {"way": _text(way)}
 
 
-def loading_of(arrays: Arrays) -> tuple[Found, int, float, float]:
+def loading_of(plane: Plane, arrays: Arrays) -> tuple[Found, int, float, float]:
     """Reconstruct the state and its place from the output of :func:`loading_arrays`."""
     way = _values(arrays["way"])
-    return found_of(arrays), way["number"], way["depth"], way["step"]
+    return found_of(plane, arrays), way["number"], way["depth"], way["step"]
 
 
 def run_arrays(run: GridRun, at: MarchState, counted: tuple[int, int, int]) -> Arrays:
@@ -85,12 +87,12 @@ def run_arrays(run: GridRun, at: MarchState, counted: tuple[int, int, int]) -> A
         "frames": _table(frames, _OF_FRAME),
         "gaps": np.array([frame.gap for frame in frames]),
         "pressures": np.array([frame.pressure for frame in frames]),
-        "displacement": state.memory.displacement,
-        "force": state.memory.force,
-        "rate": state.rates.relaxed,
+        "displacement": on_host(state.memory.displacement),
+        "force": on_host(state.memory.force),
+        "rate": on_host(state.rates.relaxed),
     }
-    found |= {name: getattr(state, name) for name in _FIELDS_OF_STATE}
-    return found if state.moving is None else found | {"moving": state.moving}
+    found |= {name: on_host(getattr(state, name)) for name in _FIELDS_OF_STATE}
+    return found if state.moving is None else found | {"moving": on_host(state.moving)}
 
 
 def continued(run: GridRun, arrays: Arrays) -> MarchState:
@@ -119,13 +121,14 @@ def continued(run: GridRun, arrays: Arrays) -> MarchState:
     ]
     run.frames.strongest[:], run.frames.kept[:] = frames[:1], frames[1:]
     run.frames.every[:] = about["every"]
-    fields: dict[str, Any] = {name: arrays[name] for name in _FIELDS_OF_STATE}
+    field = contact.plane.field
+    fields: dict[str, Any] = {name: field(arrays[name]) for name in _FIELDS_OF_STATE}
     state: Any = GridState(
         history.snapshots[-1],
         contact,
-        memory=Memory(arrays["displacement"], arrays["force"]),
-        rates=Rates(arrays["rate"], 0.0, np.zeros(1), about["known"]),
-        moving=arrays.get("moving"),
+        memory=GridMemory(field(arrays["displacement"]), field(arrays["force"])),
+        rates=Rates(field(arrays["rate"]), 0.0, np.zeros(1), about["known"]),
+        moving=field(arrays["moving"]) if "moving" in arrays else None,
         **fields,
     )
     fixed: Any = Fixed()

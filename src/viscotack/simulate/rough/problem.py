@@ -33,8 +33,8 @@ _ZONE = 0.75
 _STEEPEST, _FEWEST = 0.5, 2.0
 # Range of the heights of an even map [equilibrium gaps].
 _EVEN = 1e-6
-# Most pixels: 512 x 512 take 0.5 GB and two minutes (research/grid.py size).
-_MOST = 2048 * 2048
+# Most pixels of a map; the memory of the machine may hold fewer.
+_MOST = 8192 * 8192
 # Pixels per zone: below the first the answer is refused unless forced, below the second there is a
 # warning, the third is recommended.
 COARSEST, COARSE, FINE = 1.0, 1.5, 2.0

@@ -19,11 +19,14 @@ from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.model.protocol import Move
+from viscotack.model.traction import Tabulated
 from viscotack.result import Event, Outcome
 from viscotack.simulate.bounds import check_clock
 from viscotack.simulate.estimate import COARSER, from_difference
 from viscotack.simulate.grid.checkpoint import EVERY, Checkpoint
 from viscotack.simulate.grid.descent import Found
+from viscotack.simulate.grid.map_contact import MapContact
+from viscotack.simulate.grid.plane import Device, Plane, memory
 from viscotack.simulate.grid.recorded import Frame, GridRun
 from viscotack.simulate.grid.run import march_on_grid, relaxed
 from viscotack.simulate.legs import legs_of, longest_time, reached, spring_travel
@@ -47,6 +50,8 @@ _FEW = 0.7
 # Error of the work by pixels over that of the force, of viscoelastic and of elastic solids.
 _WORK = (2.0, 3.0)
 _SMALLEST = 1e-300
+# Bytes per pixel, and per pixel and mode of the solid, of periodic and of other maps.
+_BYTES = {True: (400, 50), False: (850, 55)}
 # Share of the main run in the total work.
 _MAIN = 0.65
 
@@ -62,6 +67,7 @@ def pull(
     checkpoint: str | os.PathLike[str] | None = None,
     every: float = EVERY,
     threads: int = 1,
+    device: Device = "cpu",
     progress: Callable[[float], None] | None = None,
 ) -> RoughResult:
     """Press a rough surface against a soft body and pull it off, by simulation on its pixels.
@@ -90,6 +96,9 @@ def pull(
     threads : int
         Threads of the Fourier transforms, which do not change the digits; several pay from about
         256 x 256 pixels on.
+    device : "cpu" or "cuda"
+        Where the fields are: "cuda" is a GPU, which needs CuPy (extra ``gpu``) and pays from about
+        512 x 512 pixels on. Laws by a table are for the CPU.
     progress : callable, optional
         Called with the completed share of the work, 0 to 1.
 
@@ -121,6 +130,11 @@ def pull(
     """
     began = perf_counter()
     warnings = _resolved(problem, force_coarse)
+    contact = problem.contact.on(device)
+    if device != "cpu" and isinstance(problem.traction, Tabulated):
+        raise InputError(
+            "a law by a table is computed on the CPU; leave out device", field="device"
+        )
     settings = Settings.for_accuracy(accuracy)
     share = _MAIN if estimate_error else 1.0
     kept = None
@@ -133,16 +147,16 @@ def pull(
 
     with limited(time_limit), set_workers(threads):
         try:
-            start = relaxed(problem.contact, problem.units.start(problem.protocol.start), kept)
+            start = relaxed(contact, problem.units.start(problem.protocol.start), kept)
         except TimeUp as limit:
             raise InputError(f"{limit} before the relaxed start was found") from None
         except ArithmeticError as reason:
             raise InputError(f"the relaxed start was not found: {reason}") from None
-        run = _run(problem, start, settings, maps, kept, "main", part(0.0, share))
+        run = _run(problem, contact, start, settings, maps, kept, "main", part(0.0, share))
         result = _result(problem, run, settings, warnings)
         if estimate_error and result.outcome is not Outcome.STOPPED:
             coarser = settings.coarser(COARSER)
-            light = _run(problem, start, coarser, 0, kept, "light", part(share, 1.0))
+            light = _run(problem, contact, start, coarser, 0, kept, "light", part(share, 1.0))
             coarse = _result(problem, light, settings, ())
             if coarse.outcome is not Outcome.STOPPED:
                 result = replace(result, error_estimate=_errors(problem, result, coarse, accuracy))
@@ -169,6 +183,7 @@ def _resolved(problem: RoughProblem, forced: bool) -> tuple[str, ...]:
 
 def _run(
     problem: RoughProblem,
+    contact: MapContact,
     start: Found,
     settings: Settings,
     maps: int,
@@ -177,7 +192,7 @@ def _run(
     progress: Callable[[float], None] | None,
 ) -> GridRun:
     """Simulate the test."""
-    contact, units, test = problem.contact, problem.units, problem.protocol
+    units, test = problem.units, problem.protocol
     material = problem.material.reduced()
     moves: tuple[Move, ...] = units.moves(test.moves)
     rate, stiffness = units.speed(test.speed), units.stiffness(test.stiffness)
@@ -188,6 +203,7 @@ def _run(
     spring = spring_travel(began, depths, moves, stiffness, material.modulus_ratio, contact)  # type: ignore[arg-type]
     longest = longest_time(depths, moves, rate, contact, spring)  # type: ignore[arg-type]
     modes = modes_of_run(material, legs, longest, settings)
+    check_memory(contact.plane, len(modes.weights))
     return march_on_grid(
         contact,
         start,
@@ -200,6 +216,18 @@ def _run(
         part=part,
         progress=progress,
     )
+
+
+def check_memory(plane: Plane, modes: int) -> None:
+    """Refuse a map that the memory of its device does not hold."""
+    least, of_mode = _BYTES[plane.periodic]
+    needed = plane.shape[0] * plane.shape[1] * (least + of_mode * modes)
+    if needed > (held := memory(plane.device)):
+        raise InputError(
+            f"{plane.shape[0]} x {plane.shape[1]} pixels with {modes} modes of the solid need "
+            f"{needed / 1e9:.3g} GB of memory, and there are {held / 1e9:.3g} GB; cut the map, "
+            "make it coarser (HeightMap.coarser) or ask for less accuracy"
+        )
 
 
 def _key(problem: RoughProblem, settings: Settings, maps: int) -> str:
