@@ -129,7 +129,7 @@ def test_a_line_without_end_of_a_map_is_refused(tmp_path):
     ("make", "more"),
     [
         (sphere, {"pixels": 100_000, "radius": 1e-3}),
-        (self_affine, {"pixels": 4096, "hurst": 0.8, "rms_height": 1e-7, "seed": 1}),
+        (self_affine, {"pixels": 8192, "hurst": 0.8, "rms_height": 1e-7, "seed": 1}),
         (bumps, {"pixels": 100_000, "radius": 1e-5, "spacing": 1e-5, "height": 1e-6}),
         (bumps, {"pixels": 64, "radius": 1e-5, "spacing": 1e-10, "height": 1e-6}),
     ],
