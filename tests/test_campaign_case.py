@@ -18,9 +18,9 @@ from viscotack import (
     pull_off_force,
 )
 from viscotack.campaign import CaseSettings, measure
-from viscotack.campaign.case import KEY_SHARES, curve
-from viscotack.campaign.columns import kind_of_problem
 from viscotack.campaign.running import attempt
+from viscotack.model.problem.kinds import kind_of_problem
+from viscotack.result.curve import KEY_SHARES, curve
 
 QUICK = CaseSettings(accuracy=0.02, until="pull-off")
 

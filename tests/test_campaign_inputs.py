@@ -81,9 +81,9 @@ def test_a_file_and_python_state_the_same_cases(tmp_path):
     (tmp_path / "pad.toml").write_text(PAD_FILE)
     lines = [f"{path} = {str(given).replace(':', ' =')}" for path, given in OVER_PAD.items()]
     text = "\n".join(lines).replace("'log'", "log").replace("'linear'", "linear")
-    text = f'problem = "pad.toml"\n[[fill]]\ncases = 20\nmethod = "latin-hypercube"\n{text}\n'
+    text = f'problem = "pad.toml"\n[[fill]]\ncases = 20\n{text}\n'
     (tmp_path / "plan.toml").write_text(text)
     assert read_case(tmp_path / "pad.toml") == PAD
-    ours = space_filling(PAD, OVER_PAD, cases=20, method="latin-hypercube")
+    ours = space_filling(PAD, OVER_PAD, cases=20)
     assert read_plan(tmp_path / "plan.toml").cases == ours.cases and len(ours.cases) == 20
     assert ours.base == read_plan(tmp_path / "plan.toml").base

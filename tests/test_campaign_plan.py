@@ -4,9 +4,10 @@ import pytest
 from viscotack.app.operations.flags import stated
 from viscotack.app.operations.request import Caller
 from viscotack.campaign import CaseSettings, read_plan
-from viscotack.campaign.columns import KINDS, has_relaxed_contact
-from viscotack.campaign.design import METHODS, fill, grid
+from viscotack.campaign.design import grid
+from viscotack.model.problem.kinds import KINDS
 from viscotack.model.problem.record import run_id
+from viscotack.simulate import has_start
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
 HEADER = "tabor,modulus_ratio,exponent,preload,rate\n"
@@ -58,26 +59,15 @@ def test_a_fill_covers_its_ranges_evenly_and_can_be_extended(tmp_path):
         assert np.all(np.sort(np.floor(places * 128)) == np.arange(128))
 
 
-def test_a_latin_hypercube_has_one_point_in_each_part(tmp_path):
-    text = sphere_fill(50, method='"latin-hypercube"', seed="3")
-    cases = read_plan(written(tmp_path, text)).cases
-    places = (columns(cases, "exponent") - 0.2) / 1.8
-    assert np.all(np.sort(np.floor(places * 50)) == np.arange(50))
-
-
 def test_a_plan_has_an_end(tmp_path):
     wide = {"log": [1, 2], "count": 4000}
     for values in ({"x": {"log": [1, 2], "count": 10**15}}, dict.fromkeys("xyz", wide)):
         with pytest.raises(ValueError, match="a plan has at most 10000000 cases, got"):
             next(grid(values))
-    for method in ("sobol", "latin-hypercube"):
-        path = written(tmp_path, sphere_fill(10**13, method=f'"{method}"'))
-        with pytest.raises(ValueError, match=r"block 1 .*at most 10000000 cases.* got 1e\+13"):
-            read_plan(path)
+    path = written(tmp_path, sphere_fill(10**13))
+    with pytest.raises(ValueError, match=r"block 1 .*at most 10000000 cases.* got 1e\+13"):
+        read_plan(path)
     assert len([*grid(dict.fromkeys("xy", {"log": [1, 2], "count": 30}))]) == 900
-    # a hypercube that is drawn in several blocks is one
-    points = [row["x"] for row in fill({"x": {"linear": [0, 1]}}, cases=3000, method=METHODS[1])]
-    assert np.array_equal(np.sort(np.floor(np.array(points) * 3000)), np.arange(3000))
 
 
 @pytest.mark.parametrize(
@@ -93,7 +83,7 @@ def test_a_plan_has_an_end(tmp_path):
 )
 def test_a_relaxed_contact_is_looked_for(start, exists):
     inputs = {k: v for k, v in INPUTS.items() if k != "preload"} | start
-    assert has_relaxed_contact(KINDS["sphere"].problem(inputs)) is exists
+    assert has_start(KINDS["sphere"].problem(inputs)) is exists
 
 
 def test_a_case_that_is_stated_twice_is_run_once(tmp_path):

@@ -1,7 +1,6 @@
 """Executors on a Dask cluster."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 from time import monotonic
 from typing import Any
 
@@ -22,14 +21,11 @@ class Dask:
     Attributes
     ----------
     address : str
-        Of the scheduler, ``"tcp://host:8786"``.
-    tls : tuple of path, optional
-        Files in PEM for a scheduler at ``"tls://host:8786"``: certificate of the authority,
-        certificate and key of this end.
+        Of the scheduler, ``"tcp://host:8786"``; ``"tls://host:8786"`` with the certificates that
+        the configuration of Dask names.
     """
 
     address: str
-    tls: tuple[Path, Path, Path] | None = None
     _client: Any = None
     _threads: int = 0
     _counted: float = 0.0
@@ -55,19 +51,13 @@ class Dask:
         """
         try:
             from distributed import Client
-            from distributed.security import Security
         except ImportError:
             raise NotInstalled(
                 f"a cluster needs Dask distributed; install it with: {install_command('cluster')}"
             ) from None
-        secured: dict[str, Any] = {}
-        if self.tls is not None:
-            names = ("tls_ca_file", "tls_client_cert", "tls_client_key")
-            files = dict(zip(names, map(str, self.tls), strict=True))
-            secured["security"] = Security(**files, require_encryption=True)
         self.__exit__()
         try:
-            self._client = Client(self.address, timeout=_CONNECT, set_as_default=False, **secured)
+            self._client = Client(self.address, timeout=_CONNECT, set_as_default=False)
         except (OSError, ValueError, TypeError, RuntimeError) as error:
             raise ConnectionError(
                 f"no scheduler answers at {self.address!r}: {error}; start one with 'dask "
