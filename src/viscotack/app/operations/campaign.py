@@ -27,6 +27,10 @@ _STOPPED, _SOME_FAILED = 1, 4
 AFolder = Annotated[Path, File("The folder of a campaign.", metavar="DIR", argument=True)]
 
 
+def _csv(words: str, name: str = "csv") -> Output:
+    return Output(name, words, endings=(".csv",))
+
+
 class Inputs(Request):
     """List the numbers of a problem that a plan can set, with their names and current values.
 
@@ -70,9 +74,7 @@ class DescribePlan(Request):
     """
 
     word: ClassVar = "campaign plan"
-    outputs: ClassVar = (
-        Output("csv", "Write the cases as a table; - is standard output.", endings=(".csv",)),
-    )
+    outputs: ClassVar = (_csv("Write the cases as a table; - is standard output."),)
     takes_own: ClassVar = True
     local: ClassVar = _OF_PLANS
 
@@ -174,8 +176,13 @@ class Run(Settings):
         out, plan = _folder(self.out, caller), self._plan(caller)
 
         def report(now: "Progress") -> None:
-            share = (now.done + now.failed) / now.cases
-            caller.tell({"share": share, "words": _told(now), "urgent": now.stopped})
+            ended = now.done + now.failed
+            words = f"{now.done} of {now.cases} stored, {now.failed} failed"
+            if now.rate:
+                minutes, seconds = divmod(round((now.cases - ended) / now.rate), 60)
+                words += f", {now.rate:.1f} cases/s, about {minutes} min {seconds:02d} s left"
+            words += "; finishing the running cases" if now.stopped else ""
+            caller.tell({"share": ended / now.cases, "words": words, "urgent": now.stopped})
 
         options: dict[str, Any] = {"own": caller.own, "retry": self.retry, "report": report}
         try:
@@ -269,10 +276,10 @@ class Export(Request):
 
     word: ClassVar = "campaign export"
     outputs: ClassVar = (
-        Output("csv", "Write a table; - is standard output.", endings=(".csv",)),
+        _csv("Write a table; - is standard output."),
         Output("parquet", "Write a Parquet file.", "binary", endings=(".parquet",)),
         Output("mat", "Write a MATLAB file.", "binary", endings=(".mat",)),
-        Output("failures", "Write the failures, as a .csv table.", endings=(".csv",)),
+        _csv("Write the failures.", "failures"),
     )
     local: ClassVar = _OF_FOLDERS
 
@@ -313,22 +320,12 @@ def _standing(
     now = of if isinstance(of, Progress) else Progress(*of.counts())
     left = now.cases - now.done - now.failed
     record = {"cases": now.cases, "done": now.done, "failed": now.failed, "left": left}
+    words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
     if now.elapsed_s:
         record |= {"elapsed_s": now.elapsed_s, "cases_per_second": now.rate}
         record |= {"stopped": now.stopped}
-    words = [f"{now.done} of {now.cases} cases done, {now.failed} failed, {left} left"]
-    if now.elapsed_s:
         words.append(f"  {now.elapsed_s:.1f} s, {now.rate:.2f} cases/s")
     words += lines or []
     if left:
         words.append(f"  resume with: viscotack campaign run --out {folder}")
     return Answer(now, record=lambda: record | more, words=lambda: "\n".join(words))
-
-
-def _told(now: "Progress") -> str:
-    text = f"{now.done} of {now.cases} stored, {now.failed} failed, {now.rate:.1f} cases/s"
-    if now.rate:
-        left = (now.cases - now.done - now.failed) / now.rate
-        minutes, seconds = divmod(round(left), 60)
-        text += f", about {minutes} min {seconds:02d} s left"
-    return text + ("; finishing the running cases" if now.stopped else "")
