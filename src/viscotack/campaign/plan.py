@@ -385,13 +385,9 @@ def numbers_of(shard: str) -> tuple[int, int]:
     return int(number), int(count)
 
 
-def restored_kind(
-    name: str, base: dict[str, Any] | None, columns: Iterable[str], also: tuple[Any, ...] = ()
-) -> Kind:
+def restored_kind(name: str, base: dict[str, Any] | None, also: tuple[Any, ...]) -> Kind:
     """Return the kind of a stored plan, whose problem uses these user-defined classes."""
-    if base is not None:
-        return kind_of_problem(from_dict(base, also, beside=Path), set(columns))
-    return KINDS[name]
+    return kind_of_problem(from_dict(base, also, beside=Path), set()) if base else KINDS[name]
 
 
 def _permitted(

@@ -178,7 +178,9 @@ class _Run:
         report: Callable[[Progress], None] | None,
     ) -> None:
         self.store, self.plan, self.work, self.report = store, plan, work, report
-        self.statement = _stated(store)
+        # what workers need to know of a campaign
+        facts = {name: store.facts[name] for name in ("kind", "problem", "settings", "own")}
+        self.statement = json.dumps(facts | {"identity": identity()})
         ended = store.ended()
         self.ended = {case.name: ended[case.name] for case in plan.cases if case.name in ended}
         again = {name for name, why in self.ended.items() if why and (retry or why in PASSING)}
@@ -369,13 +371,6 @@ def attempt(work: Work, kind: Kind, inputs: Mapping[str, float], settings: CaseS
     return Answer(row, failure, reason, took)
 
 
-def _stated(store: Store) -> str:
-    """Return what workers need to know of a campaign, as text."""
-    names = sorted({name for case in store.cases() for name in case.inputs})
-    facts = {name: store.facts[name] for name in ("kind", "problem", "settings", "own")}
-    return json.dumps(facts | {"names": names, "identity": identity()})
-
-
 @cache
 def _read(statement: str) -> tuple[Kind, CaseSettings]:
     """Return kind and settings in a worker, whose own copies of user-defined files are executed."""
@@ -393,7 +388,7 @@ def _read(statement: str) -> tuple[Kind, CaseSettings]:
             path.write_text(source, encoding="utf-8")
         settings = CaseSettings(**facts["settings"] | {"own": own})
         also = settings.nouns  # read while the files are there
-    return restored_kind(facts["kind"], facts["problem"], facts["names"], also), settings
+    return restored_kind(facts["kind"], facts["problem"], also), settings
 
 
 def _processes(workers: int, settings: CaseSettings) -> Processes:

@@ -7,7 +7,6 @@ system and in a folder that may only be read.
 
 import json
 import os
-import platform
 import socket
 import sqlite3
 from collections import Counter
@@ -144,7 +143,7 @@ class Store:
         InputError
             If one of them is missing, or has been edited since.
         """
-        facts, cases = self.facts, self.cases()
+        facts = self.facts
         given = {read_text(path): str(Path(path).resolve()) for path in own}
         for name, source in facts["own"]:
             if source not in given:
@@ -154,10 +153,9 @@ class Store:
                 )
         files = tuple(given[source] for _, source in facts["own"])
         settings = replace(self.settings, own=files)
-        names = {name for case in cases for name in case.inputs}
         return Plan(
-            kind=restored_kind(facts["kind"], facts["problem"], names, settings.nouns),
-            cases=tuple(cases),
+            kind=restored_kind(facts["kind"], facts["problem"], settings.nouns),
+            cases=tuple(self.cases()),
             settings=settings,
             base=facts["problem"],
             shard=facts["shard"],
@@ -214,7 +212,6 @@ class Store:
             "began": datetime.now(UTC).isoformat(timespec="seconds"),
             "host": socket.gethostname(),
             "process": os.getpid(),
-            "platform": platform.platform(),
             "identity": identity(),
         }
         with self.database() as db:
@@ -251,10 +248,6 @@ class Rows:
     def to_frame(self) -> Any:
         """Return the rows as a pandas DataFrame."""
         return frame(list(self))
-
-    def __len__(self) -> int:
-        with self.store.database() as db:
-            return db.execute(f"SELECT count(*) FROM results WHERE {self.condition}").fetchone()[0]
 
 
 def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]) -> Store:
