@@ -36,7 +36,9 @@ def test_a_second_run_on_a_folder_is_refused_until_the_first_has_ended(tmp_path)
 
 @pytest.mark.parametrize("changed", ["accuracy = 1e-3", 'until = "detached"'])
 def test_a_plan_may_grow_but_not_change_its_numbers(tmp_path, changed):
-    Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)).add([{"name": "x"}])
+    store, failed = Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)), {"failure": "refused"}
+    for row in ({"name": "x", **failed}, {"name": "x"}, {"name": "x", **failed}):
+        store.add([row])  # a result counts more than a failure before or after it
     grown = Store.create(tmp_path, plan_of(tmp_path / "p", cases=5, text="settings.time_limit = 9"))
     assert len(grown.plan().cases) == 5 and [row["name"] for row in grown.results()] == ["x"]
     with pytest.raises(InputError, match=changed.split()[0]):
