@@ -6,8 +6,8 @@ from typing import Any
 
 from viscotack.errors import NotInstalled, install_command
 
-# Seconds to wait for the scheduler; for the first worker; for another one when all have left.
-_CONNECT, _FIRST, _AGAIN = 30.0, 15.0, 120.0
+# Seconds to wait for the scheduler, and for a worker when there is none.
+_CONNECT, _WORKER = 30.0, 120.0
 # Seconds for which a count of the workers serves: they come and go.
 _LISTED = 1.0
 
@@ -30,7 +30,6 @@ class Dask:
     _threads: int = 0
     _counted: float = 0.0
     _seen: float = field(default_factory=monotonic)
-    _patience: float = _FIRST
 
     def __enter__(self) -> "Dask":
         return self
@@ -73,7 +72,7 @@ class Dask:
         Raises
         ------
         ConnectionError
-            If there have been none for 15 s, or for two minutes when there were some.
+            If there have been none for two minutes.
         """
         now = monotonic()
         if now - self._counted > _LISTED:
@@ -83,8 +82,8 @@ class Dask:
             except (OSError, TimeoutError, RuntimeError, ValueError):
                 self._threads = 0  # the scheduler is away, and what it had is cancelled
         if self._threads:
-            self._seen, self._patience = now, _AGAIN
-        elif now - self._seen > self._patience:
+            self._seen = now
+        elif now - self._seen > _WORKER:
             raise ConnectionError(
                 f"the scheduler {self.address} has no workers; start some with "
                 f"'dask worker {self.address} --nthreads 1'. What is stored is safe"

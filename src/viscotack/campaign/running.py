@@ -205,6 +205,9 @@ class _Run:
                     slots = workers()
                     while len(self.flying) < slots and (batch := self._next()):
                         try:
+                            # the time of a case that is alone has no beginning of a worker in it
+                            if not (self.todo or self.flying):
+                                wait([executor.submit(_ready, self.statement)], _BREAKS)
                             future = executor.submit(solve, self.work, self.statement, batch)
                         except BrokenExecutor:  # it has just broken, without this batch
                             future = Future()
@@ -369,6 +372,11 @@ def attempt(work: Work, kind: Kind, inputs: Mapping[str, float], settings: CaseS
     if failure in ("stopped", "refused") and took > settings.time_limit:
         failure, reason = "time limit", f"took more than {settings.time_limit:g} s"
     return Answer(row, failure, reason, took)
+
+
+def _ready(statement: str) -> None:
+    """Do nothing in a worker but what precedes its first case."""
+    _read(statement)
 
 
 @cache
