@@ -81,6 +81,8 @@ def test_a_case_that_kills_its_workers_is_found(tmp_path):
     # once among others, twice alone, and all of the others once
     assert inline.lost[-2:] == [[7.0], [7.0]] and len(inline.lost) == 3
     assert sorted(inline.done) == rates(tmp_path / "c")
+    # and is tried again by the next run, which may be on a better machine
+    assert run(plan_of(tmp_path), tmp_path / "c", work=stand_in, executor=Inline()).done == 20
 
 
 def test_a_run_in_which_every_worker_dies_ends(tmp_path):
