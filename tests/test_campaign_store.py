@@ -1,4 +1,5 @@
 import csv
+import os
 import resource
 import subprocess
 import sys
@@ -35,7 +36,9 @@ def test_a_second_run_on_a_folder_is_refused_until_the_first_has_ended(tmp_path)
 
 @pytest.mark.parametrize("changed", ["accuracy = 1e-3", 'until = "detached"'])
 def test_a_plan_may_grow_but_not_change_its_numbers(tmp_path, changed):
-    Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)).add([{"name": "x"}])
+    store, failed = Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)), {"failure": "refused"}
+    for row in ({"name": "x", **failed}, {"name": "x"}, {"name": "x", **failed}):
+        store.add([row])  # a result counts more than a failure before or after it
     grown = Store.create(tmp_path, plan_of(tmp_path / "p", cases=5, text="settings.time_limit = 9"))
     assert len(grown.plan().cases) == 5 and [row["name"] for row in grown.results()] == ["x"]
     with pytest.raises(InputError, match=changed.split()[0]):
@@ -55,6 +58,22 @@ def test_a_full_disk_ends_a_run_with_the_reason_and_a_file_that_goes_on(tmp_path
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert told(folder)[0][:30] == before[0]
     assert run(plan, folder, work=stand_in, executor=Inline()).done == 300
+
+
+def test_a_folder_that_may_only_be_read_is_read_and_not_run(tmp_path):
+    folder = tmp_path / "c"
+    run(plan_of(tmp_path / "few", cases=3), folder, work=stand_in, executor=Inline())
+    for path in (*folder.iterdir(), folder):
+        path.chmod(path.stat().st_mode & ~0o222)
+    try:
+        if os.access(folder, os.W_OK):
+            pytest.skip("root may write everywhere")
+        assert len(told(folder)[0]) == 3
+        with pytest.raises(OSError, match="c"):
+            run(plan_of(tmp_path, cases=5), folder, work=stand_in, executor=Inline())
+        assert merge([folder], tmp_path / "copy").counts() == (3, 3, 0)
+    finally:
+        folder.chmod(0o755)
 
 
 def test_a_file_that_is_no_campaign_is_refused(tmp_path):

@@ -8,8 +8,8 @@ import pytest
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from viscotack import datasets, solve  # noqa: E402
-from viscotack.campaign.columns import KINDS  # noqa: E402
 from viscotack.datasets.making import Targets, make  # noqa: E402
+from viscotack.model.problem.kinds import KINDS  # noqa: E402
 from viscotack.result.observables import (
     pull_off,
     work_to_pull_off,  # noqa: E402

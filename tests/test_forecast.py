@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.campaign.case import curve
 from viscotack.prediction.surrogate import physics, store
+from viscotack.result.curve import curve
 from viscotack.theory import lennard_jones
 
 CASE = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.campaign.columns import KINDS
+from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import short_range, store
 from viscotack.prediction.surrogate.physics import INPUTS
 from viscotack.prediction.tiers import AT_ONCE

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from viscotack import OutOfRange, predict, predict_table
-from viscotack.campaign.columns import KINDS
+from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import physics, store
 from viscotack.prediction.surrogate.moving import moved
 from viscotack.prediction.surrogate.store import shipped

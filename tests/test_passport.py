@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.campaign import read_plan
 from viscotack.model.materials import (
     Elastic,
     Prony,
@@ -159,14 +158,6 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     assert moved.material.tau0 == pytest.approx(0.1 * 10**1.2, rel=1e-12)
     with pytest.raises(ValueError, match="not extrapolated"):
         read_case(case, temperature=333.15)
-    plan = tmp_path / "plan.toml"
-    grid = "[[grid]]\nprotocol.speed = [1e-6, 1e-4]\n"
-    plan.write_text(f'problem = "lens.toml"\ntemperature = "0 degC"\n{grid}')
-    for found in (read_plan(plan), read_plan(plan, temperature="273.15 K")):
-        assert found.kind.problem(found.cases[0].inputs).material == moved.material
-    plan.write_text(f'temperature = "0 degC"\n{grid}')
-    with pytest.raises(ValueError, match="temperature goes with problem"):
-        read_plan(plan)
     tables = tomllib.loads(case.read_text())
     reading = Reading("the case", beside=case.parent.joinpath)
     passport, deviation = passport_of(tables, reading, 273.15)

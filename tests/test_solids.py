@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.campaign.random_solids import STRETCHED, creep_spectrum, random_solid
 from viscotack.model.materials.conversion import slowed
+from viscotack.model.materials.random_solids import STRETCHED, creep_spectrum, random_solid
 from viscotack.prediction.surrogate import alike, linear_solids, physics, store
 from viscotack.prediction.tiers import AT_ONCE
 from viscotack.theory import lennard_jones

@@ -8,7 +8,7 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from viscotack import solve
-from viscotack.campaign.columns import KINDS
+from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import physics, store
 from viscotack.prediction.surrogate.network import Networks
 from viscotack.prediction.surrogate.physics import INPUTS

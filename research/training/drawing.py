@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
+from viscotack.model.materials.random_solids import creep_spectrum
 from viscotack.prediction.surrogate import physics
 from viscotack.prediction.surrogate.physics import INPUTS, Array
 

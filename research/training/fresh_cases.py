@@ -23,13 +23,13 @@ from typing import Any
 import numpy as np
 
 from viscotack import Groups, InputError, Outcome, Problem, peaks, pull_off, solve, work_to_pull_off
-from viscotack.campaign.case import retraction
-from viscotack.campaign.columns import KINDS
-from viscotack.campaign.random_solids import STRETCHED, creep_spectrum
+from viscotack.model.materials.random_solids import STRETCHED, creep_spectrum
+from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import linear_solids, physics, punch_physics, short_range
 from viscotack.prediction.surrogate.alike import TIMES
 from viscotack.prediction.surrogate.linear_solids import SolidContact
 from viscotack.prediction.surrogate.model import Surrogate
+from viscotack.result.curve import retraction
 
 from .calibration import Apart
 from .contacts import FAMILIES, contact

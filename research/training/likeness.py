@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.model.materials import spectrum
+from viscotack.model.materials.random_solids import creep_spectrum
 from viscotack.prediction.surrogate import physics, store
 from viscotack.prediction.surrogate.alike import (
     DECADES,

@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.stats import qmc
 
-from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
+from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import short_range
 from viscotack.prediction.surrogate.contact import Contact
 from viscotack.prediction.surrogate.model import Surrogate

@@ -17,8 +17,8 @@ import numpy.typing as npt
 
 from viscotack import datasets
 from viscotack.arrays import Array
-from viscotack.campaign.random_solids import STRETCHED
 from viscotack.model.materials import spectrum
+from viscotack.model.materials.random_solids import STRETCHED
 from viscotack.prediction.surrogate import linear_solids, store
 from viscotack.prediction.surrogate.alike import TIMES, Alike
 from viscotack.prediction.surrogate.contact import between

@@ -9,19 +9,28 @@ if TYPE_CHECKING:
     from .case import CaseSettings, measure
     from .cluster import Dask
     from .exporting import export
-    from .plan import Case, Plan, every_combination, read_plan, space_filling
-    from .running import AllCrashed, NoWorker, Progress, run
-    from .sharing import merge, shard_of
-    from .store import FolderInUse, Store
+    from .plan import Case, Plan, every_combination, read_plan, shard_of, space_filling
+    from .running import CannotRun, Progress, run
+    from .store import FolderInUse, Store, merge
 
+# Imported when they are asked for: predictions need the columns of cases only, also where there
+# are no processes and no SQLite.
+_HOMES = {
+    "viscotack.model.problem.inputs": ("Input", "inputs_of"),
+    ".case": ("CaseSettings", "measure"),
+    ".cluster": ("Dask",),
+    ".exporting": ("export",),
+    ".plan": ("Case", "Plan", "every_combination", "read_plan", "shard_of", "space_filling"),
+    ".running": ("CannotRun", "Progress", "run"),
+    ".store": ("FolderInUse", "Store", "merge"),
+}
 __all__ = [
-    "AllCrashed",
+    "CannotRun",
     "Case",
     "CaseSettings",
     "Dask",
     "FolderInUse",
     "Input",
-    "NoWorker",
     "Plan",
     "Progress",
     "Store",
@@ -35,14 +44,10 @@ __all__ = [
     "shard_of",
     "space_filling",
 ]
-# Imported in this order until one has a name: predictions need the columns of cases only, also
-# where there are no processes and no SQLite.
-_HOMES = ("columns", "case", "plan", "exporting", "store", "running", "sharing", "cluster")
 
 
 def __getattr__(name: str) -> Any:
-    for home in _HOMES if name in __all__ else ():
-        module = import_module(f".{home}", __name__)
-        if name in vars(module):
-            return getattr(module, name)
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(home, __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

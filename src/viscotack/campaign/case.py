@@ -6,26 +6,20 @@ trajectory, about a thousandth of the size of a result.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, cast
+from typing import Annotated, Any
 
-import numpy as np
-import scipy
-
-from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.model.problem import RoughCase
 from viscotack.model.problem.nouns import known, own_nouns
-from viscotack.result import Outcome, Result, trajectory
-from viscotack.result.observables import PullOff, pull_off, summary
-from viscotack.result.parts import spans
+from viscotack.result import Outcome
+from viscotack.result.curve import curve
+from viscotack.result.observables import pull_off, summary
 from viscotack.simulate import DEFAULT_ACCURACY, Accuracy, solve
 from viscotack.simulate.rough import problem_of, pull, stickiness
 
-from .identity import identity, words
+from .identity import identity
 
-# Shares of the travel from the start to the pull-off at which the force is a key point.
-KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
 # Entries of the summary for readers or of histories, left out of tables of pull-offs.
 _LEFT_OUT = (
     "problem versions run_id events statistics error_estimate accuracy accuracy_met shallow_start "
@@ -152,83 +146,4 @@ def _of_rough(case: RoughCase, settings: CaseSettings) -> dict[str, Any]:
     row |= {"rms_height_m": spread.rms_height, "rms_slope": spread.rms_slope}
     row |= {"pixels_per_zone": problem.zone.pixels} | stickiness(problem).record
     row |= {name: cost.get(name) for name in _COST if name != "nodes"}
-    return row | {"versions": words(identity())}
-
-
-def curve(result: Result, found: PullOff) -> dict[str, Any]:
-    """Return key points and trajectory of the retraction from its start to the pull-off.
-
-    Returns
-    -------
-    dict
-        ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
-        ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at the places
-        of :func:`viscotack.result.trajectory.shares`. Names, units and signs are those of the
-        columns of the geometry: of a punch ``stress``, tension positive, and ``ligament``. Forces
-        follow a monotone cubic between the steps of the run, radii a straight line; None without an
-        edge. A problem in SI has each in SI as well, ``trajectory_force_N``.
-    """
-    depths, steps, edge = retraction(result)
-    start = float(depths[0])
-    travel = start - found.depth
-    # a retraction that begins at its force minimum has no travel, and its curve is one point
-    x, whole = (start - depths) / (travel or 1.0), float(travel > 0)
-    force = scipy.interpolate.PchipInterpolator(x, steps)
-    outputs, groups = result.problem.outputs, result.groups
-    pull, width = outputs.of("force"), outputs.of("contact_radius")
-    sign, scale = pull.factor(groups), width.factor(groups)
-    load, edge_name = outputs.name_of("force"), outputs.name_of("contact_radius")
-    row: dict[str, Any] = {"travel_to_pull_off": travel}
-    row |= {
-        f"{load}_at_{name}": sign * float(force(whole * share))
-        for name, share in KEY_SHARES.items()
-    }
-    pressing = np.flatnonzero((steps > 0) & (x < 1))
-    zero = _crossing(force, x, pressing[-1]) if pressing.size else 0.0
-    shares = trajectory.shares(zero)
-    forces = force(whole * shares)
-    # The force minimum is located between steps; the last point is that very number.
-    forces[-1] = -found.force
-    row["trajectory_depth"] = (start - shares * travel).tolist()
-    row[f"trajectory_{load}"] = (sign * forces).tolist()
-    radii = np.interp(whole * shares, x, edge)
-    radii[-1] = found.contact_radius
-    radii = scale * radii
-    row[f"trajectory_{edge_name}"] = [a if np.isfinite(a) else None for a in radii.tolist()]
-    return row | _in_si(row, result)
-
-
-def _in_si(row: dict[str, Any], result: Result) -> dict[str, Any]:
-    """Return the columns of a curve in SI, by their names with the unit; none without scales."""
-    outputs, scales = result.problem.outputs, result.scales
-    if scales is None:
-        return {}
-    found: dict[str, Any] = {}
-    for name, value in row.items():
-        word = name.removeprefix("trajectory_").partition("_at_")[0]
-        unit = outputs.series["depth" if word == "travel_to_pull_off" else word].unit
-        factor = getattr(scales, unit.scale)
-        many = isinstance(value, list)
-        scaled = [None if x is None else x * factor for x in (value if many else [value])]
-        found[f"{name}_{unit.tail}"] = scaled if many else scaled[0]
-    return found
-
-
-def retraction(result: Result) -> tuple[Array, Array, Array]:
-    """Return depth [h0], force and contact radius at the steps of the last opening of a run.
-
-    From its deepest step on; the depth falls from step to step. Where the curve jumps it stands
-    still, and the state after the jump is kept. Force and radius are dimensionless as in `Result`.
-    """
-    turn = spans(result)[-1].turn
-    depth = result.depth[turn:]
-    first = int(np.flatnonzero(depth == depth.max())[-1])
-    later = np.maximum.accumulate(depth[::-1])[::-1]
-    falls = np.append(depth[:-1] > later[1:], True)
-    moved = turn + first + np.flatnonzero(falls[first:])
-    return result.depth[moved], result.force[moved], result.contact_radius[moved]
-
-
-def _crossing(force: "scipy.interpolate.PchipInterpolator", x: Array, last: int) -> float:
-    """Return where the force is zero, between its last positive step and the next one."""
-    return cast(float, scipy.optimize.brentq(force, x[last], x[last + 1], xtol=1e-14))
+    return row | {"versions": identity()}

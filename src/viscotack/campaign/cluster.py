@@ -1,14 +1,13 @@
 """Executors on a Dask cluster."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 from time import monotonic
 from typing import Any
 
 from viscotack.errors import NotInstalled, install_command
 
-# Seconds to wait for the scheduler; for the first worker; for another one when all have left.
-_CONNECT, _FIRST, _AGAIN = 30.0, 15.0, 120.0
+# Seconds to wait for the scheduler, and for a worker when there is none.
+_CONNECT, _WORKER = 30.0, 120.0
 # Seconds for which a count of the workers serves: they come and go.
 _LISTED = 1.0
 
@@ -22,19 +21,15 @@ class Dask:
     Attributes
     ----------
     address : str
-        Of the scheduler, ``"tcp://host:8786"``.
-    tls : tuple of path, optional
-        Files in PEM for a scheduler at ``"tls://host:8786"``: certificate of the authority,
-        certificate and key of this end.
+        Of the scheduler, ``"tcp://host:8786"``; ``"tls://host:8786"`` with the certificates that
+        the configuration of Dask names.
     """
 
     address: str
-    tls: tuple[Path, Path, Path] | None = None
     _client: Any = None
     _threads: int = 0
     _counted: float = 0.0
     _seen: float = field(default_factory=monotonic)
-    _patience: float = _FIRST
 
     def __enter__(self) -> "Dask":
         return self
@@ -55,19 +50,13 @@ class Dask:
         """
         try:
             from distributed import Client
-            from distributed.security import Security
         except ImportError:
             raise NotInstalled(
                 f"a cluster needs Dask distributed; install it with: {install_command('cluster')}"
             ) from None
-        secured: dict[str, Any] = {}
-        if self.tls is not None:
-            names = ("tls_ca_file", "tls_client_cert", "tls_client_key")
-            files = dict(zip(names, map(str, self.tls), strict=True))
-            secured["security"] = Security(**files, require_encryption=True)
         self.__exit__()
         try:
-            self._client = Client(self.address, timeout=_CONNECT, set_as_default=False, **secured)
+            self._client = Client(self.address, timeout=_CONNECT, set_as_default=False)
         except (OSError, ValueError, TypeError, RuntimeError) as error:
             raise ConnectionError(
                 f"no scheduler answers at {self.address!r}: {error}; start one with 'dask "
@@ -83,7 +72,7 @@ class Dask:
         Raises
         ------
         ConnectionError
-            If there have been none for 15 s, or for two minutes when there were some.
+            If there have been none for two minutes.
         """
         now = monotonic()
         if now - self._counted > _LISTED:
@@ -93,8 +82,8 @@ class Dask:
             except (OSError, TimeoutError, RuntimeError, ValueError):
                 self._threads = 0  # the scheduler is away, and what it had is cancelled
         if self._threads:
-            self._seen, self._patience = now, _AGAIN
-        elif now - self._seen > self._patience:
+            self._seen = now
+        elif now - self._seen > _WORKER:
             raise ConnectionError(
                 f"the scheduler {self.address} has no workers; start some with "
                 f"'dask worker {self.address} --nthreads 1'. What is stored is safe"

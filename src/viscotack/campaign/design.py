@@ -5,8 +5,7 @@ With more than two values, equal shares of the points lie between neighbours: th
 equally spaced quantiles, and any distribution can be stated.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from math import prod
 from typing import Any
@@ -16,7 +15,6 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 
-METHODS = ("sobol", "latin-hypercube")
 # A Sobol sequence is drawn in blocks of this power of two, its balance asks for one.
 _BLOCK = 10
 # Values of a range are rounded to these digits: cases are named by their numbers, and the last
@@ -24,8 +22,6 @@ _BLOCK = 10
 _DIGITS = 9
 # Cases that a plan may have: they are made before the first is run.
 _MOST = 10_000_000
-# A region in which fewer points than this share are contacts is not worth being searched.
-_LEAST_ACCEPTED = 1e-2
 
 
 def grid(values: Mapping[str, Any]) -> Iterator[dict[str, float]]:
@@ -47,10 +43,10 @@ def grid(values: Mapping[str, Any]) -> Iterator[dict[str, float]]:
         yield dict(zip(values, combination, strict=True))
 
 
-def fill(
-    values: Mapping[str, Any], *, cases: int, method: str = "sobol", seed: int = 0
-) -> Iterator[dict[str, float]]:
-    """Return points that fill the ranges of the inputs evenly.
+def fill(values: Mapping[str, Any], *, cases: Any, seed: Any = 0) -> Iterator[dict[str, float]]:
+    """Return points of a Sobol sequence, without end, that fill the ranges of the inputs evenly.
+
+    The first points do not depend on their number.
 
     Parameters
     ----------
@@ -58,23 +54,28 @@ def fill(
         ``{"log": [0.01, 10]}``, ``{"linear": [...]}``, a fixed number, or
         ``{"choose": [0.1, 0.3], "weights": [5, 1]}``; the weights may be left out.
     cases : int
-        How many points to begin with.
-    method : {"sobol", "latin-hypercube"}
-        A Sobol sequence can be extended beyond `cases`, because its first points do not depend on
-        their number. A Latin hypercube has exactly `cases` points.
+        How many points are wanted.
     seed : int
         Of the scrambling.
     """
+    for name, number, least in (("cases", cases, 1), ("seed", seed, 0)):
+        if not isinstance(number, int) or isinstance(number, bool) or number < least:
+            raise InputError(f"{name} must be a whole number of at least {least}, got {number!r}")
     check_number(cases)
-    if method not in METHODS:
-        raise InputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
     makers = {name: _mapping(name, given) for name, given in values.items()}
-    free = [name for name in makers if not isinstance(values[name], int | float)]
+    free = [name for name in makers if isinstance(values[name], Mapping)]
     if not free:
         raise InputError("a fill needs at least one range; give a grid for a single case")
-    for point in _points(len(free), cases, method, seed):
-        places = dict(zip(free, point, strict=True))
-        yield {name: make(places.get(name, 0.0)) for name, make in makers.items()}
+    # Takes a while to import, and a worker that imports this module never draws a point.
+    from scipy.stats import qmc
+
+    # The name that every supported version of scipy knows; the checker knows the newest only.
+    generator: dict[str, Any] = {"seed": seed}
+    sequence = qmc.Sobol(len(free), **generator)
+    while True:
+        for point in sequence.random(2**_BLOCK).tolist():
+            places = dict(zip(free, point, strict=True))
+            yield {name: make(places.get(name, 0.0)) for name, make in makers.items()}
 
 
 def check_number(cases: int) -> None:
@@ -86,61 +87,10 @@ def check_number(cases: int) -> None:
         )
 
 
-@dataclass
-class Tally:
-    """Counts cases as stated and points that are not run; keeps why the first is not."""
-
-    stated: int = 0
-    rejected: int = 0
-    why: str = ""
-
-    def note(self, why: str) -> None:
-        """Count a point."""
-        self.rejected, self.why = self.rejected + 1, self.why or why
-
-
-def accepted(
-    rows: Iterator[dict[str, float]],
-    refusal: Callable[[dict[str, float]], str],
-    wanted: int | None,
-    tally: Tally,
-) -> Iterator[dict[str, float]]:
-    """Yield the rows that nothing refuses, up to the wanted number, and count the others."""
-    kept = rejected = 0
-    for row in rows:
-        if why := refusal(row):
-            rejected += 1
-            tally.note(why)
-        else:
-            kept += 1
-            yield row
-        if wanted is not None and kept == wanted:
-            break
-        if rejected > 2 / _LEAST_ACCEPTED and kept < _LEAST_ACCEPTED * rejected:
-            raise InputError(
-                f"only {kept} of the first {kept + rejected} points of a fill are contacts; "
-                f"change its ranges. The first that is not: {tally.why}"
-            )
-
-
-def _points(dimensions: int, cases: int, method: str, seed: int) -> Iterator[list[float]]:
-    # Takes a while to import, and a worker that imports this module never draws a point.
-    from scipy.stats import qmc
-
-    # The name that every supported version of scipy knows; the checker knows the newest only.
-    generator: dict[str, Any] = {"seed": seed}
-    if method == "latin-hypercube":
-        yield from map(np.ndarray.tolist, qmc.LatinHypercube(dimensions, **generator).random(cases))
-        return
-    sequence = qmc.Sobol(dimensions, **generator)
-    while True:
-        yield from sequence.random(2**_BLOCK).tolist()
-
-
 def _steps(name: str, given: Any) -> list[float]:
     if isinstance(given, Mapping):
         count = given.get("count")
-        if not isinstance(count, int) or count < 1:
+        if not isinstance(count, int) or count < 1 or "choose" in given:
             raise InputError(f"{name}: a range of a grid needs its count, got {dict(given)}")
         check_number(count)
         make = _mapping(name, {k: v for k, v in given.items() if k != "count"})
@@ -151,7 +101,7 @@ def _steps(name: str, given: Any) -> list[float]:
 
 def _mapping(name: str, given: Any) -> Any:
     """Return the function that maps [0, 1) to values of the input."""
-    if not isinstance(given, Mapping):
+    if isinstance(given, int | float):
         (fixed,) = _numbers(name, [given])
         return lambda _: fixed
     scales = [key for key in ("log", "linear", "choose") if key in given]
@@ -159,7 +109,7 @@ def _mapping(name: str, given: Any) -> Any:
     if len(scales) != 1 or given.keys() - allowed:
         raise InputError(
             f"{name} must be a number, {{ log = [low, high] }}, {{ linear = [low, high] }} or "
-            f"{{ choose = [...], weights = [...] }}, got {dict(given)}"
+            f"{{ choose = [...], weights = [...] }}, got {given}"
         )
     values = np.array(_numbers(name, given[scales[0]]))
     if scales == ["choose"]:
@@ -185,11 +135,7 @@ def _choice(name: str, values: npt.NDArray, weights: Sequence[float]) -> Any:
             f"{name}: needs a weight, not negative, for each of its {len(values)} choices, "
             f"got {list(weights)}"
         )
-    # at the end of a grid, 1, the last one that has a weight
-    last = np.searchsorted(shares, shares[-1])
-    return lambda place: float(
-        values[min(last, np.searchsorted(shares, place * shares[-1], side="right"))]
-    )
+    return lambda place: float(values[np.searchsorted(shares, place * shares[-1], side="right")])
 
 
 def _numbers(name: str, given: Any) -> list[float]:

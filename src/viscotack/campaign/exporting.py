@@ -3,7 +3,7 @@
 import csv
 import io
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -46,90 +46,79 @@ def export(rows: Iterable[Row], path: Target, *, trajectories: bool = True) -> N
     >>> file.getvalue().decode().split()
     ['name,pull_off_force', 'a,0.5']
     """
-    suffix = Path(path).suffix if isinstance(path, str | os.PathLike) else ".csv"
+    suffix = Path(path).suffix.lower() if isinstance(path, str | os.PathLike) else ".csv"
     if suffix not in _WRITERS:
         raise InputError(f"{path}: the ending must be one of {', '.join(_WRITERS)}")
-    # length of the longest list of each column; 0 for columns of single values
-    widths: dict[str, int] = {}
+    # kinds of values of each column, and the length of its longest list
+    columns: dict[str, tuple[set[type], int]] = {}
     for row in rows:
         for name, value in row.items():
-            width = len(value) if isinstance(value, list) else 0
-            widths[name] = max(width, widths.get(name, 0))
-    if not widths:
+            kinds, width = columns.get(name, (set(), 0))
+            if isinstance(value, list):
+                width = max(width, len(value))
+            columns[name] = kinds | {type(value)} - {type(None)}, width
+    if not columns:
         raise InputError(f"there is nothing to write to {path}: the table has no rows")
     if not trajectories:
-        widths = {name: width for name, width in widths.items() if not width}
-    _WRITERS[suffix](rows, widths, path)
+        columns = {name: kept for name, kept in columns.items() if list not in kept[0]}
+    _WRITERS[suffix](rows, columns, path)
 
 
-def _write_csv(rows: Iterable[Row], widths: Mapping[str, int], path: Target) -> None:
-    header = [
-        name if place is None else f"{name}_{place + 1:02d}"
-        for name, width in widths.items()
-        for place in (range(width) if width else [None])
-    ]
+_Columns = Mapping[str, tuple[set[type], int]]
+
+
+def _write_csv(rows: Iterable[Row], columns: _Columns, path: Target) -> None:
+    header: list[str] = []
+    for name, (_, width) in columns.items():
+        header += [f"{name}_{place + 1:02d}" for place in range(width)] or [name]
+
+    def cells(row: Row) -> list[Any]:
+        found: list[Any] = []
+        for name, (_, width) in columns.items():
+            value = row.get(name)
+            found += (list(value or ()) + [None] * width)[:width] if width else [value]
+        return [cell(value) if isinstance(value, str) else value for value in found]
+
     with writing_whole(path) as file:
         text = io.TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(map(cell, header))
-        writer.writerows(list(_cells(row, widths)) for row in rows)
+        writer.writerows(map(cells, rows))
         text.detach()
 
 
-def _cells(row: Row, widths: Mapping[str, int]) -> Iterator[Any]:
-    for name, width in widths.items():
-        value = row.get(name)
-        if width:
-            yield from (list(value or ()) + [None] * width)[:width]
-        else:
-            yield cell(value) if isinstance(value, str) else value
-
-
-def _write_parquet(rows: Iterable[Row], widths: Mapping[str, int], path: Target) -> None:
+def _write_parquet(rows: Iterable[Row], columns: _Columns, path: Target) -> None:
     pa = arrow()
-    schema = pa.unify_schemas(
-        [table.schema for table in _tables(rows, widths)], promote_options="permissive"
-    )
+    of = {list: pa.list_(pa.float64()), str: pa.string(), float: pa.float64(), int: pa.int64()}
+    of[bool] = pa.bool_()
+    # a column of whole and other numbers has the others; one without a value has no type
+    types = {
+        name: next((made for kind, made in of.items() if kind in kinds), pa.null())
+        for name, (kinds, _) in columns.items()
+    }
+    schema, left = pa.schema(types.items()), iter(rows)
     with writing_whole(path) as file, pa.parquet.ParquetWriter(file, schema) as writer:
-        for table in _tables(rows, widths):
-            both = [schema.empty_table(), table]
-            writer.write_table(pa.concat_tables(both, promote_options="permissive"))
+        while some := list(islice(left, _ROWS)):
+            writer.write_table(pa.Table.from_pylist(some, schema=schema))
 
 
-def _tables(rows: Iterable[Row], widths: Mapping[str, int]) -> Iterator[Any]:
-    """Yield rows as tables of some of them; a column without a value has no type yet."""
-    pa, left = arrow(), iter(rows)
-    lists = pa.list_(pa.float64())
-    while some := list(islice(left, _ROWS)):
-        yield pa.table(
-            {
-                name: pa.array([row.get(name) for row in some], lists if width else None)
-                for name, width in widths.items()
-            }
-        )
-
-
-def _write_mat(rows: Iterable[Row], widths: Mapping[str, int], path: Target) -> None:
+def _write_mat(rows: Iterable[Row], columns: _Columns, path: Target) -> None:
     from scipy.io import savemat
 
-    held = list(rows)
-    columns = {
-        name.replace(".", "_"): _array([row.get(name) for row in held], width)
-        for name, width in widths.items()
-    }
+    held, arrays = list(rows), {}
+    for name, (kinds, width) in columns.items():
+        values = [row.get(name) for row in held]
+        if width:  # a matrix with a row per list
+            empty = [np.nan] * width
+            array = np.array([(list(v or ()) + empty)[:width] for v in values], dtype=float)
+        elif str in kinds:
+            array = np.array([v or "" for v in values], dtype=object)
+        else:
+            array = np.array(values, dtype=float)
+        arrays[name.replace(".", "_")] = array
     content = io.BytesIO()
-    savemat(content, columns, do_compression=True, oned_as="column")
+    savemat(content, arrays, do_compression=True, oned_as="column")
     write_whole(path, content.getvalue())
-
-
-def _array(values: list[Any], width: int) -> Any:
-    """Return a column as numbers, a matrix with a row per list, or cells of words."""
-    if width:
-        empty = [np.nan] * width
-        return np.array([(list(v or ()) + empty)[:width] for v in values], dtype=float)
-    if any(isinstance(v, str) for v in values):
-        return np.array([v or "" for v in values], dtype=object)
-    return np.array([np.nan if v is None else v for v in values], dtype=float)
 
 
 _WRITERS = {".csv": _write_csv, ".parquet": _write_parquet, ".mat": _write_mat}

@@ -1,9 +1,9 @@
-"""Cases that are listed one by one: the rows of a table, read when they are needed."""
+"""Tables of cases, CSV or workbooks: their headings, and their rows as words."""
 
 import csv
 import re
-from collections.abc import Iterable, Iterator
-from itertools import chain, repeat
+from collections.abc import Iterator
+from itertools import repeat
 from pathlib import Path
 
 from viscotack.errors import InputError
@@ -19,9 +19,7 @@ Line = tuple[int, list[str]]
 EMPTY = "empty row"
 
 
-def read_words(
-    path: Path, text: str | None = None, *, empty: bool = False
-) -> tuple[list[str], Iterator[Line]]:
+def read_words(path: Path, *, empty: bool = False) -> tuple[list[str], Iterator[Line]]:
     """Return the names in the first row of a table, and the other rows with their lines.
 
     Parameters
@@ -29,8 +27,6 @@ def read_words(
     path : Path
         A CSV file, or a workbook .xlsx, whose first sheet is read. Columns are separated by commas;
         by semicolons or tabs where the first row has these and no comma, with decimal commas.
-    text : str, optional
-        The text of a CSV file that was read before.
     empty : bool
         Whether empty rows between others are kept; those at the end never are.
 
@@ -38,45 +34,20 @@ def read_words(
     -----
     Rows are read when they are needed; one that is wrong is refused then.
     """
-    if text is None and is_workbook(path):
-        rows = _of_sheet(path)
-    else:
-        rows = _of_text(path, read_text(path) if text is None else text)
+    rows = _of_sheet(path) if path.suffix.lower() == ".xlsx" else _of_text(path)
     names = [name.strip() for name in next(rows, (0, []))[1]]
-    rows = _filled(rows, empty=empty)
-    first = next(rows, None)
-    if first is None or len(set(names)) != len(names):
-        raise InputError(
-            f"{path}: needs a first row of different column names and a case a row below it"
-        )
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise InputError(f"{path}: the first row has {', '.join(map(repr, twice))} more than once")
+    lines = _filled(path, names, rows, empty)
+    first = next(lines, None)
+    if first is None:
+        raise InputError(f"{path}: needs a first row of column names and a case a row below it")
 
-    def checked() -> Iterator[Line]:
-        for line, row in chain([first], rows):
-            if not any(row):
-                yield line, [""] * len(names)
-                continue
-            if len(row) != len(names):
-                cure = "; numbers need decimal points, not commas" if len(row) > len(names) else ""
-                raise InputError(
-                    f"{path}, line {line}: {len(row)} values for {len(names)} columns{cure}"
-                )
-            yield line, row
+    def all_lines() -> Iterator[Line]:
+        yield first
+        yield from lines
 
-    return names, checked()
-
-
-def plain_heading(name: str) -> str:
-    """Return a heading in lower case, with underscores, as columns of cases are named.
-
-    >>> plain_heading(" Pull-off Force")
-    'pull_off_force'
-    """
-    return re.sub(r"[\s-]", "_", name.strip()).lower()
-
-
-def is_workbook(path: Path) -> bool:
-    """Return whether a table of cases is a workbook, by its ending."""
-    return path.suffix.lower() == ".xlsx"
+    return names, all_lines()
 
 
 def _of_sheet(path: Path) -> Iterator[Line]:
@@ -93,8 +64,9 @@ def _of_sheet(path: Path) -> Iterator[Line]:
     return enumerate((row[:width] for row in first), 1)
 
 
-def _of_text(path: Path, text: str) -> Iterator[Line]:
+def _of_text(path: Path) -> Iterator[Line]:
     """Yield the rows of a text in CSV, with their lines."""
+    text = read_text(path)
     head = text.partition("\n")[0]
     mark = next((mark for mark in ";\t" if mark in head and "," not in head), ",")
     reader = csv.reader((found[0] for found in _LINE.finditer(text)), delimiter=mark)
@@ -116,28 +88,18 @@ def _with_points(path: Path, line: int, row: list[str]) -> list[str]:
     return [w.replace(",", ".") if comma else w for w, comma in zip(row, commas, strict=True)]
 
 
-def _filled(rows: Iterable[Line], *, empty: bool) -> Iterator[Line]:
-    """Yield the rows that are not empty and, if wanted, the empty ones between them as []."""
+def _filled(path: Path, names: list[str], rows: Iterator[Line], empty: bool) -> Iterator[Line]:
+    """Yield the rows that are not empty and, if wanted, the empty ones between them."""
     before = 0
     for line, row in rows:
-        if any(word.strip() for word in row):
-            yield from repeat((line, []), before if empty else 0)
-            before = 0
-            yield line, row
-        else:
+        if not any(word.strip() for word in row):
             before += 1
-
-
-class Listed:
-    """The rows of a CSV file of numbers with line numbers; read again at each iteration."""
-
-    def __init__(self, path: Path, text: str) -> None:
-        self.path, self._text = path, text
-        self.names = read_words(path, text)[0]
-
-    def __iter__(self) -> Iterator[tuple[int, dict[str, float]]]:
-        for line, row in read_words(self.path, self._text)[1]:
-            try:
-                yield line, {n: float(v) for n, v in zip(self.names, row, strict=True)}
-            except ValueError as error:
-                raise InputError(f"{self.path}, line {line}: {error}; inputs are numbers") from None
+            continue
+        if len(row) != len(names):
+            cure = "; numbers need decimal points, not commas" if len(row) > len(names) else ""
+            raise InputError(
+                f"{path}, line {line}: {len(row)} values for {len(names)} columns{cure}"
+            )
+        yield from repeat((line, [""] * len(names)), before if empty else 0)
+        before = 0
+        yield line, row

@@ -1,29 +1,32 @@
-"""Plans of campaigns: cases and settings, from a TOML file or a CSV file."""
+"""Plans of campaigns: cases and settings, from a TOML file, a table, or Python."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 from viscotack.cards import cards
 from viscotack.errors import InputError
-from viscotack.files.text import read_text
-from viscotack.files.toml import parse_toml, read_toml
+from viscotack.files.toml import read_toml
+from viscotack.model.problem import RoughCase
 from viscotack.model.problem.case_file import read_case
-from viscotack.model.problem.inputs import check_exponent
+from viscotack.model.problem.changes import Column, columns_of
+from viscotack.model.problem.kinds import KINDS, Kind, kind_of_columns, kind_of_problem
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.model.problem.record import from_dict, run_id, to_dict
+from viscotack.simulate import has_start
 from viscotack.simulate.rough import read_rough_case
 from viscotack.units import parse
 
 from .case import CaseSettings
-from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
-from .design import Tally, accepted, fill, grid
-from .listed import Listed
+from .design import fill, grid
+from .listed import read_words
 
-_KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
+_KEYS = ("kind", "problem", "with", "settings", "grid", "fill", "list")
+# A region in which fewer points than this share are contacts is not worth being searched.
+_LEAST_ACCEPTED = 1e-2
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +63,6 @@ class Plan:
         Points of grids and fills that are not contacts, and cases stated more than once.
     refusal : str
         Why the first of the points that were rejected was.
-    source : str
-        Text of the file; "" for a plan made otherwise.
     shard : str or None
         Which part of the whole plan this is, "3/20".
     """
@@ -73,8 +74,40 @@ class Plan:
     rejected: int = 0
     repeated: int = 0
     refusal: str = ""
-    source: str = ""
     shard: str | None = None
+
+
+# A block that states cases, and its key in a file.
+_Blocks = list[tuple[str, Any]]
+# Inputs of a case, its problem, and why it is not run.
+_Row = tuple[dict[str, float], Any, str]
+
+
+class _Listed:
+    """The rows of a table, read again at each iteration.
+
+    A column is an input, with its unit in the heading or in the cells where cases are in SI.
+    """
+
+    def __init__(self, path: Path, kind: Kind | None) -> None:
+        self.path = path
+        headings = read_words(path)[0]
+        self.kind = kind or kind_of_columns(headings)
+        self.columns, unknown = columns_of(headings, self.kind.inputs, in_si=self.kind.in_si)
+        if unknown:
+            raise InputError(
+                f"{path}: the columns {', '.join(unknown)} are no inputs; they are "
+                f"{', '.join(self.kind.inputs)}"
+            )
+
+    def __iter__(self) -> Iterator[_Row]:
+        headings, lines = read_words(self.path)
+        for line, words in lines:
+            cells = dict(zip(headings, words, strict=True))
+            with _placed(f"{self.path}, line {line}"):
+                row = {c.number.path: c.read(cells[c.heading]) for c in self.columns}
+                problem = self.kind.problem(row)
+            yield row, problem, ""
 
 
 def read_plan(
@@ -85,13 +118,13 @@ def read_plan(
     Parameters
     ----------
     path : path
-        A TOML file as docs/campaigns.md describes it, or a CSV file with a column per input.
+        A TOML file as docs/campaigns.md describes it, or a table, CSV or .xlsx, with a column per
+        input.
     own : iterable of path
         Python files that may be executed, with observables, laws, materials, shapes and bodies:
         those that the file names in ``with``, and further ones.
     **changed
-        Settings (fields of `CaseSettings`) that replace those of the file; None leaves one. And
-        `temperature`, in words, which replaces that of the base problem's material.
+        Settings (fields of `CaseSettings`) that replace those of the file; None leaves one.
 
     Raises
     ------
@@ -117,41 +150,45 @@ def read_plan(
     (1, 0.02)
     """
     path, settings = Path(path), {name: v for name, v in changed.items() if v is not None}
-    source = read_text(path)
     with _placed(str(path)):
-        if path.suffix == ".csv":
-            rows = Listed(path, source)
-            tables: dict[str, Any] = {"kind": kind_of_columns(set(rows.names))}
-            blocks: list[tuple[str, Any]] = [("list", rows)]
-        else:
-            tables = parse_toml(source, path)
-            if unknown := tables.keys() - set(_KEYS):
-                raise InputError(
-                    f"unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
-                )
-            blocks = _blocks(path, tables)
-        if "temperature" in settings:
-            tables["temperature"] = settings.pop("temperature")
+        is_table = path.suffix.lower() in (".csv", ".xlsx")
+        tables: dict[str, Any] = {"list": [{"file": path.name}]} if is_table else read_toml(path)
+        if unknown := tables.keys() - set(_KEYS):
+            raise InputError(f"unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}")
         if files := _permitted(path, tables, own):
             settings["own"] = files
-        kind, base = _kind(path, tables, blocks, own_nouns(files))
         settings = _settings(tables.get("settings", {}), settings)
-    return _planned(str(path), kind, blocks, settings, base, source)
+        problem = None
+        if "problem" in tables:
+            if "kind" in tables:
+                raise InputError("kind and problem exclude each other; leave one out")
+            file = path.parent / str(tables["problem"])
+            read = read_rough_case if "surface" in read_toml(file) else read_case
+            problem = read(file, also=own_nouns(files))
+            kind = kind_of_problem(problem, set())
+        elif (name := tables.get("kind", "sphere")) in KINDS:
+            kind = None if is_table else KINDS[name]
+        else:
+            raise InputError(f"kind must be one of {', '.join(KINDS)}, got {name!r}")
+        blocks = _blocks(path, tables, kind)
+        if kind is None:
+            kind = blocks[0][1].kind
+    return _planned(str(path), kind, blocks, settings, problem)
 
 
 @contextmanager
-def _placed(where: str, file: str = "") -> Iterator[None]:
+def _placed(where: str) -> Iterator[None]:
     """Put a place before what is wrong, unless a place in this file or in another one is there."""
     try:
         yield
     except (ValueError, TypeError) as error:
-        is_placed = str(error).startswith((where, file or where))
-        raise InputError(str(error) if is_placed else f"{where}: {error}") from None
+        told, file = str(error), where.partition(", ")[0]
+        raise InputError(told if told.startswith(file) else f"{where}: {error}") from None
 
 
-def _blocks(path: Path, tables: Mapping[str, Any]) -> list[tuple[str, Any]]:
+def _blocks(path: Path, tables: Mapping[str, Any], kind: Kind | None) -> _Blocks:
     """Return the blocks that state cases, those of lists as the rows of their files."""
-    found: list[tuple[str, Any]] = []
+    found: _Blocks = []
     for key in ("grid", "list", "fill"):
         blocks = tables.get(key, [])
         if not isinstance(blocks, list) or not all(isinstance(b, dict) for b in blocks):
@@ -160,8 +197,7 @@ def _blocks(path: Path, tables: Mapping[str, Any]) -> list[tuple[str, Any]]:
             if key == "list":
                 if block.keys() != {"file"}:
                     raise InputError('[[list]]: needs file = "cases.csv" and nothing else')
-                file = path.parent / str(block["file"])
-                found.append((key, Listed(file, read_text(file))))
+                found.append((key, _Listed(path.parent / str(block["file"]), kind)))
             else:
                 found.append((key, _flat(block)))
     if not found:
@@ -174,7 +210,6 @@ def space_filling(
     over: Mapping[str, Any],
     *,
     cases: int,
-    method: str = "sobol",
     seed: int = 0,
     settings: CaseSettings | None = None,
 ) -> Plan:
@@ -187,7 +222,7 @@ def space_filling(
     over : mapping
         Ranges by the paths of numbers, as in a file: ``{"sphere.radius": {"log": ["1 mm", "1
         cm"]}}``; `inputs_of` returns the paths. Text with units where the problem is in SI.
-    cases, method, seed
+    cases, seed
         As in a ``[[fill]]`` of a file.
     settings : CaseSettings, optional
         Accuracy, end and limits of the cases, and files with user-defined classes.
@@ -223,8 +258,7 @@ def space_filling(
     >>> len(plan.cases), plan.rejected
     (8, 0)
     """
-    block = {**over, "cases": cases, "method": method, "seed": seed}
-    return _of_problem(problem, "fill", block, settings)
+    return _of_problem(problem, "fill", {**over, "cases": cases, "seed": seed}, settings)
 
 
 def every_combination(
@@ -267,98 +301,93 @@ def _of_problem(
     problem: Any, key: str, block: dict[str, Any], settings: CaseSettings | None
 ) -> Plan:
     settings = settings or CaseSettings()
-    _check_own(problem, settings)
-    kind = _kind_over(problem, [(key, block)], settings.nouns)
-    return _planned("the plan", kind, [(key, block)], settings, to_dict(problem))
+    # as the workers will read it: refused without the files of its user-defined classes
+    problem = from_dict(to_dict(problem), settings.nouns, beside=Path)
+    return _planned("the plan", kind_of_problem(problem, set()), [(key, block)], settings, problem)
 
 
-def _kind_over(problem: Any, blocks: list[tuple[str, Any]], also: tuple[Any, ...]) -> Kind:
-    names = {name for key, block in blocks for name in _inputs(key, block)}
-    check_exponent(problem, names)
-    return kind_of_problem(problem, names, also)
-
-
-def _check_own(problem: Any, settings: CaseSettings) -> None:
-    """Refuse a problem of user-defined classes without the files that define them."""
-    try:
-        from_dict(to_dict(problem), settings.nouns, beside=Path)
-    except InputError as error:
-        parts = (type(part) for part in vars(problem).values())
-        own = [
-            t.__name__ for t in parts if t.__module__.split(".")[0] not in ("builtins", "viscotack")
-        ]
-        if not own:
-            raise
-        raise InputError(
-            f"{', '.join(own)} is a user-defined class, which the workers read from its file: give "
-            'settings=CaseSettings(own=["FILE.py"]) here and own=["FILE.py"] to run'
-        ) from error
-
-
-def _planned(
-    where: str,
-    kind: Kind,
-    blocks: list[tuple[str, Any]],
-    settings: CaseSettings,
-    base: dict[str, Any] | None,
-    source: str = "",
-) -> Plan:
-    tally = Tally()
+def _planned(where: str, kind: Kind, blocks: _Blocks, settings: CaseSettings, problem: Any) -> Plan:
+    """Return the plan of blocks that state cases of a kind, or change this problem."""
+    if problem is not None:
+        with _placed(where):
+            names = {name for key, block in blocks for name in _inputs(key, block)}
+            kind = kind_of_problem(problem, names)
     cases: dict[str, Case] = {}
-    for case in _stated(where, kind, blocks, tally):
-        tally.stated += 1
-        cases.setdefault(case.name, case)
+    stated, rejected, refusal = 0, 0, ""
+    for number, (key, block) in enumerate(blocks, 1):
+        with _placed(f"{where}, block {number} ([[{key}]])"):
+            kind.check(_inputs(key, block))
+            rows = iter(block) if key == "list" else _of_ranges(kind, key, block)
+            for inputs, stated_problem, why in rows:
+                if why:
+                    rejected, refusal = rejected + 1, refusal or why
+                    continue
+                stated += 1
+                case = Case(run_id(stated_problem), inputs)
+                cases.setdefault(case.name, case)
     if not cases:
         raise InputError(
-            f"{where}: none of its {tally.rejected} points is a contact, so there is nothing to "
-            f"run. The first: {tally.why}"
+            f"{where}: none of its {rejected} points is a contact, so there is nothing to run. The "
+            f"first: {refusal}"
         )
     return Plan(
         kind=kind,
         cases=tuple(cases.values()),
         settings=settings,
-        base=base,
-        rejected=tally.rejected,
-        repeated=tally.stated - len(cases),
-        refusal=tally.why,
-        source=source,
+        base=None if problem is None else to_dict(problem),
+        rejected=rejected,
+        repeated=stated - len(cases),
+        refusal=refusal,
     )
 
 
-def restored_kind(
-    name: str, base: dict[str, Any] | None, columns: Iterable[str], also: tuple[Any, ...] = ()
-) -> Kind:
+def shard_of(plan: Plan, shard: str) -> Plan:
+    """Select a shard of a plan.
+
+    Parameters
+    ----------
+    plan : Plan
+        The whole plan.
+    shard : str
+        Number of the shard and of shards, "3/20".
+
+    Returns
+    -------
+    Plan
+        Every n-th case of the plan.
+
+    Raises
+    ------
+    ValueError
+        If there is no such shard, or it has no cases.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> from viscotack.campaign import every_combination
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> plan = every_combination(base, {"tabor": [1, 2, 3, 4]})
+    >>> len(shard_of(plan, "1/2").cases)
+    2
+    """
+    number, count = numbers_of(shard)
+    if count > len(plan.cases):
+        raise InputError(f"a plan of {len(plan.cases)} cases has no {count} shards")
+    return replace(plan, cases=plan.cases[number - 1 :: count], shard=shard)
+
+
+def numbers_of(shard: str) -> tuple[int, int]:
+    """Return the number of a shard and of shards: 3 and 20 of "3/20"."""
+    number, _, count = shard.partition("/")
+    if not (number.isdecimal() and count.isdecimal() and 1 <= int(number) <= int(count)):
+        raise InputError(f"a shard is written '3/20', the third of twenty; got {shard!r}")
+    return int(number), int(count)
+
+
+def restored_kind(name: str, base: dict[str, Any] | None, also: tuple[Any, ...]) -> Kind:
     """Return the kind of a stored plan, whose problem uses these user-defined classes."""
-    if base is not None:
-        return kind_of_problem(from_dict(base, also, beside=Path), set(columns), also)
-    if name not in KINDS:
-        raise InputError(f"unknown kind of case {name!r}; a newer version may know it")
-    return KINDS[name]
-
-
-def _kind(
-    path: Path, tables: Mapping[str, Any], blocks: list[tuple[str, Any]], also: tuple[Any, ...]
-) -> tuple[Kind, dict[str, Any] | None]:
-    """Return the kind of the cases, and the record of their base problem."""
-    if "problem" not in tables:
-        if "temperature" in tables:
-            raise InputError("temperature goes with problem, whose material it shifts")
-        if (name := tables.get("kind", "sphere")) not in KINDS:
-            raise InputError(f"kind must be one of {', '.join(KINDS)}, got {name!r}")
-        return KINDS[name], None
-    if "kind" in tables:
-        raise InputError("kind and problem exclude each other; leave one out")
-    file, kelvin = path.parent / str(tables["problem"]), None
-    if "temperature" in tables:
-        with _placed('temperature, such as "20 degC"'):
-            kelvin = parse(tables["temperature"], "K")
-    if "surface" not in read_toml(file):
-        problem = read_case(file, also=also, temperature=kelvin)
-    elif kelvin is None:
-        problem = read_rough_case(file, also=also)
-    else:
-        raise InputError("a rough surface states the temperature of its material in its own file")
-    return _kind_over(problem, blocks, also), to_dict(problem)
+    return kind_of_problem(from_dict(base, also, beside=Path), set()) if base else KINDS[name]
 
 
 def _permitted(
@@ -382,8 +411,8 @@ def _permitted(
 def _inputs(key: str, block: Any) -> set[str]:
     """Return the names of the inputs of a block."""
     if key == "list":
-        return set(block.names)
-    return set(block) - ({"cases", "method", "seed"} if key == "fill" else set())
+        return {column.number.path for column in block.columns}
+    return set(block) - ({"cases", "seed"} if key == "fill" else set())
 
 
 def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -398,74 +427,50 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return found
 
 
-def _stated(where: str, kind: Kind, blocks: list[tuple[str, Any]], tally: Tally) -> Iterator[Case]:
-    """Yield the cases of all blocks, in their order."""
-    for number, (key, block) in enumerate(blocks, 1):
-        place = f"{where}, block {number} ([[{key}]])"
-        with _placed(place, str(getattr(block, "path", ""))):
-            kind.check(_inputs(key, block))
-            for row in _rows(kind, key, block, tally):
-                yield Case(run_id(kind.problem(row)), row)
-
-
-def _rows(kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
-    if key == "list":
-        for line, row in block:
-            with _placed(f"{block.path}, line {line}"):
-                kind.problem(row)
-            yield row
-        return
-
-    def refusal(row: dict[str, float]) -> str:
-        try:
-            is_contact = has_relaxed_contact(kind.problem(row))
-        except InputError as error:
-            if key == "grid":  # its values were chosen, each with all the others
-                raise
-            return str(error)
-        return "" if is_contact else "there is no relaxed contact to begin with"
-
-    values = dict(block)
-    if key == "grid":
-        yield from accepted(grid(_read(kind, values)), refusal, None, tally)
-        return
-    cases, method = values.pop("cases", None), values.pop("method", "sobol")
-    seed = values.pop("seed", 0)
-    if not _is_whole(cases) or cases < 1 or not _is_whole(seed) or seed < 0:
-        raise InputError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
+def _of_ranges(kind: Kind, key: str, block: dict[str, Any]) -> Iterator[_Row]:
+    """Yield the points of a grid or a fill, or why one is not run; a fill draws another one."""
     # The dimensions of the sequence follow the kind, not the order in which a file was written.
-    ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
-    points = fill(_read(kind, ordered), cases=cases, method=method, seed=seed)
-    yield from accepted(points, refusal, cases, tally)
+    names = [name for name in (*kind.columns, *kind.choices) if name in block]
+    values = {name: _read(kind, name, block[name]) for name in names}
+    if key == "grid":
+        yield from (_contact(kind, row) for row in grid(values))
+        return
+    wanted, kept, rejected = block.get("cases"), 0, 0
+    for row in fill(values, cases=wanted, seed=block.get("seed", 0)):
+        try:
+            _, problem, why = _contact(kind, row)
+        except InputError as error:  # in a grid its values were chosen, each with all the others
+            problem, why = None, str(error)
+        kept, rejected = kept + (not why), rejected + bool(why)
+        yield row, problem, why
+        if kept == wanted:
+            return
+        if rejected > 2 / _LEAST_ACCEPTED and kept < _LEAST_ACCEPTED * rejected:
+            raise InputError(
+                f"only {kept} of the first {kept + rejected} points of a fill are contacts; "
+                f"change its ranges. The last that is not: {why}"
+            )
 
 
-def _is_whole(number: Any) -> bool:
-    return isinstance(number, int) and not isinstance(number, bool)
+def _contact(kind: Kind, row: dict[str, float]) -> _Row:
+    """Return a point with its problem, and why it is not run."""
+    problem = kind.problem(row)
+    is_contact = isinstance(problem, RoughCase) or has_start(problem)
+    return row, problem, "" if is_contact else "there is no relaxed contact to begin with"
 
 
-def _read(kind: Kind, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values, lists and ranges with their text as numbers, each within its card's range."""
-
-    def read(name: str, given: Any) -> Any:
-        if isinstance(given, Mapping):
-            kept = ("count", "weights")
-            return {key: v if key in kept else read(name, v) for key, v in given.items()}
-        if isinstance(given, list):
-            return [read(name, v) for v in given]
-        entry = kind.inputs.get(name)
-        if isinstance(given, str):
-            if not kind.in_si:
-                raise InputError(
-                    f"{name} must be a number, and without a unit, for cases of kind {kind.name!r} "
-                    f"are dimensionless; got {given!r}"
-                )
-            if entry is not None:
-                with _placed(name):
-                    given = parse(given, entry.unit)
-        is_number = isinstance(given, int | float) and not isinstance(given, bool)
-        return entry.card.checked(name, given, entry.unit) if entry and is_number else given
-
-    return {name: read(name, given) for name, given in values.items()}
+def _read(kind: Kind, name: str, given: Any) -> Any:
+    """Return a value, a list or a range with its text as numbers, each within its card's range."""
+    if isinstance(given, Mapping):
+        kept = ("count", "weights")
+        return {key: v if key in kept else _read(kind, name, v) for key, v in given.items()}
+    if isinstance(given, list):
+        return [_read(kind, name, v) for v in given]
+    if isinstance(given, bool):
+        raise InputError(f"{name} must be a number, got {given}")
+    entry = kind.inputs[name]
+    number = Column(name, entry, "", kind.in_si).read(given)
+    return entry.card.checked(name, number, entry.unit)
 
 
 def _settings(given: Any, changed: Mapping[str, Any]) -> CaseSettings:

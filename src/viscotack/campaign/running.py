@@ -1,4 +1,4 @@
-"""Run the missing cases of a plan, longest first, on an executor, and store rows as they come.
+"""Run the missing cases of a plan on an executor, and store rows as they come.
 
 Cases go to the workers in batches that take a quarter of a second, so that many small ones cost
 little. Where a worker dies, its executor is replaced, and the cases that were under way are done
@@ -22,20 +22,19 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache, partial
-from math import prod
 from operator import methodcaller
 from pathlib import Path
 from time import monotonic, perf_counter, sleep
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.model.problem.kinds import Kind
 from viscotack.system import Processes, begin_worker
 
 from .case import CaseSettings, Unsolved, measure
-from .columns import Kind
-from .identity import difference, identity, words
+from .identity import identity
 from .plan import Case, Plan, restored_kind
 from .store import PASSING, Store, locked
 
@@ -49,16 +48,14 @@ _CRASHES = 20
 _LOOK, _REPORT = 0.25, 0.5
 # Seconds beyond twice the time limit after which a worker ends itself with a case that hangs.
 _GRACE = 5.0
+# What futures say of an executor that has broken.
+_BROKEN = (BrokenExecutor, CancelledError)
 # Time in which the futures of a broken executor end [s].
 _BREAKS = 30.0
 
 
-class NoWorker(RuntimeError):
-    """No worker can run the cases."""
-
-
-class AllCrashed(RuntimeError):
-    """All of the first cases crashed, so the run was stopped."""
+class CannotRun(RuntimeError):
+    """The cases cannot be run, for a reason that is not theirs; what is stored is safe."""
 
 
 @dataclass(frozen=True)
@@ -73,12 +70,8 @@ class Progress:
         With a result, and with a failure only, in this and in earlier runs.
     rate : float
         Cases stored a second in this run; 0 while there are none.
-    remaining_s : float or None
-        Expected time to the end [s], from the expected cost of the cases; None while unknown.
     elapsed_s : float
         Time of this run [s].
-    worker_use : float
-        Share of that time in which the workers were at a case; it counts their start.
     stopped : bool
         The run was asked to stop, and ends when the cases in flight are done.
     """
@@ -87,9 +80,7 @@ class Progress:
     done: int
     failed: int
     rate: float = 0.0
-    remaining_s: float | None = None
     elapsed_s: float = 0.0
-    worker_use: float = 0.0
     stopped: bool = False
 
 
@@ -139,8 +130,8 @@ def run(
         If another run writes to the folder.
     OSError
         If the disk is full, or the scheduler cannot be reached; what was stored before is safe.
-    AllCrashed
-        If the first cases all crash: a fault of the program, or of its installation.
+    CannotRun
+        If the first cases all crash, or a worker has another version: a fault of the installation.
     ValueError
         If the folder holds a campaign of another kind or accuracy.
 
@@ -170,10 +161,8 @@ def run(
         count = (lambda: workers) if isinstance(workers, int) else workers
         if executor is None:
             executor = partial(_processes, min(count(), len(this.todo)), this.plan.settings)
-        number = store.note_run(to_run=len(this.todo))
-        end = this.go(executor, count)
-        store.note_run(number, **asdict(end))
-        return end
+        store.note_run()
+        return this.go(executor, count)
 
 
 class _Run:
@@ -189,28 +178,23 @@ class _Run:
         report: Callable[[Progress], None] | None,
     ) -> None:
         self.store, self.plan, self.work, self.report = store, plan, work, report
-        self.statement = _stated(store)
+        # what workers need to know of a campaign
+        facts = {name: store.facts[name] for name in ("kind", "problem", "settings", "own")}
+        self.statement = json.dumps(facts | {"identity": identity()})
         ended = store.ended()
         self.ended = {case.name: ended[case.name] for case in plan.cases if case.name in ended}
         again = {name for name, why in self.ended.items() if why and (retry or why in PASSING)}
-        left = [c for c in plan.cases if c.name not in self.ended or c.name in again]
-        # the longest first, so that no worker is left alone with a long one at the end
-        self.todo = deque(sorted(left, key=self._cost, reverse=True))
-        self.cost_left, self.cost_done = sum(map(self._cost, left)), 0.0
+        left = (c for c in plan.cases if c.name not in self.ended or c.name in again)
+        self.todo = deque(left)
         # those that were under way when a worker died, and how often one did alone
         self.suspects: deque[Case] = deque()
         self.deaths: Counter[str] = Counter()
         self.flying: dict[Future[list[Answer]], tuple[list[Case], float]] = {}
         self.rows: list[dict[str, Any]] = []
-        self.size, self.crashed, self.stored, self.busy = 1, 0, 0, 0.0
+        self.size, self.crashed, self.stored = 1, 0, 0
         self.solved, self.why = None in self.ended.values(), "no reason is known"
         self.began = self.reported = monotonic()
-        self.slots, self.asked = 1, threading.Event()
-
-    def _cost(self, case: Case) -> float:
-        powers = self.plan.kind.cost
-        known = (name for name in powers if name in case.inputs)
-        return prod(max(abs(case.inputs[name]), 1e-3) ** powers[name] for name in known)
+        self.asked = threading.Event()
 
     def go(self, make: Callable[[], Executor], workers: Callable[[], int]) -> Progress:
         """Do the cases; return when all are stored, or those in flight after a ctrl-C."""
@@ -218,9 +202,16 @@ class _Run:
         try:
             with _asked_to_stop(self.asked):
                 while True:
-                    self.slots = workers()
-                    while len(self.flying) < self.slots and (batch := self._next()):
-                        future = self._submitted(executor, batch)
+                    slots = workers()
+                    while len(self.flying) < slots and (batch := self._next()):
+                        try:
+                            # the time of a case that is alone has no beginning of a worker in it
+                            if not (self.todo or self.flying):
+                                wait([executor.submit(_ready, self.statement)], _BREAKS)
+                            future = executor.submit(solve, self.work, self.statement, batch)
+                        except BrokenExecutor:  # it has just broken, without this batch
+                            future = Future()
+                            future.set_exception(CancelledError())
                         self.flying[future] = batch, monotonic()
                     self._store()  # while the workers go on
                     if not self.flying:
@@ -230,7 +221,7 @@ class _Run:
                         sleep(_LOOK)  # until there is a worker
                         continue
                     done = set(wait(self.flying, _LOOK, FIRST_COMPLETED).done)
-                    is_broken = any(map(_is_broken, done))
+                    is_broken = any(isinstance(_error(future), _BROKEN) for future in done)
                     if is_broken:
                         wait(self.flying, _BREAKS)  # all of them break
                         done = set(self.flying)
@@ -250,26 +241,14 @@ class _Run:
         """Return how far the run is."""
         elapsed = monotonic() - self.began
         failed = sum(why is not None for why in self.ended.values())
-        left = max(self.cost_left, 0.0)
         return Progress(
             cases=len(self.plan.cases),
             done=len(self.ended) - failed,
             failed=failed,
             rate=self.stored / elapsed if elapsed else 0.0,
-            remaining_s=left * elapsed / self.cost_done if self.cost_done else None,
             elapsed_s=elapsed,
-            worker_use=self.busy / (elapsed * max(self.slots, 1)) if elapsed else 0.0,
             stopped=self.asked.is_set(),
         )
-
-    def _submitted(self, executor: Executor, batch: list[Case]) -> "Future[list[Answer]]":
-        try:
-            return executor.submit(solve, self.work, self.statement, batch)
-        except BrokenExecutor:  # it has just broken, without this batch
-            future: Future[list[Answer]] = Future()
-            future.cancel()
-            future.set_running_or_notify_cancel()
-            return future
 
     def _next(self) -> list[Case]:
         """Return the next batch; none while one that may kill its worker is, or is to be, alone."""
@@ -284,8 +263,7 @@ class _Run:
         was_alone, has_died, wrong = len(self.flying) == 1, False, None
         for future in done:
             batch, begun = self.flying.pop(future)
-            is_lost = future.cancelled() or not future.done()
-            error = CancelledError() if is_lost else future.exception()
+            error = _error(future)
             if error is None:
                 answers = future.result()
                 self.size = min(2 * len(answers), _MOST)
@@ -304,7 +282,7 @@ class _Run:
         self.crashed += has_died
         if wrong is not None or (self.crashed >= _CRASHES and not self.solved):
             self._store()
-            raise wrong or AllCrashed(
+            raise wrong or CannotRun(
                 f"the first cases have all crashed or killed their workers; {self.why}; the run "
                 "was ended, for the fault is not in the cases"
             )
@@ -324,17 +302,14 @@ class _Run:
 
     def _take(self, case: Case, answer: "Answer") -> None:
         """Make the row of a case that has ended; it waits to be stored."""
-        self.cost_left -= self._cost(case)
-        self.cost_done += self._cost(case)
-        self.busy += answer.wall_time_s
         self.crashed += answer.failure in PASSING
-        self.solved |= answer.row is not None
         facts: dict[str, Any] = {"name": case.name, **case.inputs}
         if answer.row is None:
             self.why = answer.reason
             found = {"failure": answer.failure, "reason": answer.reason}
-            found |= {"versions": words(identity())}
+            found |= {"versions": identity()}
         else:
+            self.solved = True
             # a row repeats inputs that went through the problem, which may cost their last digit
             found = answer.row | facts
         self.rows.append(facts | found | {"wall_time_s": answer.wall_time_s})
@@ -399,21 +374,20 @@ def attempt(work: Work, kind: Kind, inputs: Mapping[str, float], settings: CaseS
     return Answer(row, failure, reason, took)
 
 
-def _stated(store: Store) -> str:
-    """Return what workers need to know of a campaign, as text."""
-    names = sorted({name for case in store.cases() for name in case.inputs})
-    facts = {name: store.facts[name] for name in ("kind", "problem", "settings", "own")}
-    return json.dumps(facts | {"names": names, "identity": identity()})
+def _ready(statement: str) -> None:
+    """Do nothing in a worker but what precedes its first case."""
+    _read(statement)
 
 
 @cache
 def _read(statement: str) -> tuple[Kind, CaseSettings]:
     """Return kind and settings in a worker, whose own copies of user-defined files are executed."""
     facts = json.loads(statement)
-    if told := difference(identity(), facts["identity"]):
-        raise NoWorker(
-            f"a worker is of another program ({told}); it needs the same versions, and a run ends "
-            "when viscotack is changed. What is stored is safe: run again"
+    if identity() != facts["identity"]:
+        raise CannotRun(
+            f"a worker is of another program ({identity()}, and not {facts['identity']}); it needs "
+            "the same versions, and a run ends when viscotack is changed. What is stored is safe: "
+            "run again"
         )
     with tempfile.TemporaryDirectory(prefix="viscotack-") as folder:
         own = [Path(folder, str(i), name) for i, (name, _) in enumerate(facts["own"])]
@@ -422,7 +396,7 @@ def _read(statement: str) -> tuple[Kind, CaseSettings]:
             path.write_text(source, encoding="utf-8")
         settings = CaseSettings(**facts["settings"] | {"own": own})
         also = settings.nouns  # read while the files are there
-    return restored_kind(facts["kind"], facts["problem"], facts["names"], also), settings
+    return restored_kind(facts["kind"], facts["problem"], also), settings
 
 
 def _processes(workers: int, settings: CaseSettings) -> Processes:
@@ -433,9 +407,9 @@ def _begin(memory: float) -> None:
     begin_worker(memory)  # with what this module needs, its memory is counted at rest
 
 
-def _is_broken(future: Future[Any]) -> bool:
-    """Return whether an executor has broken, as a future says."""
-    return future.cancelled() or isinstance(future.exception(), BrokenExecutor)
+def _error(future: Future[Any]) -> BaseException | None:
+    """Return why a future has no result: it was cancelled, or never ended, with its executor."""
+    return CancelledError() if future.cancelled() or not future.done() else future.exception()
 
 
 @contextmanager

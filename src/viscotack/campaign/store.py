@@ -7,12 +7,11 @@ system and in a folder that may only be read.
 
 import json
 import os
-import platform
 import socket
 import sqlite3
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -24,18 +23,16 @@ from viscotack.files.text import read_text
 
 from .case import CaseSettings
 from .identity import identity
-from .plan import Case, Plan, restored_kind
+from .plan import Case, Plan, numbers_of, restored_kind
 
-_FORMAT = 1
-_SCHEMA = (
-    "CREATE TABLE facts (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
-    "CREATE TABLE cases (name TEXT PRIMARY KEY, place INTEGER NOT NULL, inputs TEXT NOT NULL)",
-    "CREATE TABLE results (name TEXT PRIMARY KEY, failure TEXT, reason TEXT, row TEXT NOT NULL)",
-    "CREATE TABLE runs (number INTEGER PRIMARY KEY, facts TEXT NOT NULL)",
-    f"PRAGMA user_version = {_FORMAT}",
-)
+_TABLES = {
+    "plan": "facts TEXT NOT NULL",
+    "cases": "name TEXT PRIMARY KEY, place INTEGER NOT NULL, inputs TEXT NOT NULL",
+    "results": "name TEXT PRIMARY KEY, failure TEXT, reason TEXT, row TEXT NOT NULL",
+    "runs": "number INTEGER PRIMARY KEY, facts TEXT NOT NULL",
+}
 # What is stored for a case first counts, but a failure for what comes after it.
-ADD = (
+_ADD = (
     "INSERT INTO results VALUES (?, ?, ?, ?) ON CONFLICT (name) DO UPDATE SET failure = "
     "excluded.failure, reason = excluded.reason, row = excluded.row WHERE results.failure NOTNULL"
 )
@@ -45,8 +42,6 @@ _PATIENCE = 600.0
 _ROWS = 1000
 # Failures that another run may not meet: it tries their cases again.
 PASSING = ("crashed", "worker died")
-# Settings that change the numbers of a result, and so must be the same for all of a folder.
-PHYSICAL = ("accuracy", "until")
 
 
 class FolderInUse(InputError):
@@ -71,8 +66,7 @@ class Store:
     Attributes
     ----------
     facts : dict
-        ``kind``, ``problem``, ``settings``, ``own``, ``shard``, ``rejected``, ``repeated`` and
-        ``plan``, as stored.
+        ``kind``, ``problem``, ``settings``, ``own`` and ``shard``, as stored.
     """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
@@ -83,10 +77,9 @@ class Store:
         if not self.path.exists():
             raise InputError(f"{folder} holds no campaign: it has no study.db")
         with self.database() as db:
-            if not _has_tables(db, self.path):
+            if not db.execute("SELECT * FROM sqlite_master WHERE name = 'plan'").fetchone():
                 raise InputError(f"{folder} holds no campaign: its study.db has no plan")
-            found = db.execute("SELECT name, value FROM facts").fetchall()
-        self.facts: dict[str, Any] = {name: json.loads(value) for name, value in found}
+            self.facts: dict[str, Any] = _facts(db) or {}
 
     @classmethod
     def create(cls, folder: str | os.PathLike[str], plan: Plan) -> "Store":
@@ -104,20 +97,14 @@ class Store:
             "settings": asdict(plan.settings),
             "own": [(Path(path).name, read_text(path)) for path in plan.settings.own],
             "shard": plan.shard,
-            "rejected": plan.rejected,
-            "repeated": plan.repeated,
-            "plan": plan.source,
         }
         facts = json.loads(json.dumps(stated))  # as they are when they are read
         shard, shards = numbers_of(plan.shard) if plan.shard else (1, 1)
-        with created(Path(folder)) as db:
-            old = db.execute("SELECT name, value FROM facts").fetchall()
-            if old:
-                check_same(str(folder), {n: json.loads(v) for n, v in old}, "the plan", facts)
-            db.execute("DELETE FROM facts")
-            db.executemany(
-                "INSERT INTO facts VALUES (?, ?)", ((n, json.dumps(v)) for n, v in facts.items())
-            )
+        with _created(Path(folder)) as db:
+            if old := _facts(db):
+                _check_same(folder, old, "the plan", facts)
+            db.execute("DELETE FROM plan")
+            db.execute("INSERT INTO plan VALUES (?)", (json.dumps(facts),))
             db.execute("DELETE FROM cases")
             db.executemany(
                 "INSERT INTO cases VALUES (?, ?, ?)",
@@ -128,11 +115,9 @@ class Store:
             )
         return cls(folder)
 
-    @contextmanager
-    def database(self) -> Iterator[sqlite3.Connection]:
+    def database(self) -> AbstractContextManager[sqlite3.Connection]:
         """Open the database; what the block writes is kept whole, or not at all."""
-        with _opened(self.path) as db:
-            yield db
+        return _opened(self.path)
 
     @property
     def settings(self) -> CaseSettings:
@@ -158,7 +143,7 @@ class Store:
         InputError
             If one of them is missing, or has been edited since.
         """
-        facts, cases = self.facts, self.cases()
+        facts = self.facts
         given = {read_text(path): str(Path(path).resolve()) for path in own}
         for name, source in facts["own"]:
             if source not in given:
@@ -168,15 +153,11 @@ class Store:
                 )
         files = tuple(given[source] for _, source in facts["own"])
         settings = replace(self.settings, own=files)
-        names = {name for case in cases for name in case.inputs}
         return Plan(
-            kind=restored_kind(facts["kind"], facts["problem"], names, settings.nouns),
-            cases=tuple(cases),
+            kind=restored_kind(facts["kind"], facts["problem"], settings.nouns),
+            cases=tuple(self.cases()),
             settings=settings,
             base=facts["problem"],
-            rejected=facts["rejected"],
-            repeated=facts["repeated"],
-            source=facts["plan"],
             shard=facts["shard"],
         )
 
@@ -184,7 +165,7 @@ class Store:
         """Store the rows of cases that have ended; those of failures have a ``failure``."""
         with self.database() as db:
             db.executemany(
-                ADD,
+                _ADD,
                 ((r["name"], r.get("failure"), r.get("reason"), json.dumps(r)) for r in rows),
             )
 
@@ -225,24 +206,16 @@ class Store:
             found = db.execute("SELECT facts FROM runs ORDER BY number")
             return [json.loads(facts) for (facts,) in found]
 
-    def note_run(self, number: int | None = None, **facts: Any) -> int:
-        """Store that a run begins, with its machine and versions, or facts of one; its number."""
+    def note_run(self) -> None:
+        """Store that a run begins, with its machine and versions."""
+        facts = {
+            "began": datetime.now(UTC).isoformat(timespec="seconds"),
+            "host": socket.gethostname(),
+            "process": os.getpid(),
+            "identity": identity(),
+        }
         with self.database() as db:
-            if number is None:
-                began = {
-                    "began": datetime.now(UTC).isoformat(timespec="seconds"),
-                    "host": socket.gethostname(),
-                    "process": os.getpid(),
-                    "platform": platform.platform(),
-                    "identity": identity(),
-                }
-                text = json.dumps(began | facts)
-                found = db.execute("INSERT INTO runs (facts) VALUES (?) RETURNING number", (text,))
-                return found.fetchone()[0]
-            (text,) = db.execute("SELECT facts FROM runs WHERE number = ?", (number,)).fetchone()
-            text = json.dumps(json.loads(text) | facts)
-            db.execute("UPDATE runs SET facts = ? WHERE number = ?", (text, number))
-            return number
+            db.execute("INSERT INTO runs (facts) VALUES (?)", (json.dumps(facts),))
 
 
 @dataclass(frozen=True)
@@ -276,28 +249,93 @@ class Rows:
         """Return the rows as a pandas DataFrame."""
         return frame(list(self))
 
-    def __len__(self) -> int:
-        with self.store.database() as db:
-            return db.execute(f"SELECT count(*) FROM results WHERE {self.condition}").fetchone()[0]
+
+def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]) -> Store:
+    """Merge several campaigns into one folder.
+
+    Parameters
+    ----------
+    folders : sequence of path
+        Campaigns of the same kind, settings and program. A case that is in several has the result
+        of the first that has one.
+    out : path
+        Folder of the merged campaign, new or empty; it has all of them or nothing.
+
+    Raises
+    ------
+    ValueError
+        If the campaigns differ in kind, settings or program, or `out` holds a campaign.
+
+    Returns
+    -------
+    Store
+        The merged campaign.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> from viscotack.campaign import every_combination, shard_of
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> base = Groups(tabor=1.0, material=solid, start=AtDepth(5.0), rate=1.0)
+    >>> plan = every_combination(base, {"tabor": [1, 2]})
+    >>> with tempfile.TemporaryDirectory() as out:
+    ...     parts = [f"{out}/{k}" for k in (1, 2)]
+    ...     for k, part in enumerate(parts, 1):
+    ...         _ = Store.create(part, shard_of(plan, f"{k}/2"))
+    ...     len(merge(parts, f"{out}/all").plan().cases)
+    2
+    """
+    stores, out = [Store(folder) for folder in folders], Path(out)
+    if not stores:
+        raise InputError("there is nothing to merge: give the folders of campaigns")
+    first = stores[0]
+    runs = [(store.folder, run["identity"]) for store in stores for run in store.runs()]
+    for store in stores:
+        facts = store.facts | {"shard": first.facts["shard"]}
+        _check_same(first.folder, first.facts, store.folder, facts)
+    for folder, program in runs:
+        if program != runs[0][1]:
+            raise InputError(
+                f"{folder} was run by another program than {runs[0][0]} ({program}, and not "
+                f"{runs[0][1]}); their rows do not belong in one table"
+            )
+    out.mkdir(parents=True, exist_ok=True)
+    # shards of one plan state the places of their cases in it; other cases come one after another
+    counts = {(store.facts["shard"] or "").partition("/")[2] for store in stores}
+    are_shards = len(counts) == 1 and counts != {""}
+    with locked(out), _created(out) as db:
+        if _facts(db):
+            raise InputError(f"{out} holds a campaign already; give another --out")
+        facts = json.dumps(first.facts | {"shard": None})
+        db.execute("INSERT INTO plan VALUES (?)", (facts,))
+        for store in stores:
+            (last,) = db.execute("SELECT coalesce(max(place), 0) FROM cases").fetchone()
+            shift = 0 if are_shards else last
+            with store.database() as part:
+                cases = part.execute("SELECT name, place + ?, inputs FROM cases", (shift,))
+                db.executemany("INSERT OR IGNORE INTO cases VALUES (?, ?, ?)", cases)
+                db.executemany(_ADD, part.execute("SELECT * FROM results ORDER BY rowid"))
+                db.executemany(
+                    "INSERT INTO runs (facts) VALUES (?)", part.execute("SELECT facts FROM runs")
+                )
+    return Store(out)
+
+
+def _facts(db: sqlite3.Connection) -> dict[str, Any] | None:
+    found = db.execute("SELECT facts FROM plan").fetchone()
+    return found and json.loads(found[0])
 
 
 @contextmanager
-def created(folder: Path) -> Iterator[sqlite3.Connection]:
+def _created(folder: Path) -> Iterator[sqlite3.Connection]:
     """Open the database of a folder, which is made where there is none; as `Store.database`."""
     folder.mkdir(parents=True, exist_ok=True)
     with _opened(folder / "study.db", "rwc") as db:
         db.execute("BEGIN IMMEDIATE")
-        for statement in () if _has_tables(db, folder / "study.db") else _SCHEMA:
-            db.execute(statement)
+        for name, columns in _TABLES.items():
+            db.execute(f"CREATE TABLE IF NOT EXISTS {name} ({columns})")
         yield db
-
-
-def _has_tables(db: sqlite3.Connection, path: Path) -> bool:
-    """Return whether a database has the tables of a campaign; refuse one of a newer version."""
-    (version,) = db.execute("PRAGMA user_version").fetchone()
-    if version > _FORMAT:
-        raise InputError(f"{path} is of a newer version of viscotack; update viscotack")
-    return version == _FORMAT
 
 
 @contextmanager
@@ -342,9 +380,10 @@ def locked(folder: Path) -> Iterator[None]:
             held.close()
         if error.sqlite_errorcode != sqlite3.SQLITE_BUSY:
             raise OSError(f"cannot lock {folder}: {error}") from error
+        runs = Store(folder).runs() if (folder / "study.db").exists() else []
+        by = f", process {runs[-1]['process']} on {runs[-1]['host']}" if runs else ""
         raise FolderInUse(
-            f"{folder} is in use by another run{_holder(folder)}; wait for it, or give another "
-            "--out"
+            f"{folder} is in use by another run{by}; wait for it, or give another --out"
         ) from None
     try:
         yield
@@ -352,26 +391,12 @@ def locked(folder: Path) -> Iterator[None]:
         held.close()
 
 
-def _holder(folder: Path) -> str:
-    runs = Store(folder).runs() if (folder / "study.db").exists() else []
-    return f", process {runs[-1]['process']} on {runs[-1]['host']}" if runs else ""
-
-
-def numbers_of(shard: str) -> tuple[int, int]:
-    """Return the number of a shard and of shards: 3 and 20 of "3/20"."""
-    number, _, count = shard.partition("/")
-    if not (number.isdecimal() and count.isdecimal() and 1 <= int(number) <= int(count)):
-        raise InputError(f"a shard is written '3/20', the third of twenty; got {shard!r}")
-    return int(number), int(count)
-
-
-def check_same(one: str, first: Mapping[str, Any], other: str, second: Mapping[str, Any]) -> None:
-    """Refuse the facts of two campaigns that differ in kind, numbers, shard or own files."""
-    names = ("kind", "problem", "shard", "own")
-    for name in (*names, *PHYSICAL):
-        was, now = ((f if name in names else f["settings"])[name] for f in (first, second))
+def _check_same(one: Any, first: Mapping[str, Any], other: Any, second: Mapping[str, Any]) -> None:
+    """Refuse the facts of two campaigns whose rows do not belong in one table."""
+    for name in ("kind", "problem", "shard", "own", "accuracy", "until"):
+        was, now = ({**facts["settings"], **facts}[name] for facts in (first, second))
         if was != now:
-            told = f": {was}, and {now}" if name in (*PHYSICAL, "kind", "shard") else ""
+            told = "" if name in ("problem", "own") else f": {was}, and {now}"
             raise InputError(
                 f"{one} and {other} have not the same {name}{told}; give another --out, or the same"
             )

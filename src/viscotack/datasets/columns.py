@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from viscotack.campaign.columns import INPUTS, KINDS
-from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
+from viscotack.model.materials.random_solids import creep_spectrum
+from viscotack.model.problem.kinds import INPUTS, KINDS
 from viscotack.model.problem.outputs import PLANE, REVOLUTION, Kind
 
 # Lower bounds of stated relative errors, which hold in 95 % of the

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.campaign.random_solids import creep_spectrum
+from viscotack.model.materials.random_solids import creep_spectrum
 
 _LOW, _HIGH = np.log10([0.01, 1e-4, 0.005]), np.log10([10.0, 0.7, 500.0])
 # Ratio of creep to the relaxed one where it is over, and to the glassy one where it begins.

@@ -55,7 +55,7 @@ def by_simulation(asked: Question) -> Prediction:
 
 def _curve(result: Result, found: PullOff) -> Curves:
     """Return the unloading curve to the pull-off, at the points of a predicted curve."""
-    from viscotack.campaign.case import curve
+    from viscotack.result.curve import curve
 
     row, kind, groups = curve(result, found), result.problem.outputs, result.groups
 

@@ -21,7 +21,7 @@ from .prediction import MEASURED, NOT_MEASURED
 from .punches import LEARNED_PUNCH
 
 if TYPE_CHECKING:
-    from viscotack.campaign.columns import Kind
+    from viscotack.model.problem.kinds import Kind
 
 
 def with_interval(name: str) -> tuple[str, str, str]:
@@ -48,7 +48,7 @@ def kind_of(names: Collection[str]) -> Kind:
     >>> kind_of(("size", "thickness", "cohesion", "modulus_ratio", "rate", "preload")).name
     'punch'
     """
-    from viscotack.campaign.columns import KINDS
+    from viscotack.model.problem.kinds import KINDS
 
     return KINDS["punch" if "tabor" not in names and "size" in names else "sphere"]
 

@@ -104,10 +104,10 @@ def best(asked: Question, budget: float) -> Prediction:
     for found in _answers(LEARNED, asked, refused):
         return found
     # not above: it loads the simulation, which most answers do without
-    from viscotack.campaign.columns import has_relaxed_contact
+    from viscotack.simulate import has_start
 
     out = _reason_of_surrogates(asked, refused)
-    if asked.relaxed_start and budget > AT_ONCE and not has_relaxed_contact(asked.problem):
+    if asked.relaxed_start and budget > AT_ONCE and not has_start(asked.problem):
         raise InputError(
             f"there is no contact to pull off: no relaxed one exists at {asked.groups.start}"
         )

@@ -25,10 +25,10 @@ from typing import Any
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.campaign.columns import kind_of_problem
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.materials.conversion import slowed
 from viscotack.model.problem import Case
+from viscotack.model.problem.kinds import kind_of_problem
 
 from .predict import predict
 from .prediction import Prediction
@@ -110,7 +110,6 @@ def uncertainty(
     samples: int = 256,
     seed: int = 0,
     budget: float = SOON,
-    also: tuple[Any, ...] = (),
     progress: Callable[[float], None] = lambda share: None,
 ) -> Uncertainty:
     """Propagate uncertainties of inputs to the pull-off force, and attribute its variance to them.
@@ -135,8 +134,6 @@ def uncertainty(
         Of the points, a scrambled sequence of Sobol.
     budget : float
         Time budget of each prediction [s], as for :func:`viscotack.predict`.
-    also : tuple of classes
-        User-defined classes that the problem contains.
     progress : callable
         Called with the finished fraction, from 0 to 1.
 
@@ -167,7 +164,7 @@ def uncertainty(
     scattered = {**deviations, **times}
     every = [*scattered, *sampled]
     _check(deviations, times, sampled, confidence, samples)
-    kind_of_problem(problem, set(deviations), also)  # names the unknown path
+    kind_of_problem(problem, set(deviations))  # names the unknown path
 
     def posed(z: Mapping[str, float], parts: Mapping[str, Any]) -> Case:
         """Return the problem with normal deviates of its numbers and with samples of its parts."""
@@ -175,7 +172,7 @@ def uncertainty(
         if times:
             slower = float(np.exp(sum(s * z[name] for name, s in times.items())))
             whole = replace(whole, material=slowed(whole.material, slower))
-        kind = kind_of_problem(whole, set(deviations), also)
+        kind = kind_of_problem(whole, set(deviations))
         inputs = {
             name: _number(kind.inputs, name) * float(np.exp(s * z[name]))
             for name, s in deviations.items()

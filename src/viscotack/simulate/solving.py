@@ -11,6 +11,7 @@ from viscotack.clock import limited
 from viscotack.errors import InputError
 from viscotack.model.problem import Case, Groups, Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
+from viscotack.model.protocol import AtDepth, AtForce
 from viscotack.result import Outcome, Result
 from viscotack.simulate import handover
 from viscotack.simulate.crack_contact.crack_problem import largest_radius, not_covered
@@ -192,10 +193,18 @@ def solve(
 
 
 def has_start(problem: Case) -> bool:
-    """Whether the relaxed state at the start of a test exists; takes some milliseconds.
+    """Whether the relaxed state at the start of a test exists; some milliseconds where in doubt.
 
-    The state is searched at the lowest accuracy.
+    Pressed to a depth, or by a force, that is not negative, sphere and punch are always in
+    contact: the gap in the middle is then at most h0, below that of peak tension. Else the state is
+    searched at the lowest accuracy, with the range of the law, with which contacts exist beyond
+    the end of JKR's.
     """
+    start = problem.groups().start
+    if (isinstance(start, AtDepth) and start.depth >= 0) or (
+        isinstance(start, AtForce) and start.force >= 0
+    ):
+        return True
     with one_blas_thread():
         try:
             groups = problem.groups()

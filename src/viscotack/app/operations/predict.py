@@ -214,7 +214,6 @@ class Predict(Request):
             self.stated(caller),
             caller.rows(self.cases),
             caller.tell,
-            also=caller.also,
             time_limit=self.time_limit,
             confidence=self.confidence,
             budget=SOON if self.budget is None else self.budget,

@@ -17,8 +17,8 @@ from .simulate import Accuracy, Until
 
 if TYPE_CHECKING:
     from viscotack.campaign import CaseSettings
-    from viscotack.campaign.changes import Changes
-    from viscotack.campaign.columns import Kind
+    from viscotack.model.problem.changes import Changes
+    from viscotack.model.problem.kinds import Kind
 
 # Exit status where some cases have no result.
 _SOME_FAILED = 4
@@ -64,7 +64,7 @@ class Sweep(Request):
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share`` and the new ``rows``."""
         from viscotack.campaign import CaseSettings
-        from viscotack.campaign.changes import changes_of
+        from viscotack.model.problem.changes import changes_of
 
         from .parts.tables import rows_as_csv
 
@@ -72,7 +72,7 @@ class Sweep(Request):
         if not cases or any(row.keys() != cases[0].keys() for row in cases):
             raise InputError("all cases must replace the same numbers of the problem")
         changes = changes_of(stated.problem, cases[0])
-        kind = changes.kind(caller.also)
+        kind = changes.kind()
         inputs_of_rows = [_inputs(changes, number, row) for number, row in enumerate(cases, 1)]
         settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
         rows: list[dict[str, Any]] = []

@@ -152,7 +152,6 @@ class OfUncertainty(Request):
             samples=self.samples,
             seed=self.seed,
             budget=self.budget,
-            also=caller.also,
             progress=lambda share: caller.tell({"share": share}),
         )
         rows = [

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscotack.campaign.changes import Changes, changes_of
 from viscotack.campaign.listed import EMPTY
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import TOO_LARGE, InputError
+from viscotack.model.problem.changes import Changes, changes_of
 from viscotack.prediction import predict
 from viscotack.prediction.prediction import prediction_summary
 from viscotack.prediction.table import METHOD, WORK, with_interval
@@ -35,7 +35,6 @@ def predict_changes(
     rows: Rows,
     tell: Callable[[Told], None],
     *,
-    also: tuple[Any, ...] = (),
     time_limit: float | None = None,
     **options: Any,
 ) -> Answer:
@@ -45,7 +44,7 @@ def predict_changes(
     has no answer has the reason. `time_limit` [s] is that of a row.
     """
     changes = changes_of(stated.problem, rows[0])
-    kind = changes.kind(also)
+    kind = changes.kind()
     names = _columns(stated.problem)
     refuse_answered("the table", rows[0], [*names, *_ABOUT])
     # a passport describes the material of the problem, not one with other numbers

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.campaign.listed import EMPTY, plain_heading, read_words
+from viscotack.campaign.listed import EMPTY, read_words
 from viscotack.errors import InputError
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
+from viscotack.model.problem.kinds import plain_heading
 from viscotack.prediction.table import answers_of, kind_of, predict_table
 from viscotack.units import is_number
 

@@ -6,23 +6,21 @@ many random solids, ``"punch"`` those of a punch on a layer of a standard solid;
 ``problem = "FILE.toml"`` any number of that problem in SI is an input, named by its path.
 """
 
+import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.model.geometry import FlatPunch, Layer, PowerLawProfile
+from viscotack.model.geometry import FlatPunch, Layer
 from viscotack.model.materials import RetardationPowerLaw, StandardSolid
 from viscotack.model.materials.constants import ModulusRatio
+from viscotack.model.materials.random_solids import LAST, random_solid
 from viscotack.model.problem import Groups, Problem, RoughCase, plane, revolution
-from viscotack.model.problem.inputs import Input, changed, check_paths, inputs_of
+from viscotack.model.problem.inputs import Input, changed, check_exponent, check_paths, inputs_of
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius
-from viscotack.simulate import has_start
-from viscotack.units import positive
-
-from .random_solids import LAST, random_solid
 
 Inputs = Mapping[str, float]
 
@@ -41,8 +39,6 @@ class Kind:
         Returns the problem of a case from its inputs by name; ValueError where they are impossible.
     choices : tuple of str
         Inputs of which a case has exactly one; () for none.
-    cost : mapping
-        Powers of the inputs to which the time of a case is about proportional; for the order.
     inputs : mapping
         What they are and what they are measured in, by name.
     in_si : bool
@@ -52,17 +48,14 @@ class Kind:
     name: str
     columns: tuple[str, ...]
     problem: Callable[[Inputs], Any]
-    choices: tuple[str, ...] = ()
-    cost: Mapping[str, float] = field(default_factory=dict)
-    inputs: Mapping[str, Input] = field(default_factory=lambda: INPUTS)
+    choices: tuple[str, ...]
+    inputs: Mapping[str, Input]
     in_si: bool = False
 
     def check(self, given: set[str]) -> None:
         """Refuse input names that do not state a case of this kind."""
-        unknown = given - {*self.columns, *self.choices}
-        missing = set(self.columns) - given
         chosen = given & set(self.choices)
-        if unknown or missing or len(chosen) != bool(self.choices):
+        if given - chosen != set(self.columns) or len(chosen) != bool(self.choices):
             choice = f" and exactly one of {', '.join(self.choices)}" if self.choices else ""
             raise InputError(
                 f"a case of kind {self.name!r} has the inputs {', '.join(self.columns)}{choice}, "
@@ -79,12 +72,6 @@ _STARTS: dict[str, Any] = {
 
 def _sphere(inputs: Inputs) -> Groups:
     return Groups(tabor=inputs["tabor"], **_test(inputs, RetardationPowerLaw))
-
-
-def _profile(inputs: Inputs) -> Groups:
-    q = inputs["profile_exponent"]
-    shape = PowerLawProfile(1 / positive("profile_exponent", q, "1"), q)
-    return Groups(tabor=inputs["tabor"], geometry=shape, **_test(inputs, RetardationPowerLaw))
 
 
 def _solid(inputs: Inputs) -> Groups:
@@ -126,7 +113,6 @@ def _inputs() -> dict[str, Input]:
     units = revolution.GROUPS
     found = {
         "tabor": (of["tabor"].card, "1"),
-        "profile_exponent": (cards(PowerLawProfile)["exponent"].card, "1"),
         "modulus_ratio": (card_of(ModulusRatio), "1"),
         "exponent": (cards(RetardationPowerLaw)["exponent"].card, "1"),
         "rate": (of["rate"].card, units["speed"]),
@@ -147,71 +133,54 @@ def _inputs() -> dict[str, Input]:
 INPUTS = _inputs()
 
 
-def has_relaxed_contact(problem: Any) -> bool:
-    """Return whether the relaxed start of a problem exists; some milliseconds where in doubt.
+def _kinds() -> dict[str, Kind]:
+    """Return the kinds of dimensionless cases; one more is an entry more."""
+    law, starts = ("modulus_ratio", "exponent", "rate"), tuple(_STARTS)
+    stated: tuple[tuple[str, Callable[[Inputs], Any], tuple[str, ...], tuple[str, ...]], ...] = (
+        ("sphere", _sphere, ("tabor", *law), starts),
+        ("solid", _solid, ("tabor", "modulus_ratio", "solid", "rate"), starts),
+        (
+            "punch",
+            _punch,
+            ("size", "thickness", "cohesion", "modulus_ratio", "rate"),
+            ("preload", "preload_force"),
+        ),
+    )
+    return {
+        name: Kind(name, columns, problem, choices, {n: INPUTS[n] for n in (*columns, *choices)})
+        for name, problem, columns, choices in stated
+    }
 
-    Pressed to a depth, or by a force, that is not negative, sphere and punch are always in
-    contact: the gap in the middle is then at most h0, below that of peak tension. Else the start is
-    looked for with the range of its traction law, with which contacts exist beyond the end of JKR's
-    (:func:`viscotack.theory.elastic.relaxed.contact`).
+
+KINDS = _kinds()
+
+
+def plain_heading(name: str) -> str:
+    """Return a heading in lower case, with underscores, as columns of cases are named.
+
+    >>> plain_heading(" Pull-off Force")
+    'pull_off_force'
     """
-    if isinstance(problem, RoughCase):  # found by the simulation
-        return True
-    start = problem.groups().start
-    if isinstance(start, AtDepth) and start.depth >= 0:
-        return True
-    if isinstance(start, AtForce) and start.force >= 0:
-        return True
-    return has_start(problem)
+    return re.sub(r"[\s-]", "_", name.strip()).lower()
 
 
-_POWER_LAW = ("modulus_ratio", "exponent", "rate")
-# A kind more is an entry more. The powers of the cost were fitted to the times of 1,000 cases.
-KINDS = {
-    "sphere": Kind(
-        name="sphere",
-        columns=("tabor", *_POWER_LAW),
-        choices=tuple(_STARTS),
-        problem=_sphere,
-        cost={"tabor": -0.14, "preload": 0.33, "rate": -0.02},
-    ),
-    "profile": Kind(
-        name="profile",
-        columns=("tabor", "profile_exponent", *_POWER_LAW),
-        choices=tuple(_STARTS),
-        problem=_profile,
-    ),
-    "solid": Kind(
-        name="solid",
-        columns=("tabor", "modulus_ratio", "solid", "rate"),
-        choices=tuple(_STARTS),
-        problem=_solid,
-    ),
-    "punch": Kind(
-        name="punch",
-        columns=("size", "thickness", "cohesion", "modulus_ratio", "rate"),
-        choices=("preload", "preload_force"),
-        problem=_punch,
-    ),
-}
-
-
-def kind_of_columns(names: set[str]) -> str:
-    """Return the kind that a table with these columns states, for a bare CSV file."""
+def kind_of_columns(headings: Iterable[str]) -> Kind:
+    """Return the kind whose cases a table with these columns states."""
+    names = {plain_heading(name) for name in headings}
     for kind in KINDS.values():
-        if set(kind.columns) <= names <= {*kind.columns, *kind.choices}:
-            return kind.name
+        if set(kind.columns) <= names <= kind.inputs.keys():
+            return kind
     known = "; ".join(
         f"{kind.name}: {', '.join([*kind.columns, ' or '.join(kind.choices)])}"
         for kind in KINDS.values()
     )
     raise InputError(
-        f"unknown columns ({', '.join(sorted(names))}): no kind of case has exactly these; "
-        f"known kinds are {known}"
+        f"no kind of case has exactly the columns {', '.join(sorted(names))}; known kinds are "
+        f"{known}; a table that changes a problem is a [[list]] of a plan that names the problem"
     )
 
 
-def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kind:
+def kind_of_problem(base: Any, names: set[str]) -> Kind:
     """Return the kind whose cases are a problem with some of its numbers replaced.
 
     Parameters
@@ -220,8 +189,6 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
         The problem that the other numbers come from.
     names : set of str
         Paths of the numbers in the file, such as ``protocol.speed``; in SI.
-    also : iterable of classes
-        The user's own that the problem is made of.
 
     Examples
     --------
@@ -234,11 +201,12 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
     AtDepth(depth=20.0)
     """
     check_paths(base, names)
-    known = inputs_of(base)
+    check_exponent(base, names)
     return Kind(
         name="problem",
         columns=tuple(sorted(names)),
         problem=partial(changed, base),
-        inputs=known,
+        choices=(),
+        inputs=inputs_of(base),
         in_si=isinstance(base, Problem | RoughCase),
     )

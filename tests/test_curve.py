@@ -1,12 +1,8 @@
-import importlib
-from itertools import count
-
 import numpy as np
 import pytest
 
 import synthetic
 import viscotack as vt
-import viscotack.campaign
 from viscotack import (
     Apart,
     Approach,
@@ -18,9 +14,7 @@ from viscotack import (
     pull_off_force,
 )
 from viscotack.campaign import CaseSettings, measure
-from viscotack.campaign.case import KEY_SHARES, curve
-from viscotack.campaign.columns import kind_of_problem
-from viscotack.campaign.running import attempt
+from viscotack.result.curve import KEY_SHARES, curve
 
 QUICK = CaseSettings(accuracy=0.02, until="pull-off")
 
@@ -48,20 +42,6 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     assert force[-1] == -pull_off_force(result) == force.min()
     assert np.diff(depth[:9], 2).min() > 0 and np.diff(depth[8:], 2).min() > 0, "ends are gathered"
     assert force[8] == pytest.approx(0, abs=1e-12) and np.all(force[:8] > 0), "tension has 16"
-
-
-def test_a_case_that_marches_too_long_ends_by_itself(monkeypatch):
-    # on a clock that goes on by a hundredth of a second whenever somebody looks at it
-    ticks = count(100.0, 0.01)
-    for module in ("campaign.running", "clock"):
-        monkeypatch.setattr(
-            importlib.import_module(f"viscotack.{module}"), "perf_counter", ticks.__next__
-        )
-    kind = kind_of_problem(synthetic.GROUPS, {"tabor"})
-    settings = CaseSettings(accuracy=2e-4, time_limit=0.2)
-    answer = attempt(measure, kind, {"tabor": synthetic.GROUPS.tabor}, settings)
-    assert (answer.failure, answer.reason) == ("time limit", "took more than 0.2 s")
-    assert 0.2 <= answer.wall_time_s < 0.3
 
 
 @pytest.mark.parametrize("deeper_first", [True, False])

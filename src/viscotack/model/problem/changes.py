@@ -15,15 +15,14 @@ from viscotack.cards import cards, plausible, unusual
 from viscotack.errors import InputError
 from viscotack.model.geometry import BODIES, SHAPES
 from viscotack.model.materials.words import MODELS
-from viscotack.model.problem.inputs import Input, check_exponent, inputs_of
+from viscotack.model.problem.inputs import Input, inputs_of
 from viscotack.model.problem.problem import Problem
 from viscotack.model.problem.rough_case import RoughCase
 from viscotack.model.protocol import Retraction
 from viscotack.model.traction import LAWS
-from viscotack.units import parse, readable
+from viscotack.units import is_number, parse, readable
 
-from .columns import INPUTS, Kind, kind_of_problem
-from .listed import plain_heading
+from .kinds import INPUTS, Kind, kind_of_problem, plain_heading
 
 _IN_BRACKETS = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]+?)\s*[\])]")
 # Keys of problem files that no table of changes may vary, beside the numbers of all classes.
@@ -70,9 +69,9 @@ class Column:
         text = cell.strip() if isinstance(cell, str) else cell
         if text == "":
             raise InputError("the cell is empty")
-        if isinstance(text, str) and self.unit and not any(map(str.isdigit, text)):
-            raise InputError(f"{text!r} is not a number")
-        if isinstance(cell, bool) or not (isinstance(text, int | float) or _is_number(text)):
+        if isinstance(text, str) and not is_number(text):
+            return text
+        if isinstance(text, bool) or not isinstance(text, str | int | float):
             return text
         if self.unit:
             return f"{text} {self.unit}"
@@ -105,11 +104,9 @@ class Changes:
     columns: tuple[Column, ...]
     carried: tuple[str, ...]
 
-    def kind(self, also: Iterable[Any] = ()) -> Kind:
+    def kind(self) -> Kind:
         """Return the kind of case whose problems differ in the replaced numbers."""
-        paths = {column.number.path for column in self.columns}
-        check_exponent(self.problem, paths)
-        return kind_of_problem(self.problem, paths, also)
+        return kind_of_problem(self.problem, {column.number.path for column in self.columns})
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -177,26 +174,47 @@ def changes_of(problem: Any, headings: Iterable[str]) -> Changes:
     >>> found.carried
     ('sample',)
     """
-    known, names = inputs_of(problem), _names(problem)
     in_si = isinstance(problem, Problem | RoughCase)
+    columns, carried = columns_of(headings, inputs_of(problem), in_si=in_si)
+    if not columns:
+        known = inputs_of(problem)
+        raise InputError(
+            f"no column is a number of the problem, got {', '.join(carried) or 'none'}; it has "
+            f"{_shown(_names(known), known)}"
+        )
+    return Changes(problem, columns, carried)
+
+
+def columns_of(
+    headings: Iterable[str], known: Mapping[str, Input], *, in_si: bool
+) -> tuple[tuple[Column, ...], tuple[str, ...]]:
+    """Return the columns of a table that are one of these inputs, and the other headings.
+
+    Raises
+    ------
+    InputError
+        As :func:`changes_of`, except if none is an input.
+    """
+    names = _names(known)
     keys, shown = _keys() if in_si else set[str](), _shown(names, known)
     tables = {name.partition(".")[0] for name in names if "." in name}
     columns: list[Column] = []
     carried: list[str] = []
     for heading in map(str, headings):
         name, unit = _split(heading, names, known)
-        near = difflib.get_close_matches(plain_heading(name), names, 1, _ALIKE)
-        paths = names.get(plain_heading(name)) or {name} & known.keys()
+        plain = plain_heading(name)
+        near = difflib.get_close_matches(plain, names, 1, _ALIKE)
+        paths = names.get(plain, set())
         if len(paths) > 1:
             raise InputError(f"{heading!r} may be {' or '.join(sorted(paths))}; write one of these")
         if paths:
-            columns.append(_column(heading, known[paths.pop()], unit, in_si=in_si))
-        elif plain_heading(name) in keys:
+            columns.append(_column(heading, known[next(iter(paths))], unit, in_si=in_si))
+        elif plain in keys:
             raise InputError(
                 f"the column {heading!r} is no number that this problem states; a table can change "
                 f"{shown}"
             )
-        elif near or ("." in name and plain_heading(name).partition(".")[0] in tables):
+        elif near or ("." in name and plain.partition(".")[0] in tables):
             hint = f"did you mean {near[0]}? A" if near else "a"
             raise InputError(f"unknown column {heading!r}; {hint} table can change {shown}")
         else:
@@ -204,10 +222,7 @@ def changes_of(problem: Any, headings: Iterable[str]) -> Changes:
     twice = [c.heading for c in columns if sum(c.number.path == d.number.path for d in columns) > 1]
     if twice:
         raise InputError(f"the columns {' and '.join(twice)} state one number; remove one")
-    if not columns:
-        got = ", ".join(carried) or "none"
-        raise InputError(f"no column is a number of the problem, got {got}; it has {shown}")
-    return Changes(problem, tuple(columns), tuple(carried))
+    return tuple(columns), tuple(carried)
 
 
 def _column(heading: str, number: Input, unit: str, *, in_si: bool) -> Column:
@@ -221,10 +236,10 @@ def _column(heading: str, number: Input, unit: str, *, in_si: bool) -> Column:
     return Column(heading, number, unit, in_si)
 
 
-def _names(problem: Any) -> dict[str, set[str]]:
-    """Return the names of the numbers of a problem, in plain spelling -> paths."""
+def _names(known: Mapping[str, Input]) -> dict[str, set[str]]:
+    """Return the names of inputs, in plain spelling -> paths."""
     found: dict[str, set[str]] = {}
-    for path in inputs_of(problem):
+    for path in known:
         for name in {path, path.partition(".")[2] or path}:
             found.setdefault(plain_heading(name), set()).add(path)
     return found
@@ -275,11 +290,3 @@ def _shown(names: Mapping[str, set[str]], known: Mapping[str, Input]) -> str:
         unit = "" if number.unit == "1" else f" [{number.unit}]"
         found.append(f"{min(own or [path], key=len)}{unit}")
     return ", ".join(found)
-
-
-def _is_number(text: Any) -> bool:
-    try:
-        float(text)
-    except (TypeError, ValueError):
-        return False
-    return True
