@@ -3,7 +3,7 @@
 A fit goes from data over a model and a likelihood to a result; sentences are made from its numbers.
 
 ============  ======================================================================
-data          ``pull_off``, ``repeats``, ``travel``, ``temperatures``, ``rate_series``
+data          ``pull_off``, ``travel``, ``temperatures``, ``rate_series``
 model         ``forward``, ``growth``, ``simulated_tests``, ``force_ratios``, ``simulations``
 likelihood    ``likelihood``, ``covariances``, ``interpolated_forces``, ``search``
 result        ``series_fit``, ``rate_fit``, ``edge_fit``, ``forecasting``, ``ranked_tests``
@@ -11,8 +11,7 @@ sentences     ``rate_words``, ``slow_words``
 ============  ======================================================================
 
 One slow test goes through ``slow_tests`` and ``contacts``, tests after several dwells through
-``contact_time``. ``study`` does all for the files of a rig, ``computed`` keeps forces for the next
-time, and ``speed_table`` has the statistics that laboratories report.
+``contact_time``. ``computed`` keeps forces for the next time.
 """
 
 from .contact_time import DwellFit, identify_dwell

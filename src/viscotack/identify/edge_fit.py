@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
+from viscotack.lab.tack.repeats import SAME
 from viscotack.model.geometry import Layer
 from viscotack.theory.sphere import edge_law
 from viscotack.units import readable
@@ -25,7 +26,6 @@ from .covariances import ModelError
 from .force_ratios import Yielding
 from .forward import Forward
 from .interpolated_forces import Table, lattice
-from .pull_off import SAME
 from .rate_series import RateSeries
 from .rate_words import edge_misfit_words, edge_words
 from .search import Search, settled

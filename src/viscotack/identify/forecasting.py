@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
+from viscotack.lab.tack.repeats import SAME
 from viscotack.model.geometry import Layer
 from viscotack.model.protocol import Move
 from viscotack.units import readable
@@ -31,7 +32,7 @@ from .edge_fit import EdgeFit, edge_forces, refuse_far
 from .force_ratios import Mixed
 from .forward import law_of
 from .likelihood import Posterior
-from .pull_off import SAME, History
+from .pull_off import History
 from .rate_fit import RateSeriesFit
 from .rate_words import forecast_words, series_forecast_words, simulation_words
 from .search import LEAST_TABOR

@@ -15,8 +15,8 @@ from viscotack.identify import (
 )
 from viscotack.identify.contact_time import DwellFit
 from viscotack.identify.forward import Growth
-from viscotack.identify.pull_off import same_speeds, temperature_of
 from viscotack.lab.tack import Cycle
+from viscotack.lab.tack.repeats import same_speeds, temperature_of
 from viscotack.units import readable
 
 from .style import axis_unit, drawing, log_axis_unit, plain_ticks

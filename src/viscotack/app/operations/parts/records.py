@@ -79,7 +79,7 @@ def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[
 
 def _jkr(force: float, radius: float | None) -> dict[str, float]:
     """Return the work of adhesion of an elastic JKR sphere; empty without a radius."""
-    from viscotack.identify.speed_table import jkr_work
+    from viscotack.lab.tack.speed_table import jkr_work
 
     return {} if radius is None else {"jkr_work_of_adhesion_J_m2": jkr_work(force, radius)}
 
@@ -106,7 +106,7 @@ def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]
 
 def curve_rows(cycles: Any) -> list[dict[str, Any]]:
     """Return the retractions side by side: depth and force of each, coldest and slowest first."""
-    from viscotack.identify.pull_off import same_temperatures
+    from viscotack.lab.tack.repeats import same_temperatures
 
     columns = {}
     groups = same_temperatures(cycles)

@@ -12,8 +12,8 @@ import numpy as np
 
 from viscotack.errors import InputError, install_command
 from viscotack.identify import RateForecast
-from viscotack.identify.speed_table import SpeedTable, jkr_work, speed_table
 from viscotack.lab.tack import Cycle, Measured
+from viscotack.lab.tack.speed_table import SpeedTable, jkr_work, speed_table
 from viscotack.model.geometry import Layer
 from viscotack.model.materials.passport_words import in_words
 from viscotack.units import readable, readable_interval
