@@ -111,9 +111,10 @@ class Wish(Request):
 class Forecast(Wish):
     """Forecast pull-off forces with a band, from a measured rate series.
 
-    The interface is fitted to the files of the study. The band combines its posterior with the
-    uncertainties of material and theory; it is narrow near measured speeds. It is that of the mean
-    of many tests; where repeated tests show their scatter, the band of a single test follows.
+    The interface, or the edge law of `identify edge`, is fitted to the files of the study. The
+    band combines its posterior with the uncertainties of material and theory; it is narrow near
+    measured speeds. It is that of the mean of many tests; where repeated tests show their scatter,
+    the band of a single test follows.
 
     Example: viscotack forecast study.toml --speed "1 um/s..10 mm/s" --plot forecast.png
     """

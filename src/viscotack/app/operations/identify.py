@@ -233,7 +233,7 @@ class IdentifyRates(Series):
         bool,
         Option(
             "Fit an interface that grows with the opening speed: amount, exponent, significance. "
-            "Takes 1 to 2 minutes."
+            "Takes minutes, which a forecast from the study does not repeat."
         ),
     ] = False
     history: Annotated[
