@@ -12,6 +12,7 @@ from rate_tests import LENS, holds, measured, of_other
 from viscotack.errors import InputError
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
+from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward, Growth
 from viscotack.identify.growth import FoundGrowth, Opening
 from viscotack.model.materials.shift import WLF
@@ -89,6 +90,27 @@ def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
 def test_chance_is_that_of_two_parameters_more(better_by):
     found = FoundGrowth(GAP, 2.0, 0.5, better_by, (), Opening(1e-12))
     assert found.chance == pytest.approx(np.exp(-better_by / 2))
+
+
+@pytest.mark.slow
+def test_cracks_of_an_interface_that_grows_are_kept_for_the_forecast(monkeypatch, tmp_path):
+    monkeypatch.setattr(growing, "_LATTICE", (0.35, 0.42, 0.5, 0.6))
+    monkeypatch.setattr(growing, "LARGEST", 2.0)
+    opening, file = Opening(1e-12), tmp_path / "kept.npz"
+
+    def pulled(speed):
+        kept = Computed.read(file)
+        forward = growing.growing(Forward(SOLID, RADIUS, computed=kept), opening, (4e-8, 6e-8))
+        law = opening.growth(GAP, 1.5, 0.5)
+        found = forward.pulled(WORK, GAP, speed, PRELOAD, 40, law).force
+        kept.write(file)
+        return float(found)
+
+    first = pulled(1e-5)
+    monkeypatch.delattr("viscotack.theory.crack.contact.growing._table")
+    assert pulled(1e-5) == first
+    # at a speed that was not computed, from the same cracks
+    assert pulled(1e-4) > 1.1 * first
 
 
 @pytest.mark.slow

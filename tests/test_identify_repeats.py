@@ -7,8 +7,8 @@ import pytest
 
 from rate_tests import LENS
 from viscotack.identify import pull_offs
-from viscotack.identify.repeats import _far, pooled
 from viscotack.lab.tack import Measured, survey
+from viscotack.lab.tack.repeats import _far, pooled
 
 
 @pytest.mark.parametrize("far", [3.45, 3.55])

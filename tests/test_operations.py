@@ -75,6 +75,13 @@ NOT_DRAWN = {
     "campaign status": [{"folder": "study"}],
     "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
     "identify dwell": [RATES],
+    "identify edge": [
+        {
+            "files": [*LENS, "lens_slow.csv"],
+            "radius": "5.19 mm",
+            "contact_modulus": "2 MPa",
+        }
+    ],
     "identify rates": [RATES, RATES | {"thickness": "300 um", "bonded": 0.49}],
     "material fit": [DMA | SHIFTED],
     "report": [{"study": "study.toml"}],
@@ -190,7 +197,7 @@ def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, monkeypa
     def stiffness_of(tests, *, stiffness, **options):
         raise InputError(f"a rig of {stiffness:g} N/m")
 
-    monkeypatch.setattr("viscotack.identify.study.RateSeries", stiffness_of)
+    monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", stiffness_of)
     (folder / "curve.jpk-force").write_bytes(tack_files.jpk(tack_files.made()))
     question = Question("identify rates", RATES | {"files": ["curve.jpk-force"]})
     found = {

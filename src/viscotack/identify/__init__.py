@@ -3,20 +3,20 @@
 A fit goes from data over a model and a likelihood to a result; sentences are made from its numbers.
 
 ============  ======================================================================
-data          ``pull_off``, ``repeats``, ``travel``, ``temperatures``, ``rate_series``
+data          ``pull_off``, ``travel``, ``temperatures``, ``rate_series``
 model         ``forward``, ``growth``, ``simulated_tests``, ``force_ratios``, ``simulations``
 likelihood    ``likelihood``, ``covariances``, ``interpolated_forces``, ``search``
-result        ``rate_fit``, ``forecasting``, ``ranked_tests``
+result        ``series_fit``, ``rate_fit``, ``edge_fit``, ``forecasting``, ``ranked_tests``
 sentences     ``rate_words``, ``slow_words``
 ============  ======================================================================
 
 One slow test goes through ``slow_tests`` and ``contacts``, tests after several dwells through
-``contact_time``. ``study`` does all for the files of a rig, ``computed`` keeps forces for the next
-time, and ``speed_table`` has the statistics that laboratories report.
+``contact_time``. ``computed`` keeps forces for the next time.
 """
 
 from .contact_time import DwellFit, identify_dwell
-from .forecasting import RateForecast, forecast_rates, interfaces
+from .edge_fit import EdgeFit, identify_edge
+from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
 from .pull_off import PullOff, pull_offs
 from .ranked_tests import NextTests, RankedTest, Trial, next_tests
@@ -27,6 +27,7 @@ from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_
 __all__ = [
     "Best",
     "DwellFit",
+    "EdgeFit",
     "Interval",
     "ModelFit",
     "NextTests",
@@ -42,8 +43,10 @@ __all__ = [
     "SlowTestFit",
     "Trial",
     "fitted_force",
+    "forecast_edge",
     "forecast_rates",
     "identify_dwell",
+    "identify_edge",
     "identify_rates",
     "identify_slow",
     "interfaces",

@@ -27,11 +27,10 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
+from viscotack.lab.tack.repeats import same_speeds
 from viscotack.model.materials import Material
 from viscotack.model.traction import LogarithmicAgeing, SaturatingAgeing
 from viscotack.units import readable
-
-from .pull_off import same_speeds
 
 # Fewest tests and dwells, and smallest ratio of the longest to the shortest time.
 _FEWEST, _DWELLS, _RANGE = 4, 3, 5.0

@@ -62,6 +62,9 @@ class Yielding:
 
     def __call__(self, values: Mapping[str, Any]) -> Array:
         """Return the ratios of one interface, shape (S,), or of many, shape (N, S)."""
+        if not self.slopes.any():
+            shape = (*np.shape(values["work_of_adhesion"]), self.log_ratio.size)
+            return np.broadcast_to(np.exp(self.log_ratio), shape)
         work, gap = (np.asarray(values[x]) for x in ("work_of_adhesion", "equilibrium_gap"))
         away = np.stack([np.log(work / self.work), np.log(gap / self.gap)], axis=-1)
         return np.exp(self.log_ratio + away @ self.slopes)

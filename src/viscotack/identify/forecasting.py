@@ -22,18 +22,21 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
+from viscotack.lab.tack.repeats import SAME
 from viscotack.model.geometry import Layer
 from viscotack.model.protocol import Move
 from viscotack.units import readable
 
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
+from .edge_fit import EdgeFit, edge_forces, refuse_far
 from .force_ratios import Mixed
 from .forward import law_of
 from .likelihood import Posterior
-from .pull_off import SAME, History
+from .pull_off import History
 from .rate_fit import RateSeriesFit
-from .rate_words import forecast_words, simulation_words
+from .rate_words import forecast_words, series_forecast_words, simulation_words
 from .search import LEAST_TABOR
+from .series_fit import SeriesFit
 from .simulated_tests import by_theory, tested
 
 _MOST = 200  # largest number of speeds
@@ -158,34 +161,21 @@ def forecast_rates(
         likely = np.log(np.vstack([(work, gap), draws]))
         found = tested(likely, changed, tests, theory)
     moved, left = conditioned(fit, [tests], draws, theory, found.model)
-    rng = np.random.default_rng(seed)
-    noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
-    sample = (np.exp(moved + noise) * found.ratio).reshape(-1, v.size)
     comparable = passport.temperature == fit.passport.temperature and dwell is None
-    slower, uncertain = _slower(fit, v, load, comparable and spring == given.stiffness)
-    part = (1 - level) / 2
-    # only where noise does not explain the larger force, the band rises, too
-    surely = slower * (1 - _SURELY * uncertain) > np.median(sample, axis=0)
-    floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
-    sample = np.where(surely, np.maximum(sample, floor), sample)
-    low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
-    if not fit.describes_tests:
-        # no band excludes the tests that the model does not describe
-        model = middle.force * np.median(np.atleast_2d(found.ratio), axis=0)
-        least, most = model * _departure(fit, v, part)
-        low, high = np.minimum(low, least), np.maximum(high, most)
-    raised = v[slower > median]
-    median, high = np.maximum(median, slower), np.maximum(high, slower)
-    one = _of_one(fit, sample, rng, part)
-    return RateForecast(
-        speed=v,
-        force=median,
-        low=low,
-        high=high,
-        low_of_one=None if one is None else np.minimum(one[0], low),
-        high_of_one=None if one is None else np.maximum(one[1], high),
+    band, raised = _banded(
+        fit,
+        v,
+        load,
+        moved=moved,
+        left=left,
+        ratio=found.ratio,
+        model=middle.force * np.median(np.atleast_2d(found.ratio), axis=0),
+        comparable=comparable and spring == given.stiffness,
         level=level,
-        preload=load,
+        seed=seed,
+    )
+    return RateForecast(
+        **band,
         temperature=passport.temperature,
         dwell=dwell,
         posterior=chain,
@@ -196,7 +186,121 @@ def forecast_rates(
     )
 
 
-def _departure(fit: RateSeriesFit, speed: Array, part: float) -> Array:
+def forecast_edge(
+    fit: EdgeFit,
+    speed: npt.ArrayLike,
+    *,
+    preload: float | None = None,
+    level: float | None = None,
+    seed: int = 0,
+) -> RateForecast:
+    """Predict pull-off forces with a band from a fitted edge law, as :func:`forecast_rates`.
+
+    Raises
+    ------
+    OutOfRange
+        If a speed is more than ten times beyond the measured ones.
+    ValueError
+        If an argument is invalid.
+    """
+    v = np.atleast_1d(np.asarray(speed, dtype=float))
+    given, own = fit.given, fit.given.speed
+    level = fit.level if level is None else level
+    load = float(given.load.mean()) if preload is None else preload
+    _check(v, load, level, None, None, None)
+    refuse_far(given, v)
+    chain = fit.sampled(seed)
+    names, draws = list(fit.best.values), chain.thinned(_DRAWS)
+    laws = {name: draws[:, i : i + 1] for i, name in enumerate(names)}
+    both, m = np.concatenate([own, v]), own.size
+    loads = np.concatenate([given.load, np.full(v.size, load)])
+    forces = edge_forces(given, laws, both, loads)
+    spread = ModelError.of_theory(fit.theory, both.size).covariance(both)
+    if fit.trend:
+        spread = spread + trend_covariance(both, own, fit.between_speeds)
+    gain, left = _left_open(fit, spread)
+    band, raised = _banded(
+        fit,
+        v,
+        load,
+        moved=np.log(forces[:, m:]) + np.log(given.force / forces[:, :m]) @ gain.T,
+        left=left,
+        ratio=np.ones(v.size),
+        model=edge_forces(given, fit.best.values, v, load),
+        comparable=True,
+        level=level,
+        seed=seed,
+    )
+    return RateForecast(
+        **band,
+        temperature=fit.passport.temperature,
+        dwell=None,
+        posterior=chain,
+        words=tuple(series_forecast_words(fit, v, chain, raised, "the law alone")),
+    )
+
+
+def _banded(
+    fit: SeriesFit,
+    v: Array,
+    load: float,
+    *,
+    moved: Array,
+    left: Array,
+    ratio: Array,
+    model: Array,
+    comparable: bool,
+    level: float,
+    seed: int,
+) -> tuple[dict[str, Any], Array]:
+    """Return force and band of a forecast, and the speeds where it is a measured force.
+
+    Parameters
+    ----------
+    fit : SeriesFit
+        Fit of the series.
+    v, load : ndarray, float
+        Speeds [m/s] and preload [N].
+    moved, left, ratio : ndarray
+        ln of the forces of sampled interfaces, their covariance, and a factor on the forces.
+    model : ndarray
+        Forces of the model alone [N].
+    comparable : bool
+        Whether forces of the series at slower speeds are lower bounds.
+    level, seed : float, int
+        Confidence level, and seed of the random numbers.
+    """
+    rng = np.random.default_rng(seed)
+    noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
+    sample = (np.exp(moved + noise) * ratio).reshape(-1, v.size)
+    slower, uncertain = _slower(fit, v, load, comparable)
+    part = (1 - level) / 2
+    # only where noise does not explain the larger force, the band rises, too
+    surely = slower * (1 - _SURELY * uncertain) > np.median(sample, axis=0)
+    floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
+    sample = np.where(surely, np.maximum(sample, floor), sample)
+    low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
+    if not fit.describes_tests:
+        # no band excludes the tests that the model does not describe
+        least, most = model * _departure(fit, v, part)
+        low, high = np.minimum(low, least), np.maximum(high, most)
+    raised = v[slower > median]
+    median, high = np.maximum(median, slower), np.maximum(high, slower)
+    one = _of_one(fit, sample, rng, part)
+    band = {
+        "speed": v,
+        "force": median,
+        "low": low,
+        "high": high,
+        "low_of_one": None if one is None else np.minimum(one[0], low),
+        "high_of_one": None if one is None else np.maximum(one[1], high),
+        "level": level,
+        "preload": load,
+    }
+    return band, raised
+
+
+def _departure(fit: SeriesFit, speed: Array, part: float) -> Array:
     """Return limits of measured over fitted force, interpolated by speed, shape (2, n)."""
     order = np.argsort(fit.given.speed)
     force = fit.given.force[order]
@@ -207,9 +311,7 @@ def _departure(fit: RateSeriesFit, speed: Array, part: float) -> Array:
     return np.exp([np.interp(wanted, at, off + sign * reach) for sign in (-1, 1)])
 
 
-def _of_one(
-    fit: RateSeriesFit, sample: Array, rng: np.random.Generator, part: float
-) -> Array | None:
+def _of_one(fit: SeriesFit, sample: Array, rng: np.random.Generator, part: float) -> Array | None:
     """Return the limits of single tests [N], shape (2, n), from means; None without a scatter."""
     scatter = max(fit.given.scatter, *(one.between_tests for one in fit.series))
     if not scatter:
@@ -270,9 +372,7 @@ def conditioned(
         trend = trend_covariance(speed, own.speed, fit.between_speeds)
     tests, error = [own, *asked], measured.joined(model)
     spread = joint_covariance(given, tests, fit.interface, error, softer, trend)
-    # covariance of the fit: noise, theory and material of the measured forces
-    gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
-    left = spread[m:, m:] - gain @ spread[:m, m:]
+    gain, left = _left_open(fit, spread)
     works, gaps, laws = draws[:, :1], draws[:, 1:2], None
     if fit.growth is not None:
         laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
@@ -285,6 +385,17 @@ def conditioned(
         ratio = fit.found.search.ratio(values)
     forecast: Array = np.log(np.concatenate(others, axis=1))
     return forecast + np.log(given.force / (at * ratio)) @ gain.T, left
+
+
+def _left_open(fit: SeriesFit, spread: Array) -> tuple[Array, Array]:
+    """Return the gain by the measured forces, and the covariance of others that they leave.
+
+    `spread` is the covariance of the errors of the measured forces, without noise, and the others.
+    """
+    m = len(fit.series)
+    # covariance of the fit: noise, theory and material of the measured forces
+    gain = np.asarray(np.linalg.solve(fit.covariance, spread[:m, m:]).T, dtype=np.float64)
+    return gain, spread[m:, m:] - gain @ spread[:m, m:]
 
 
 def _check(
@@ -312,16 +423,15 @@ def _check(
         )
 
 
-def _slower(
-    fit: RateSeriesFit, speed: Array, preload: float, comparable: bool
-) -> tuple[Array, Array]:
+def _slower(fit: SeriesFit, speed: Array, preload: float, comparable: bool) -> tuple[Array, Array]:
     """Return the largest force measured at a slower speed, and its relative uncertainty.
 
     Pull-off forces of a linear solid grow with the speed and do not fall with the preload of a
     relaxed contact. Zero where no such force was measured under the same conditions.
     """
     slower, uncertain = np.zeros(speed.size), np.zeros(speed.size)
-    for one in (*fit.series, *(one for one, _ in fit.excluded)) if comparable else ():
+    excluded = fit.excluded if isinstance(fit, RateSeriesFit) else ()
+    for one in (*fit.series, *(one for one, _ in excluded)) if comparable else ():
         if one.preload is None or one.preload > (1 + SAME) * preload:
             continue
         at = (speed > (1 + SAME) * one.speed) & (one.force.value > slower)

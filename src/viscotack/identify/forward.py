@@ -172,7 +172,7 @@ class Forward:
     body : HalfSpace or Layer
         What the sphere presses; a layer of the material with its thickness in m.
     computed : Computed, optional
-        Earlier results, for interfaces without growth.
+        Earlier results.
     """
 
     material: Material
@@ -268,18 +268,18 @@ class Forward:
             Growth of the interface.
         """
         self.check(stiffness=stiffness, moves=moves, growth=growth is not None)
-        case = ("changed", *_numbers(work, gap, speed, preload), stiffness, moves)
+        numbers = _numbers(work, gap, speed, preload, *(growth or ()))
         given = Interface(work, gap, growth), speed, preload, stiffness, moves
-        return Changed(**self._known(case, growth, lambda: self._changed(*given)._asdict()))
+        case = ("changed", *numbers, stiffness, moves)
+        return Changed(**self.stored(case, lambda: self._changed(*given)._asdict()))
 
-    def _known(
-        self, case: tuple[Any, ...], growth: Growth | None, compute: Arrays
-    ) -> Mapping[str, npt.NDArray[Any]]:
+    def stored(self, case: tuple[Any, ...], compute: Arrays) -> Mapping[str, npt.NDArray[Any]]:
         """Return arrays that were computed for a case earlier, or compute them."""
         store = self.computed
-        if store is None or growth is not None or not packaged(self.material):
+        if store is None or not packaged(self.material):
             return compute()
-        return store.of((*self._materials, self.radius, self.body, *case), compute)
+        lattice = None if self.lattice is None else self.lattice.given
+        return store.of((*self._materials, self.radius, self.body, lattice, *case), compute)
 
     @property
     def _materials(self) -> tuple[Any, ...]:
@@ -367,7 +367,7 @@ class Forward:
             columns = (one.reshape((*shape, *one.shape[1:])) for one in joined)
             return dict(zip(Pulled._fields, columns, strict=True))
 
-        return Pulled(**self._known(("pulled", *_numbers(*given), radii), growth, compute))
+        return Pulled(**self.stored(("pulled", *_numbers(*given), radii), compute))
 
     def curve(
         self, work: float, gap: float, speed: float, preload: float, growth: Growth | None = None

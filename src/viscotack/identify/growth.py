@@ -14,6 +14,7 @@ interface without growth.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -143,13 +144,13 @@ def growing(forward: Forward, opening: Opening, gaps: tuple[float, float]) -> Fo
     """Return a forward model with a lattice of cracks for all growth laws searched."""
     unit = forward.material.time_unit
     speeds = [float(opening.speed(gap)) * unit / gap for gap in gaps]
-    lattice = GrowingCracks(
-        forward.material,
+    given = (
         (_LEAST, _MORE * (LARGEST - 1)),
         (min(speeds) / _FASTER, max(speeds) * _FASTER),
         _LATTICE,
     )
-    return replace(forward, lattice=lattice)
+    kept = partial(forward.stored, ("lattice", *given))
+    return replace(forward, lattice=GrowingCracks(forward.material, *given, kept=kept))
 
 
 def growth_parameters() -> tuple[Parameter, Parameter]:

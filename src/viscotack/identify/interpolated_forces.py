@@ -16,27 +16,25 @@ _AT_ONCE = 20_000  # points interpolated per batch
 
 
 class Table:
-    """Pull-off forces over the unknowns of an interface: splines in logarithms.
+    """Forces over the unknowns of an interface: splines in logarithms.
 
     Parameters
     ----------
-    forward : Forward
-        Forward model of the material.
-    speed, preload : ndarray, shape (S,)
-        Speeds [m/s] and preloads [N] of the series.
     axes : mapping
-        Unknown -> ascending values, at least four: "work_of_adhesion" and "equilibrium_gap", with
-        growth also "strengthening" and "exponent".
-    opening : Opening, optional
-        Opening speed at which the strengthening is defined.
-    travels : bool
-        Whether to interpolate the travels between forces as well.
-    radii : int
-        Number of points of a curve.
+        Unknown -> ascending values, at least four.
+    logs : ndarray, shape (values of each unknown, columns)
+        ln of the forces, and of what else is interpolated.
+    count : int
+        Number of forces.
     """
 
-    def __init__(
-        self,
+    def __init__(self, axes: Mapping[str, Array], logs: Array, count: int) -> None:
+        self.axes, self._count = dict(axes), count
+        self._spline = lattice_spline([_inner(name, x) for name, x in self.axes.items()], logs)
+
+    @classmethod
+    def of_cracks(
+        cls,
         forward: Forward,
         speed: Array,
         preload: Array,
@@ -45,25 +43,38 @@ class Table:
         opening: Opening | None = None,
         travels: bool = False,
         radii: int = 160,
-    ) -> None:
-        self.axes = dict(axes)
-        self._count, self._with_travels = speed.size, travels
-        lattice = np.meshgrid(*self.axes.values(), indexing="ij")
-        values = {name: x[..., None] for name, x in zip(self.axes, lattice, strict=True)}
+    ) -> "Table":
+        """Return the pull-off forces of a steady crack at the edge.
+
+        Parameters
+        ----------
+        forward : Forward
+            Forward model of the material.
+        speed, preload : ndarray, shape (S,)
+            Speeds [m/s] and preloads [N] of the series.
+        axes : mapping
+            Values of "work_of_adhesion" and "equilibrium_gap", with growth also of "strengthening"
+            and "exponent".
+        opening : Opening, optional
+            Opening speed at which the strengthening is defined.
+        travels : bool
+            Whether to interpolate the travels between forces as well.
+        radii : int
+            Number of points of a curve.
+        """
+        values = lattice(axes)
         growth = None
         if opening is not None:
             gap = values["equilibrium_gap"]
             growth = opening.growth(gap, values[STRENGTHENING], values[EXPONENT])
         work, gap = values["work_of_adhesion"], values["equilibrium_gap"]
         found = forward.pulled(work, gap, speed, preload, radii, growth)
-        self.least = found.effective_tabor.min(axis=-1)
-        columns = [np.log(found.force), np.log(self.least)[..., None]]
+        least = found.effective_tabor.min(axis=-1)
+        columns = [np.log(found.force), np.log(least)[..., None]]
         if travels:
             # travels exist only for starts in compression
-            columns.append(np.log(found.travels).reshape(*self.least.shape, -1))
-        self._spline = lattice_spline(
-            [_inner(name, x) for name, x in self.axes.items()], np.concatenate(columns, axis=-1)
-        )
+            columns.append(np.log(found.travels).reshape(*least.shape, -1))
+        return cls(axes, np.concatenate(columns, axis=-1), speed.size)
 
     def __call__(self, values: Mapping[str, float]) -> Array:
         """Return forces [N], shape (S,)."""
@@ -96,6 +107,12 @@ class Table:
     def _at(self, values: Mapping[str, float]) -> Array:
         point = [_inner(name, values[name]) for name in self.axes]
         return self._spline(np.array(point))
+
+
+def lattice(axes: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the values of each unknown at all points of a lattice, with a last axis of one."""
+    points = np.meshgrid(*axes.values(), indexing="ij")
+    return {name: x[..., None] for name, x in zip(axes, points, strict=True)}
 
 
 def _inner(name: str, value: Any) -> Any:

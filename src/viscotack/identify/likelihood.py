@@ -20,6 +20,7 @@ Residuals = Callable[[Mapping[str, float]], Array]
 # Fractions of the distance from the best value to a bound, for intervals of any width or in two
 # parts.
 _PLACES = np.union1d(np.geomspace(2e-3, 1.0, 9), np.linspace(0.2, 1.0, 9))
+EVIDENCE = 6.0  # difference of two information criteria: strong evidence
 _BEYOND = 1e-9
 _SAME = 0.05  # relative difference of equal solutions
 _TRIALS = 32  # values of a parameter between the ends of its interval

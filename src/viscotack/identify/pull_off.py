@@ -5,15 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscotack.lab.grouping import levels
 from viscotack.lab.tack import Cycle, Measured
+from viscotack.lab.tack.repeats import Repeats, pooled, same_speeds, temperature_of
 from viscotack.model.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
 
-from .repeats import Repeats, pooled
 from .travel import travels
 
-SAME = 0.03  # relative difference below which speeds, and preloads, are equal
 _HELD = 0.95  # of the peak: a smaller force at the start of the retraction was not held
 
 
@@ -101,51 +99,14 @@ class PullOff:
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     """Return one pull-off per temperature and speed; repeated cycles are averaged.
 
-    These are equal as in :func:`same_speeds`. The uncertainty of a mean includes the scatter of
-    repeated cycles, which is pooled over all of them (:mod:`.repeats`). The preload is the force at
-    the start of the retractions, or None if one begins in tension.
+    These are equal as in :func:`~viscotack.lab.tack.repeats.same_speeds`. The uncertainty of a mean
+    includes the scatter of repeated cycles, which is pooled over all of them. The preload is the
+    force at the start of the retractions, or None if one begins in tension.
     """
     groups = same_speeds(cycles)
     repeats = pooled([[one.pull_off_force.value for one in same] for same in groups])
     rows = zip(groups, repeats.means, repeats.far, strict=True)
     return [_of_one_speed(same, mean, repeats, far) for same, mean, far in rows]
-
-
-def same_temperatures(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
-    """Return the cycles of each temperature, coldest first, before them those without one.
-
-    Temperatures that differ by less than 1 K from the next one are equal.
-    """
-    known = [one for one in cycles if one.temperature is not None]
-    groups = [[one for one in cycles if one.temperature is None]]
-    if known:
-        rows = levels(np.array([one.temperature for one in known]))
-        groups += [[known[i] for i in sorted(row)] for row in rows]
-    return [group for group in groups if group]
-
-
-def temperature_of(cycles: Sequence[Cycle]) -> float | None:
-    """Return the mean temperature of cycles [K], None if that of one is unknown."""
-    found = [one.temperature for one in cycles if one.temperature is not None]
-    return float(np.mean(found)) if len(found) == len(cycles) else None
-
-
-def same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
-    """Return the cycles of each temperature and speed, coldest and slowest first.
-
-    Speeds within 3 % are equal, and temperatures as in :func:`same_temperatures`.
-    """
-    return [group for same in same_temperatures(cycles) for group in _same_speeds(same)]
-
-
-def _same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
-    groups: list[list[Cycle]] = []
-    for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
-        if groups and cycle.speed.value <= (1 + SAME) * groups[-1][0].speed.value:
-            groups[-1].append(cycle)
-        else:
-            groups.append([cycle])
-    return groups
 
 
 def _of_one_speed(

@@ -18,42 +18,38 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.geometry import Layer
-from viscotack.model.materials import Passport
 from viscotack.theory.crack.contact.films import MOST_ZONE
 from viscotack.units import readable
 
 from .computed import Computed
 from .covariances import joint_covariance, shift_covariance
+from .edge_fit import EdgeFit, identify_edge
 from .force_ratios import Mixed, yielding_near
 from .forward import Changed, Forward, Interface
 from .growth import FoundGrowth, shares_of
-from .likelihood import Best, Interval, Objective, Posterior, posterior
+from .likelihood import Best
 from .pull_off import PullOff
 from .rate_series import RateSeries
 from .rate_words import fit_words, misfit_words
 from .search import LEAST_TABOR, Search, Settled, closely, grown, opening_near, settled, widely
+from .series_fit import SeriesFit
 from .simulated_tests import with_simulations
 from .simulations import Simulations
 
-_LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _OVER = 1.2  # overshoot of the limit on a layer that is left
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
 SIMULATED_TABOR = 0.2  # effective: smallest of a table for tests that can be simulated
 
 
 @dataclass(frozen=True, eq=False)
-class RateSeriesFit:
-    """Interface fitted to a rate series.
+class RateSeriesFit(SeriesFit):
+    """Interface fitted to a rate series on a linear solid.
+
+    The unknowns are "work_of_adhesion" and "equilibrium_gap", with growth also "strengthening" and
+    "exponent".
 
     Parameters
     ----------
-    found : Settled
-        The search with the covariance of the forces, its best fit, and the scatter of the forces.
-    solutions : tuple of Best
-        Separate interfaces that fit the forces, the most likely first; mostly one.
-    intervals : dict of str to Interval
-        Profile likelihood intervals of "work_of_adhesion" and "equilibrium_gap", with growth also
-        of "strengthening" and "exponent".
     growth : FoundGrowth or None
         Growth of the interface with speed, if fitted.
     excluded : tuple of (PullOff, str)
@@ -62,27 +58,9 @@ class RateSeriesFit:
         Number of simulations.
     """
 
-    found: Settled
-    solutions: tuple[Best, ...]
-    intervals: dict[str, Interval]
     growth: FoundGrowth | None
     excluded: tuple[tuple[PullOff, str], ...]
     simulations: int
-
-    @property
-    def given(self) -> RateSeries:
-        """The fitted tests, with material, machine and assumptions."""
-        return self.found.search.series
-
-    @property
-    def series(self) -> tuple[PullOff, ...]:
-        """The fitted tests."""
-        return tuple(self.given.tests)
-
-    @property
-    def passport(self) -> Passport:
-        """Passport of the material."""
-        return self.given.passport
 
     @property
     def forward(self) -> Forward:
@@ -90,19 +68,9 @@ class RateSeriesFit:
         return self.found.search.forward
 
     @property
-    def best(self) -> Best:
-        """The most likely parameters."""
-        return self.found.best
-
-    @property
     def interface(self) -> Interface:
         """The most likely interface."""
         return self.found.search.interface(self.best)
-
-    @property
-    def work_of_adhesion(self) -> float:
-        """Most likely work of adhesion [J/m2]."""
-        return self.best.values["work_of_adhesion"]
 
     @property
     def equilibrium_gap(self) -> float:
@@ -115,64 +83,23 @@ class RateSeriesFit:
         work, gap, _ = self.interface
         return self.forward.problem(work, gap, float(self.given.load[0])).groups().tabor
 
-    @cached_property
-    def forces(self) -> tuple[float, ...]:
-        """Pull-off forces of the most likely interface at the measured speeds [N]."""
-        return tuple(self.found.search.forces(self.best).tolist())
-
     @property
     def yielding(self) -> Array:
         """Ratio of these forces to those of a rigid machine by theory, shape (S,)."""
         return self.found.search.ratio(self.best.values)
 
     @property
-    def covariance(self) -> Array:
-        """Covariance of the relative forces: noise, theory, material and machine."""
-        return self.found.search.spread
-
-    @property
-    def objective(self) -> Objective:
-        """Objective function, for profiles and sampling."""
-        return self.found.search.objective
-
-    def sampled(self, seed: int = 0) -> Posterior:
-        """Sample interfaces from the posterior, of all solutions."""
-        return posterior(self.objective, self.best, others=self.solutions[1:], seed=seed)
-
-    @property
-    def scatter(self) -> float:
-        """Root mean square of residuals over their uncertainty, without `between_speeds`."""
-        return self.found.scatter
-
-    @property
-    def between_speeds(self) -> float:
-        """Relative scatter from speed to speed beyond that of repeated tests and theory."""
-        return self.found.between
-
-    @property
-    def trend(self) -> bool:
-        """Whether most of the variance of that scatter follows a power of the speed."""
-        return self.found.trend
-
-    @property
-    def theory(self) -> float:
-        """Relative standard uncertainty of the forward model, in the covariance."""
-        return self.given.theory_error
-
-    @property
-    def level(self) -> float:
-        """Confidence level of the intervals."""
-        return self.given.level
-
-    @property
-    def describes_tests(self) -> bool:
-        """Whether residuals are as large as noise and theory let them be."""
-        return self.scatter <= _LOUD
-
-    @property
     def misfit(self) -> str:
         """Sentence on tests that the fit does not describe; empty if it describes them."""
         return "" if self.describes_tests else misfit_words(self)
+
+    @cached_property
+    def edge(self) -> EdgeFit | None:
+        """The edge law fitted to the same tests; None where it does not apply."""
+        try:
+            return identify_edge(replace(self.given, growth=False))
+        except InputError:
+            return None
 
     @cached_property
     def words(self) -> tuple[str, ...]:
@@ -201,7 +128,7 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
     -----
     The bulk is linear, and the interface rate-independent unless `growth` is set. Forces that rise
     more steeply than any range allows give large residuals. Takes 1 to 20 s, mostly for the cracks
-    of the material, and up to a minute where tests are simulated; with growth 1 to 2 minutes,
+    of the material, and up to a minute where tests are simulated; with growth some minutes,
     mostly for the lattice.
     """
     forward = Forward(series.passport.material, series.radius, body=series.body, computed=computed)
@@ -213,13 +140,9 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
     else:
         found = settled(search)
         intervals = found.search.intervals(found.best, series.level)
-    several = found.search.objective.solutions(found.best, intervals, series.level)
-    if several[0].misfit < found.best.misfit:
-        found = replace(found, best=several[0])
-        intervals = found.search.intervals(found.best, series.level)
-    _check_place(found.search, found.best)
-    growth = _growth(found, plain)
-    return RateSeriesFit(found, several, intervals, growth, excluded, runs.count)
+    fit = RateSeriesFit.of(found, intervals, growth=None, excluded=excluded, simulations=runs.count)
+    _check_place(fit.found.search, fit.best)
+    return replace(fit, growth=_growth(fit.found, plain))
 
 
 def _located(

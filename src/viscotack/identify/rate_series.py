@@ -3,17 +3,20 @@
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab.tack import Survey
 from viscotack.model.geometry import HalfSpace, Layer
 from viscotack.model.materials import Material, Passport
 from viscotack.model.materials.passport_uncertainty import shift_error
 from viscotack.model.protocol import Move
 
-from .pull_off import PullOff
+from .contact_time import check_dwells
+from .pull_off import PullOff, pull_offs
 from .temperatures import shifted
 
 # Relative standard uncertainty of the forward model, without and with growth, and on a layer
@@ -248,3 +251,48 @@ class RateSeries:
             0.0 if at is None else self.passport.shift_deviation(at) for at in self.temperatures
         )
         return np.log(10.0) * np.array(list(known))
+
+
+def series_of(
+    found: Survey,
+    material: Passport | Material,
+    *,
+    temperature: float | None = None,
+    compliance: float | None = None,
+    compliance_uncertainty: float = 0.0,
+    **known: Any,
+) -> RateSeries:
+    """Return the rate series of evaluated files of a rig.
+
+    Parameters
+    ----------
+    found : Survey
+        The files.
+    material : Passport or Material
+        Solid at the temperature of the tests.
+    temperature : float, optional
+        Temperature of all tests [K]; by default that stated in each file.
+    compliance, compliance_uncertainty : float, optional
+        Compliance of the machine and its standard uncertainty [m/N]; by default that stated in the
+        files.
+    **known
+        Other parameters of :class:`RateSeries`.
+
+    Raises
+    ------
+    ValueError
+        If no cycle is valid, or the tests are no rate series.
+    """
+    check_dwells(found.cycles)
+    tests = pull_offs(found.cycles)
+    if temperature is not None:
+        tests = [replace(one, temperature=temperature) for one in tests]
+    soft = compliance or max(one.record.compliance for one in found.evaluations)
+    known_part = compliance_uncertainty > 0 and soft > 0
+    return RateSeries(
+        tests,
+        material=material,
+        stiffness=1 / soft if soft > 0 else None,
+        compliance_uncertainty=compliance_uncertainty / soft if known_part else None,
+        **known,
+    )

@@ -13,10 +13,11 @@ from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 
 from .growth import FoundGrowth
-from .likelihood import Interval, Posterior
+from .likelihood import EVIDENCE, Interval, Posterior
 from .temperatures import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
 
 if TYPE_CHECKING:
+    from .edge_fit import EdgeFit
     from .rate_fit import RateSeriesFit
 
 _NAMED = 4  # largest number of tests, or of speeds, that are named one by one
@@ -27,6 +28,11 @@ _LABELS = {
     "equilibrium_gap": ("range of attraction h0", "m"),
     "strengthening": ("strengthening", ""),
     "exponent": ("exponent of growth", ""),
+}
+_EDGE_LABELS = {
+    "work_of_adhesion": ("work of adhesion w", "J/m2"),
+    "reference_speed": ("reference speed v0", "m/s"),
+    "exponent": ("exponent n", ""),
 }
 
 
@@ -45,6 +51,7 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
     return [
         *said,
         *_of_scatter(fit),
+        *_of_edge(fit),
         *_of_solutions(fit),
         *_of_layer(fit),
         *simulation_words(fit.given.speed, fit.found.search.model.simulation, fit.simulations),
@@ -58,21 +65,60 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
 
 def misfit_words(fit: RateSeriesFit) -> str:
     """Return a sentence on tests that the fit does not describe."""
-    off = fit.given.force / np.array(fit.forces) - 1
-    worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
-    tests = ", ".join(f"{fit.series[i].at} {off[i]:+.0%}" for i in worst)
     if fit.given.growth:
         cure = "even an interface that grows; the material may be wrong, or nonlinear"
     elif isinstance(fit.given.body, Layer):
         cure = "; the material or the thickness may be wrong"
     else:
-        cure = "; --growth fits an interface that grows with speed, or the material may be wrong"
+        cure = (
+            "; --growth fits an interface that grows with speed, `viscotack identify edge` the "
+            "plain edge law, or the material may be wrong"
+        )
     if not fit.trend:
         cure += ", or tests at one speed scatter by as much, which --scatter states"
+    return f"{_off_by(fit)}. No work of adhesion and range of a linear solid explain them{cure}"
+
+
+def edge_misfit_words(fit: EdgeFit) -> str:
+    """Return a sentence on tests that an edge law does not describe."""
+    return f"{_off_by(fit)}. No energy w (1 + (v/v0)^n) of the edge explains them"
+
+
+def edge_words(fit: EdgeFit) -> list[str]:
+    """Return sentences on a fitted edge law."""
+    said = []
+    for name, ends in fit.intervals.items():
+        label, unit = _EDGE_LABELS[name]
+        said += _of_one(label, unit, fit.best.values[name], ends, fit.level)
+    modulus = readable(fit.passport.material.contact_modulus, "Pa", digits=3)
+    return [
+        "energy of the edge w (1 + (v/v0)^n) at its speed v, on an elastic solid with a contact "
+        f"modulus of {modulus}, to whose cube root v0 is proportional",
+        *said,
+        *_of_scatter(fit),
+        f"criterion {fit.criterion:.1f} (BIC; of the same tests the smaller is better)",
+        *(remark for one in fit.series for remark in one.remarks),
+    ]
+
+
+def _of_edge(fit: RateSeriesFit) -> list[str]:
+    """Compare the fit with the edge law, by their criteria."""
+    if fit.edge is None:
+        return []
+    apart = fit.edge.criterion - fit.criterion
+    said = f"the plain edge law (`viscotack identify edge`) has a criterion {abs(apart):.1f} "
+    said += "higher" if apart > 0 else "lower"
+    return [f"{said} ({EVIDENCE:g} is strong evidence for the lower one)"]
+
+
+def _off_by(fit: RateSeriesFit | EdgeFit) -> str:
+    """Name the tests that a fit does not describe."""
+    off = fit.given.force / np.array(fit.forces) - 1
+    worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
+    tests = ", ".join(f"{fit.series[i].at} {off[i]:+.0%}" for i in worst)
     return (
         f"the fit does not describe these tests: measured over fitted forces are off by {tests}, "
-        f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory. No work of "
-        f"adhesion and range of a linear solid explain them{cure}"
+        f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory"
     )
 
 
@@ -80,14 +126,23 @@ def forecast_words(
     fit: RateSeriesFit, speed: Array, crack_speed: Array, chain: Posterior, raised: Array
 ) -> list[str]:
     """Return sentences on a forecast; `raised` are the speeds at which a measured force is it."""
+    edge = readable(crack_speed.min(), "m/s", digits=2, to=crack_speed.max())
+    said = [f"the crack speed at pull-off is {edge}"]
+    if not allowed(fit.passport):
+        said.append("the band does not include the uncertainty of the material, which is unknown")
+    return series_forecast_words(fit, speed, chain, raised, "the material and the theory") + said
+
+
+def series_forecast_words(
+    fit: RateSeriesFit | EdgeFit, speed: Array, chain: Posterior, raised: Array, rests_on: str
+) -> list[str]:
+    """Return sentences on a forecast by any model; `rests_on` is what it needs elsewhere."""
     said, measured = [], fit.given.speed
     if speed.min() < 0.5 * measured.min() or speed.max() > 2 * measured.max():
         said.append(
             f"measured speeds range from {_speed(measured.min(), measured.max())}; beyond them the "
-            "prediction depends on the material and the theory"
+            f"prediction depends on {rests_on}"
         )
-    edge = readable(crack_speed.min(), "m/s", digits=2, to=crack_speed.max())
-    said.append(f"the crack speed at pull-off is {edge}")
     if len(fit.solutions) > 1:
         said.append(f"the band covers the {len(fit.solutions)} interfaces that fit the forces")
     if not chain.converged:
@@ -95,8 +150,6 @@ def forecast_words(
             "too few independent samples of the posterior: the correlation time is "
             f"{chain.correlation_time:.0f} steps"
         )
-    if not allowed(fit.passport):
-        said.append("the band does not include the uncertainty of the material, which is unknown")
     if raised.size:
         said.append(
             f"at {_speed(raised.min(), raised.max())} the model predicts less than was measured at "
@@ -163,7 +216,7 @@ def _of_growth(found: FoundGrowth) -> list[str]:
     return said
 
 
-def _of_scatter(fit: RateSeriesFit) -> list[str]:
+def _of_scatter(fit: RateSeriesFit | EdgeFit) -> list[str]:
     if not fit.between_speeds:
         return []
     if fit.trend:

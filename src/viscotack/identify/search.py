@@ -19,7 +19,7 @@ from viscotack.simulate.crack_contact.by_crack import LEAST_TABOR
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
 from .force_ratios import Mixed, Yielding
 from .forward import Forward, Interface
-from .growth import Opening, growing, growth_parameters
+from .growth import EXPONENT, Opening, growing, growth_parameters
 from .interpolated_forces import Table
 from .likelihood import Best, Interval, Objective, Parameter
 from .rate_series import RateSeries
@@ -93,7 +93,7 @@ class Search:
                 "contact; search smaller ranges, or simulate"
             )
         axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
-        table = Table(forward, series.speed, series.load, axes, travels=series.curves)
+        table = Table.of_cracks(forward, series.speed, series.load, axes, travels=series.curves)
         model = ModelError.of_theory(series.theory_error, series.speed.size)
         spread = series.noise + model.covariance(series.speed)
         rigid = Yielding.of_a_rigid_machine(series.speed.size)
@@ -121,17 +121,14 @@ class Search:
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """The unknowns, bounded by the ends of the table."""
-        ends = {name: (float(x[0]), float(x[-1])) for name, x in self.table.axes.items()}
-
-        def positive(name: str, prior: tuple[float, float] | None = None) -> Parameter:
-            low, high = ends[name]
-            return Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior)
-
-        found = [positive("work_of_adhesion", self.series.prior), positive("equilibrium_gap")]
-        for one in () if self.opening is None else growth_parameters():
-            low, high = ends[one.name]
-            middle = one.outer((one.inner(low) + one.inner(high)) / 2)
-            found.append(replace(one, low=low, high=high, start=middle))
+        found = []
+        for name, axis in self.table.axes.items():
+            low, high = float(axis[0]), float(axis[-1])
+            if name == EXPONENT:
+                found.append(Parameter(name, low, high, (low + high) / 2, logarithmic=False))
+                continue
+            prior = self.series.prior if name == "work_of_adhesion" else None
+            found.append(Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior))
         return tuple(found)
 
     @property
@@ -155,9 +152,9 @@ class Search:
         """Return the best fit from several starts."""
         objective = self.objective
         if self.opening is None:
-            (gap,) = (one for one in self.parameters if one.name == "equilibrium_gap")
-            low, high = gap.inner(gap.low), gap.inner(gap.high)
-            held = ({"equilibrium_gap": gap.outer(low + x * (high - low))} for x in _STARTS)
+            second = self.parameters[1]
+            low, high = second.inner(second.low), second.inner(second.high)
+            held = ({second.name: second.outer(low + x * (high - low))} for x in _STARTS)
             starts = [objective.best(one) for one in held]
         else:
             points, misfits = self.scanned(1)
@@ -240,7 +237,7 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     for one, step in zip(growths, steps, strict=True):
         axes[one.name] = one.outer_of(_spaced(one.inner(one.low), one.inner(one.high), step))
     case = series.speed[some], series.load[some], axes
-    table = Table(forward, *case, opening=opening, radii=_COARSE_RADII)
+    table = Table.of_cracks(forward, *case, opening=opening, radii=_COARSE_RADII)
     return replace(plain, forward=forward, table=table, opening=opening, some=some)
 
 
@@ -335,7 +332,8 @@ def closely(coarse: Search, level: float) -> tuple[Settled, dict[str, Interval]]
             high = min(near[:, i].max() + step, one.inner(one.high))
             axes[name] = one.outer_of(_spaced(low, high, apart))
         case = coarse.forward, series.speed, series.load, axes
-        table = Table(*case, opening=coarse.opening, travels=series.curves, radii=_FINE_RADII)
+        how: dict[str, Any] = {"opening": coarse.opening, "travels": series.curves}
+        table = Table.of_cracks(*case, **how, radii=_FINE_RADII)
         found = settled(replace(coarse, table=table, some=None))
         intervals = found.search.intervals(found.best, level)
         if not any(_cut(intervals[name], axes[name], widest[name]) for name in axes):

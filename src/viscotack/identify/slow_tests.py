@@ -33,8 +33,8 @@ from viscotack.theory import maugis, transition
 from viscotack.units import readable
 
 from .contacts import MODELS, RANGES, ElasticModel
-from .likelihood import Best, Interval, Objective, Parameter
-from .slow_words import DIFFERENT, slow_words, upper_bound_words
+from .likelihood import EVIDENCE, Best, Interval, Objective, Parameter
+from .slow_words import slow_words, upper_bound_words
 
 _FEWEST, _MOST = 12, 300  # numbers of points
 _QUIET = 1e-6  # smallest noise over the pull-off force
@@ -241,7 +241,7 @@ class SlowTestFit:
     @property
     def alike(self) -> tuple[ModelFit, ...]:
         """Fits that the data do not distinguish from the best, which is first."""
-        most = self.best.criterion + DIFFERENT
+        most = self.best.criterion + EVIDENCE
         return tuple(fit for fit in self.fits if fit.criterion < most)
 
     @property

@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING
 from viscotack.model.materials.passport import Passport
 from viscotack.units import readable, readable_interval
 
-from .likelihood import Interval
+from .likelihood import EVIDENCE, Interval
 from .temperatures import assumed_temperature
 
 if TYPE_CHECKING:
     from .slow_tests import ModelFit, SamePull, SlowTestFit
-
-DIFFERENT = 6.0  # difference of the criterion: strong evidence
 
 
 def upper_bound_words(fit: SlowTestFit) -> list[str]:
@@ -57,7 +55,7 @@ def slow_words(fit: SlowTestFit) -> list[str]:
         apart = alike[1].criterion - alike[0].criterion
         said = [
             f"the work of adhesion is undetermined between models: {by_each} (criteria "
-            f"{apart:.1f} apart, {DIFFERENT:g} would be evidence); contact radii from a camera, "
+            f"{apart:.1f} apart, {EVIDENCE:g} would be evidence); contact radii from a camera, "
             "or E0* with its uncertainty, distinguish them"
         ]
     else:
@@ -66,7 +64,7 @@ def slow_words(fit: SlowTestFit) -> list[str]:
     if len(names) > 1 and (reasons or not fit.undetermined):
         others = " and ".join(names[1:])
         said.append(
-            f"the data do not distinguish {names[0]} from {others} (criteria within {DIFFERENT:g})"
+            f"the data do not distinguish {names[0]} from {others} (criteria within {EVIDENCE:g})"
         )
     ranged = next((one for one in fit.fits if "tabor" in one.intervals), None)
     if ranged is not None and not reasons:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack.identify import (
+    EdgeFit,
     Posterior,
     RateForecast,
     RateSeriesFit,
@@ -14,8 +15,8 @@ from viscotack.identify import (
 )
 from viscotack.identify.contact_time import DwellFit
 from viscotack.identify.forward import Growth
-from viscotack.identify.pull_off import same_speeds, temperature_of
 from viscotack.lab.tack import Cycle
+from viscotack.lab.tack.repeats import same_speeds, temperature_of
 from viscotack.units import readable
 
 from .style import axis_unit, drawing, log_axis_unit, plain_ticks
@@ -27,8 +28,9 @@ if TYPE_CHECKING:
 _SCALES = {
     "work_of_adhesion": ("work of adhesion [J/m$^2$]", 1.0),
     "equilibrium_gap": ("range $h_0$ [nm]", 1e9),
+    "reference_speed": ("reference speed $v_0$ [µm/s]", 1e6),
     "strengthening": ("strength over that at rest", 1.0),
-    "exponent": ("exponent of growth", 1.0),
+    "exponent": ("exponent $n$", 1.0),
 }
 _CURVES = 6  # largest number of speeds with a curve
 _MOST = 20.0  # largest difference of the information criterion of a model that is drawn
@@ -75,7 +77,9 @@ def draw_dwells(fit: DwellFit) -> "Figure":
     return figure
 
 
-def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -> "Figure":
+def draw_rate_series(
+    fit: RateSeriesFit | EdgeFit, forecast: RateForecast | None = None
+) -> "Figure":
     """Draw pull-off force against speed: measured, fitted, and forecast with its band."""
     with drawing(8.0, 5.4) as figure:
         axes = figure.subplots()
@@ -87,7 +91,7 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
         style = {"fmt": "o", "color": "0.3", "label": "measured", "zorder": 3}
         axes.errorbar(speed, np.array(measured) / load, yerr=bars, **style)
         work = readable(fit.work_of_adhesion, "J/m^2", digits=3).replace("^2", "$^2$")
-        interface = f"{work}, {_range(fit)}"
+        interface = f"{work}, {_second(fit)}"
         fitted = [force / load for force in fit.forces]
         axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
         if forecast is not None:
@@ -174,8 +178,10 @@ def _from_zero_force(depth: Any, force: Any) -> tuple[Any, Any]:
     return zero - depth, force
 
 
-def _range(fit: RateSeriesFit) -> str:
-    """Return the range of attraction, its bound, or that it is not identifiable."""
+def _second(fit: RateSeriesFit | EdgeFit) -> str:
+    """Return the exponent of an edge law; else the range, its bound, or that it is unknown."""
+    if isinstance(fit, EdgeFit):
+        return f"exponent {fit.best.values['exponent']:.2g}"
     ends = fit.intervals["equilibrium_gap"]
     if ends.told:
         return f"range {readable(fit.equilibrium_gap, 'm', digits=3)}"
@@ -208,7 +214,7 @@ def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> Non
     )
 
 
-def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
+def draw_posterior(chain: Posterior, fit: RateSeriesFit | EdgeFit) -> "Figure":
     """Draw the posterior of an interface: marginal and pairwise distributions."""
     from corner import corner
 

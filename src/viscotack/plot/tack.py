@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.identify.pull_off import same_speeds, same_temperatures, temperature_of
 from viscotack.lab.tack import Cycle
+from viscotack.lab.tack.repeats import same_speeds, same_temperatures, temperature_of
 from viscotack.model.materials.shift import Shift
 from viscotack.units import readable
 

@@ -40,7 +40,7 @@ from .elastic import (
     transition,
     wavy,
 )
-from .sphere import bounds, detachment, rate, unloading
+from .sphere import bounds, detachment, edge_law, rate, unloading
 
 __all__ = [
     "CrackLaw",
@@ -53,6 +53,7 @@ __all__ = [
     "detachment",
     "disc",
     "dmt",
+    "edge_law",
     "elastic",
     "empirical",
     "film",

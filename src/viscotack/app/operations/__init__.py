@@ -94,6 +94,10 @@ SECTIONS: Mapping[str, Mapping[str, Listed]] = {
         "identify rates": Listed(
             "identify", "Identify the interface from tests at several speeds."
         ),
+        "identify edge": Listed(
+            "identify",
+            "Identify the plain edge law from pull-offs at several speeds, without a dynamic test.",
+        ),
         "identify dwell": Listed("identify_dwell", "Identify the growth with contact time."),
         "forecast": Listed("forecast", "Forecast pull-off forces from a measured rate series."),
         "next-test": Listed("next_test", "Rank tests by how much each narrows a forecast."),

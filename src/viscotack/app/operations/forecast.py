@@ -8,8 +8,8 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.units import parse, readable
 
-from .identify import IdentifyRates
-from .parts.records import forecast_rows
+from .identify import Identified, IdentifyEdge, IdentifyRates, Series
+from .parts.records import forecast_rows, interface_record
 from .parts.rig import refusals
 from .request import Answer, Caller, File, Number, Output, Request, Text, csv_file, picture
 from .simulate import HowLong
@@ -82,13 +82,22 @@ class Wish(Request):
 
     def of_fit(self, fit: Any) -> Any:
         """Compute the forecast from a fitted rate series."""
-        from viscotack.identify import forecast_rates
+        from viscotack.identify import EdgeFit, forecast_edge, forecast_rates
 
         if self.speed:
             speed = np.concatenate([np.array(some) for some in self.speed])
         else:
             measured = [one.speed for one in fit.series]
             speed = np.geomspace(min(measured), max(measured), 25)
+        if isinstance(fit, EdgeFit):
+            for name in ("temperature", "dwell", "approach_speed"):
+                if getattr(self, name) is not None:
+                    raise InputError(
+                        f"leave out `{name}`: an edge law knows relaxed contacts at the "
+                        "temperature of its tests only",
+                        field=name,
+                    )
+            return forecast_edge(fit, speed, preload=self.preload)
         return forecast_rates(
             fit,
             speed,
@@ -102,9 +111,10 @@ class Wish(Request):
 class Forecast(Wish):
     """Forecast pull-off forces with a band, from a measured rate series.
 
-    The interface is fitted to the files of the study. The band combines its posterior with the
-    uncertainties of material and theory; it is narrow near measured speeds. It is that of the mean
-    of many tests; where repeated tests show their scatter, the band of a single test follows.
+    The interface, or the edge law of `identify edge`, is fitted to the files of the study. The
+    band combines its posterior with the uncertainties of material and theory; it is narrow near
+    measured speeds. It is that of the mean of many tests; where repeated tests show their scatter,
+    the band of a single test follows.
 
     Example: viscotack forecast study.toml --speed "1 um/s..10 mm/s" --plot forecast.png
     """
@@ -123,7 +133,7 @@ class Forecast(Wish):
 
         from .parts.tables import rows_as_csv
 
-        found, forecast = _forecast(self, caller)
+        found, forecast = _forecast(self, caller, IdentifyRates, IdentifyEdge)
         rows = forecast_rows(forecast)
         return Answer(
             (found, forecast),
@@ -161,7 +171,7 @@ class Report(Wish):
         from .parts.report import page
         from .parts.tables import as_text
 
-        found, forecast = _forecast(self, caller)
+        found, forecast = _forecast(self, caller, IdentifyRates)
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
@@ -171,32 +181,34 @@ class Report(Wish):
         )
 
 
-def _forecast(asked: Forecast | Report, caller: Caller) -> tuple[Any, Any]:
+def _forecast(
+    asked: Forecast | Report, caller: Caller, *kinds: type[Series]
+) -> tuple[Identified, Any]:
     """Fit the interface to the files of a study; return it and the forecast."""
     from viscotack.clock import limited
 
     with limited(asked.time_limit):
-        found = fitted(asked.study, caller)
+        found = fitted(asked.study, caller, kinds)
         return found, asked.of_fit(found.fit)
 
 
-def fitted(study: Path, caller: Caller) -> Any:
-    """Fit the interface to the files of a study, with the forces of the file beside it."""
+def fitted(
+    study: Path, caller: Caller, kinds: tuple[type[Series], ...] = (IdentifyRates,)
+) -> Identified:
+    """Make the fit of a study, one of the kinds, with the forces of the file beside it."""
     from viscotack.identify.computed import SUFFIX
-    from viscotack.identify.study import answer
 
     from .study import read_study
 
     path = caller.file(study)
-    asked = read_study(path, IdentifyRates.word).request
-    assert isinstance(asked, IdentifyRates), "no other has its word"
-    return answer(asked.study(caller.within(path)), path.with_suffix(SUFFIX))
+    asked = read_study(path, *(kind.word for kind in kinds)).request
+    assert isinstance(asked, IdentifyRates | IdentifyEdge), "no other has these words"
+    return asked.identified(caller.within(path), path.with_suffix(SUFFIX))
 
 
 def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, Any]:
     return {
-        "work_of_adhesion_J_m2": fit.work_of_adhesion,
-        "equilibrium_gap_m": fit.equilibrium_gap,
+        **interface_record(fit),
         "describes_tests": not fit.misfit,
         "level": forecast.level,
         "preload_N": forecast.preload,

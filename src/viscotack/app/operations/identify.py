@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
@@ -18,8 +19,6 @@ from .simulate import HowLong
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
-    from viscotack.identify.computed import Computed
-    from viscotack.identify.study import Study
 
 Model = Literal["jkr", "dmt", "maugis", "carpick"]
 Radius = Annotated[
@@ -113,7 +112,71 @@ class IdentifySlow(Rig):
         )
 
 
-class IdentifyRates(Rig):
+class Series(Rig):
+    """Files of a rig that are one rate series."""
+
+    radius: Radius
+    preload: Annotated[
+        float | None,
+        Number(
+            'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of '
+            "retraction.",
+            unit="N",
+            metavar="FORCE",
+        ),
+    ] = None
+    work_of_adhesion: Annotated[
+        float | None,
+        Number(
+            'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
+            unit="J/m^2",
+            metavar="ENERGY/AREA",
+        ),
+    ] = None
+    work_of_adhesion_uncertainty: Annotated[
+        float | None,
+        Number("Its standard uncertainty; needed with it.", unit="J/m^2", metavar="ENERGY/AREA"),
+    ] = None
+    scatter: Annotated[
+        float,
+        Number(
+            'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
+            metavar="PART",
+        ),
+    ] = 0.0
+    level: Level = 0.9
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """Keywords of :func:`viscotack.identify.rate_series.series_of` for any model."""
+        names = ("radius", "preload", "scatter", "level", "compliance", "compliance_uncertainty")
+        known = {name: getattr(self, name) for name in names}
+        return known | {"work_of_adhesion": self.known("work_of_adhesion")}
+
+
+@dataclass(frozen=True, eq=False)
+class Identified:
+    """Evaluated files of a rig and what was fitted to them.
+
+    Attributes
+    ----------
+    survey : Survey
+        The files.
+    fit : RateSeriesFit or EdgeFit
+        The fit.
+    asked : Series
+        The request.
+    computed : Computed or None
+        Forces computed for the fit.
+    """
+
+    survey: Any
+    fit: Any
+    asked: Any
+    computed: Any = None
+
+
+class IdentifyRates(Series):
     """Identify work of adhesion and range of attraction from pull-offs at several speeds.
 
     The steady-crack contact model is fitted to the true speed and pull-off force of every cycle;
@@ -142,30 +205,8 @@ class IdentifyRates(Rig):
     )
 
     material: Solid
-    radius: Radius
     thickness: Annotated[float | None, THICKNESS] = None
     bonded: Annotated[float | None, BONDED] = None
-    preload: Annotated[
-        float | None,
-        Number(
-            'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of '
-            "retraction.",
-            unit="N",
-            metavar="FORCE",
-        ),
-    ] = None
-    work_of_adhesion: Annotated[
-        float | None,
-        Number(
-            'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
-            unit="J/m^2",
-            metavar="ENERGY/AREA",
-        ),
-    ] = None
-    work_of_adhesion_uncertainty: Annotated[
-        float | None,
-        Number("Its standard uncertainty; needed with it.", unit="J/m^2", metavar="ENERGY/AREA"),
-    ] = None
     temperature: Annotated[
         float | None,
         Number(
@@ -192,7 +233,7 @@ class IdentifyRates(Rig):
         bool,
         Option(
             "Fit an interface that grows with the opening speed: amount, exponent, significance. "
-            "Takes 1 to 2 minutes."
+            "Takes minutes, which a forecast from the study does not repeat."
         ),
     ] = False
     history: Annotated[
@@ -202,14 +243,6 @@ class IdentifyRates(Rig):
             "default: contacts relaxed under the preload."
         ),
     ] = False
-    scatter: Annotated[
-        float,
-        Number(
-            'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
-            metavar="PART",
-        ),
-    ] = 0.0
-    level: Level = 0.9
     time_limit: HowLong = None
     title: Annotated[str, Option("Title of the report.", metavar="WORDS")] = ""
     notes: Annotated[str, Option("Notes for the report.", metavar="WORDS")] = ""
@@ -218,72 +251,150 @@ class IdentifyRates(Rig):
         """Refuse options that exclude each other."""
         body_of(self.thickness, self.bonded)
 
-    def study(self, caller: Caller) -> "Study":
-        """Convert the options to a study for :func:`viscotack.identify.study.answer`."""
-        from viscotack.identify.study import Study
+    def identified(self, caller: Caller, kept: Path | None = None) -> Identified:
+        """Read the files and fit the interface.
 
-        return Study(
-            files=tuple(caller.file(each) for each in self.files),
-            material=solid_of(self.material, caller),
-            radius=self.radius,
+        Forces that an earlier identification computed are read from the file `kept`, and new ones
+        are written to it.
+        """
+        from viscotack.identify import identify_rates
+        from viscotack.identify.computed import Computed
+        from viscotack.identify.rate_series import series_of
+        from viscotack.model.materials.passport import Passport
+
+        solid = solid_of(self.material, caller)
+        if self.temperature is not None:
+            if not isinstance(solid, Passport):
+                raise InputError(
+                    "`temperature` needs a material with a passport, which contains the shift of "
+                    "its times; omit it",
+                    field="temperature",
+                )
+            solid = solid.moved_to(self.temperature)
+        found = self.survey(caller)
+        names = ("temperature", "temperature_uncertainty", "curves", "growth", "history")
+        series = series_of(
+            found,
+            solid,
             body=body_of(self.thickness, self.bonded),
-            preload=self.preload,
-            temperature=self.temperature,
-            temperature_uncertainty=self.temperature_uncertainty,
-            work_of_adhesion=self.known("work_of_adhesion"),
-            curves=self.curves,
-            growth=self.growth,
-            history=self.history,
-            scatter=self.scatter,
-            level=self.level,
-            reading=self.reading,
-            evaluation=self.evaluation,
-            title=self.title,
-            notes=self.notes,
+            **self.given,
+            **{name: getattr(self, name) for name in names},
         )
+        computed = Computed() if kept is None else Computed.read(kept)
+        fit = identify_rates(series, computed=computed)
+        if kept is not None:
+            computed.write(kept)
+        return Identified(found, fit, self, computed)
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the interface to the rate series."""
         from viscotack.clock import limited
-        from viscotack.identify import posterior
-        from viscotack.identify.study import answer
         from viscotack.plot.interface import draw_posterior, draw_rate_series
 
         from .parts.records import rates_record
 
         with limited(self.time_limit):
-            found = answer(self.study(caller))
+            found = self.identified(caller)
         fit = found.fit
         return Answer(
             found,
             record=lambda: rates_record(fit),
-            words=lambda: _rates_words(fit),
-            files={"output": self._written(found.computed, caller)},
+            words=lambda: f"{_series_words(fit)}\nTabor number {fit.tabor:.3g}",
+            files={"output": _written(found, caller)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
-                "corner": lambda: draw_posterior(
-                    posterior(fit.objective, fit.best, others=fit.solutions[1:]), fit
-                ),
+                "corner": lambda: draw_posterior(fit.sampled(), fit),
             },
             notes=refusals(found.survey),
         )
 
-    def _written(self, computed: "Computed", caller: Caller) -> Callable[["Target"], None]:
-        """Return a function that writes the study, and beside it the forces for a forecast."""
-        from viscotack.files.whole import is_standard_output, write_whole
-        from viscotack.identify.computed import SUFFIX
 
-        from .study import study_text
+class IdentifyEdge(Series):
+    """Identify the plain edge law from pull-offs at several speeds, without a dynamic test.
 
-        def write(target: "Target") -> None:
-            if not isinstance(target, str | os.PathLike) or is_standard_output(target):
-                write_whole(target, study_text(self, caller.folder).encode())
-                return
-            file = Path(target)
-            write_whole(file, study_text(self, file.parent).encode())
-            computed.write(file.with_suffix(SUFFIX))
+    An elastic sphere contact (JKR) whose edge takes the energy w (1 + (v/v0)^n) at its speed v is
+    fitted to the true speed and pull-off force of every cycle, in a second. The law does not
+    separate the losses of the solid from those of the interface, and holds near the measured
+    speeds: a forecast ends ten times beyond them.
 
-        return write
+    Example: viscotack identify edge tack_*.csv --radius "5 mm" --contact-modulus "2 MPa"
+    -o edge.toml
+    """
+
+    word: ClassVar = "identify edge"
+    outputs: ClassVar = (
+        Output(
+            "output",
+            "Write the study, for `viscotack forecast`.",
+            flags=("-o", "--output"),
+            metavar="STUDY",
+            endings=(".toml",),
+        ),
+        picture(),
+        picture("Draw the posterior of the law.", "corner"),
+    )
+
+    contact_modulus: Annotated[
+        float,
+        Number(
+            'E* of the solid at rest, "2 MPa". v0 is proportional to its cube root; forecasts with '
+            "a stiff rig do not depend on it.",
+            unit="Pa",
+            above=0,
+            metavar="PRESSURE",
+            example='"2 MPa"',
+        ),
+    ]
+
+    def identified(self, caller: Caller, kept: Path | None = None) -> Identified:
+        """Read the files and fit the law; no forces are kept."""
+        from viscotack.identify import identify_edge
+        from viscotack.identify.rate_series import series_of
+        from viscotack.model.materials import Elastic
+
+        found = self.survey(caller)
+        # of the solid only the contact modulus counts, here with a Poisson ratio of 0.5
+        solid = Elastic(rubbery_modulus=0.75 * self.contact_modulus, poisson_ratio=0.5)
+        return Identified(found, identify_edge(series_of(found, solid, **self.given)), self)
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the law to the rate series."""
+        from viscotack.plot.interface import draw_posterior, draw_rate_series
+
+        from .parts.records import edge_record
+
+        found = self.identified(caller)
+        fit = found.fit
+        return Answer(
+            found,
+            record=lambda: edge_record(fit),
+            words=lambda: _series_words(fit),
+            files={"output": _written(found, caller)},
+            pictures={
+                "plot": lambda: draw_rate_series(fit),
+                "corner": lambda: draw_posterior(fit.sampled(), fit),
+            },
+            notes=refusals(found.survey),
+        )
+
+
+def _written(found: Identified, caller: Caller) -> Callable[["Target"], None]:
+    """Return a function that writes the study, and beside it the forces for a forecast."""
+    from viscotack.files.whole import is_standard_output, write_whole
+    from viscotack.identify.computed import SUFFIX
+
+    from .study import study_text
+
+    def write(target: "Target") -> None:
+        if not isinstance(target, str | os.PathLike) or is_standard_output(target):
+            write_whole(target, study_text(found.asked, caller.folder).encode())
+            return
+        file = Path(target)
+        write_whole(file, study_text(found.asked, file.parent).encode())
+        if found.computed is not None:
+            found.computed.write(file.with_suffix(SUFFIX))
+
+    return write
 
 
 def _slow_words(fit: Any) -> str:
@@ -299,11 +410,11 @@ def _slow_words(fit: Any) -> str:
     return "\n".join([*lines, *words, f"Ranked by: {fit.evidence}"])
 
 
-def _rates_words(fit: Any) -> str:
+def _series_words(fit: Any) -> str:
     rows = [
         f"  {one.conditions()}: {readable(one.force.value, 'N')} measured, "
         f"{readable(force, 'N')} fitted"
         for one, force in zip(fit.series, fit.forces, strict=True)
     ]
     first, *words = fit.words
-    return "\n".join([first, *rows, *words, f"Tabor number {fit.tabor:.3g}"])
+    return "\n".join([first, *rows, *words])

@@ -66,7 +66,7 @@ class ReadTests(Rig, ShiftLaw):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
-        from viscotack.identify.speed_table import speed_table
+        from viscotack.lab.tack.speed_table import speed_table
         from viscotack.plot.tack import draw_tests
 
         from .parts.drawn import retraction
@@ -149,7 +149,7 @@ def _words(found: Any, table: Any, radius: float | None, law: Any) -> str:
 
 def _words_by_speed(table: Any, radius: float | None, law: Any) -> list[str]:
     """Describe the repeated tests, the comparison with JKR and the exponents of force by speed."""
-    from viscotack.identify.speed_table import jkr_work
+    from viscotack.lab.tack.speed_table import jkr_work
 
     from .parts.records import conditions
 

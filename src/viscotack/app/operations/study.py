@@ -36,15 +36,15 @@ class Study:
     write: Mapping[str, Path]
 
 
-def read_study(path: str | os.PathLike[str], word: str = "") -> Study:
+def read_study(path: str | os.PathLike[str], *words: str) -> Study:
     """Read a study file.
 
     Parameters
     ----------
     path : path
         The file.
-    word : str
-        The operation that it must have; "" for any.
+    *words : str
+        Operations of which it must have one; none for any.
 
     Raises
     ------
@@ -59,8 +59,10 @@ def read_study(path: str | os.PathLike[str], word: str = "") -> Study:
         found = table.pop(_OPERATION, "")
         if not isinstance(found, str) or not found:
             raise InputError('operation is missing; write for example operation = "predict"')
-        if word and found != word:
-            raise InputError(f"its operation is {found}; this needs a study of {word}")
+        if words and found not in words:
+            raise InputError(
+                f"its operation is {found}; this needs a study of {' or '.join(words)}"
+            )
         kind = operation(found)
         write = table.pop(_WRITE, {})
         return Study(request_of(kind, table), _files(kind, write, path.parent))

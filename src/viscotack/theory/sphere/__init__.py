@@ -1,5 +1,5 @@
 """Theories of the detachment of a sphere from a viscoelastic solid."""
 
-from . import bounds, detachment, rate, unloading
+from . import bounds, detachment, edge_law, rate, unloading
 
-__all__ = ["bounds", "detachment", "rate", "unloading"]
+__all__ = ["bounds", "detachment", "edge_law", "rate", "unloading"]

@@ -79,7 +79,7 @@ def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[
 
 def _jkr(force: float, radius: float | None) -> dict[str, float]:
     """Return the work of adhesion of an elastic JKR sphere; empty without a radius."""
-    from viscotack.identify.speed_table import jkr_work
+    from viscotack.lab.tack.speed_table import jkr_work
 
     return {} if radius is None else {"jkr_work_of_adhesion_J_m2": jkr_work(force, radius)}
 
@@ -106,7 +106,7 @@ def repeat_rows(table: Any, radius: float | None = None) -> list[dict[str, Any]]
 
 def curve_rows(cycles: Any) -> list[dict[str, Any]]:
     """Return the retractions side by side: depth and force of each, coldest and slowest first."""
-    from viscotack.identify.pull_off import same_temperatures
+    from viscotack.lab.tack.repeats import same_temperatures
 
     columns = {}
     groups = same_temperatures(cycles)
@@ -219,14 +219,39 @@ def slow_record(fit: Any) -> dict[str, Any]:
 def rates_record(fit: Any) -> dict[str, Any]:
     """Return the interface parameters identified from a rate series."""
     return {
-        "work_of_adhesion_J_m2": fit.work_of_adhesion,
-        "equilibrium_gap_m": fit.equilibrium_gap,
+        **interface_record(fit),
         "tabor": fit.tabor,
+        **_series_record(fit),
+        "criterion_of_edge_law": None if fit.edge is None else fit.edge.criterion,
+        "layer": _layer_record(fit.forward.body),
+        "growth": None if fit.growth is None else _growth_record(fit.growth),
+        "words": list(fit.words),
+    }
+
+
+def edge_record(fit: Any) -> dict[str, Any]:
+    """Return the edge law identified from a rate series."""
+    return {**interface_record(fit), **_series_record(fit), "words": list(fit.words)}
+
+
+def interface_record(fit: Any) -> dict[str, float]:
+    """Return the most likely interface: range of attraction, or speed and exponent of a law."""
+    units = {"equilibrium_gap": "equilibrium_gap_m", "reference_speed": "reference_speed_m_s"}
+    found = {units[name]: value for name, value in fit.best.values.items() if name in units}
+    if "reference_speed" in fit.best.values:
+        found["exponent"] = fit.best.values["exponent"]
+    return {"work_of_adhesion_J_m2": fit.work_of_adhesion} | found
+
+
+def _series_record(fit: Any) -> dict[str, Any]:
+    """Return intervals, scatter and forces of any fit of a rate series."""
+    return {
         "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
         "scatter": fit.scatter,
         "scatter_between_speeds": fit.between_speeds,
         "trend": fit.trend,
         "describes_tests": not fit.misfit,
+        "criterion": fit.criterion,
         "solutions": [dict(one.values) for one in fit.solutions],
         "series": [
             {
@@ -239,9 +264,6 @@ def rates_record(fit: Any) -> dict[str, Any]:
             }
             for one, force in zip(fit.series, fit.forces, strict=True)
         ],
-        "layer": _layer_record(fit.forward.body),
-        "growth": None if fit.growth is None else _growth_record(fit.growth),
-        "words": list(fit.words),
     }
 
 

@@ -13,7 +13,7 @@ at the speed Q V: the neighbour's bulk has the energy of its own crack at rest a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -43,6 +43,8 @@ _APART, _NOTHING = np.log(6.0), 1e-300
 _LONGER = 1.6
 _ROUND_OFF = 1e-9
 
+Kept = Callable[[Callable[[], Mapping[str, Array]]], Mapping[str, Array]]
+
 
 class GrowingCracks:
     """Opening cracks of a solid with Gent-Schultz growth, over amounts and exponents of growth.
@@ -59,6 +61,8 @@ class GrowingCracks:
         Exponents of the lattice, at least four, ascending.
     base : Traction
         Reduced law at rest.
+    kept : callable
+        Returns the arrays of a function, computed now or earlier.
     """
 
     def __init__(
@@ -69,7 +73,9 @@ class GrowingCracks:
         exponents: Sequence[float],
         *,
         base: Traction | None = None,
+        kept: Kept = lambda compute: compute(),
     ) -> None:
+        self.given = growths, speeds, tuple(exponents)
         n = np.asarray(exponents, dtype=float)
         rising = 0 < growths[0] < growths[1] and 0 < speeds[0] <= speeds[1]
         if n.size <= _ORDER or np.any(np.diff(n) <= 0) or not rising:
@@ -89,16 +95,21 @@ class GrowingCracks:
 
         reduced = material.reduced()
         base = LennardJones(1.0, 1.0) if base is None else base
-        cracks = [
-            SteadyCrack(reduced, GentSchultz(1.0, 1.0, float(v), float(x), base=base))
-            for row in v0
-            for v, x in zip(row, n, strict=True)
-        ]
-        ends = np.array([_tabulated(crack) for crack in cracks])
-        self._log_speed = np.linspace(ends[:, 0].min(), ends[:, 1].max(), _ROWS)
-        tables = np.array([_table(crack, self._log_speed) for crack in cracks])
-        tables = tables.reshape(count, n.size, 2, _ROWS)
-        self._spline = lattice_spline((part, n), tables)
+
+        def tabulated() -> dict[str, Array]:
+            cracks = [
+                SteadyCrack(reduced, GentSchultz(1.0, 1.0, float(v), float(x), base=base))
+                for row in v0
+                for v, x in zip(row, n, strict=True)
+            ]
+            ends = np.array([_tabulated(crack) for crack in cracks])
+            log_speed = np.linspace(ends[:, 0].min(), ends[:, 1].max(), _ROWS)
+            tables = np.array([_table(crack, log_speed) for crack in cracks])
+            return {"log_speed": log_speed, "tables": tables.reshape(count, n.size, 2, _ROWS)}
+
+        found = kept(tabulated)
+        self._log_speed = found["log_speed"]
+        self._spline = lattice_spline((part, n), found["tables"])
         self.at_rest = SteadyCrack(reduced, base)
         gained = np.asarray(self.at_rest.amplification(np.exp(self._log_speed))) - 1
         self._at_rest = np.maximum(gained, _NOTHING), np.ones(_ROWS)

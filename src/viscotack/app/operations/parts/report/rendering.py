@@ -12,9 +12,8 @@ import numpy as np
 
 from viscotack.errors import InputError, install_command
 from viscotack.identify import RateForecast
-from viscotack.identify.speed_table import SpeedTable, jkr_work, speed_table
-from viscotack.identify.study import Answer
 from viscotack.lab.tack import Cycle, Measured
+from viscotack.lab.tack.speed_table import SpeedTable, jkr_work, speed_table
 from viscotack.model.geometry import Layer
 from viscotack.model.materials.passport_words import in_words
 from viscotack.units import readable, readable_interval
@@ -26,17 +25,19 @@ from ..tables import Writer, rows_as_csv
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from ...identify import Identified
+
 _FOLDER = Path(__file__).parent
 _MOST_CURVES = 12  # of the picture of curves
 _MOST_ROWS = 13  # of the table of the forecast
 
 
-def page(found: Answer, forecast: RateForecast) -> str:
+def page(found: "Identified", forecast: RateForecast) -> str:
     """Return the page of a study and its forecast.
 
     Parameters
     ----------
-    found : Answer
+    found : Identified
         The files of a study, evaluated and fitted.
     forecast : RateForecast
         Of the same fit.
@@ -57,13 +58,13 @@ def page(found: Answer, forecast: RateForecast) -> str:
     return shelf.get_template("page.html").render(
         style=(_FOLDER / "page.css").read_text(),
         version=__version__,
-        title=found.study.title or "Pull-off of a sphere at several speeds",
-        notes=found.study.notes,
+        title=found.asked.title or "Pull-off of a sphere at several speeds",
+        notes=found.asked.notes,
         words=fit.words,
         cautions=forecast.words,
         facts=[*_facts(found), *_as_reported(found, repeats)],
         solutions=_solutions(found),
-        repeats=_repeats(repeats, found.study.radius),
+        repeats=_repeats(repeats, found.fit.given.radius),
         far=[f"{Path(x.source.path).name} cycle {x.number}" for y in repeats.speeds for x in y.far],
         tables=_tables(found, repeats, forecast),
         tests=_tests(found),
@@ -74,7 +75,7 @@ def page(found: Answer, forecast: RateForecast) -> str:
         forecast=_forecast(forecast),
         level=f"{fit.level:.0%}",
         theory=f"{100 * fit.theory:.3g} %",
-        layer=isinstance(found.study.body, Layer),
+        layer=isinstance(found.fit.given.body, Layer),
         material=in_words(fit.passport),
         curves=_drawing(draw_tests(found.survey.cycles, _MOST_CURVES)),
         fitted=_drawing(draw_fitted_curves(fit, found.survey.cycles)),
@@ -83,16 +84,16 @@ def page(found: Answer, forecast: RateForecast) -> str:
     )
 
 
-def _facts(found: Answer) -> list[tuple[str, str]]:
-    study, fit = found.study, found.fit
+def _facts(found: "Identified") -> list[tuple[str, str]]:
+    given, fit = found.fit.given, found.fit
     temperature = fit.passport.temperature
     loads = [one.preload or 0.0 for one in fit.series]
     preload = f"{_text(min(loads), 'N', to=max(loads))}, where retractions begin"
-    if study.preload is not None:
-        preload = _text(study.preload, "N")
+    if given.preload is not None:
+        preload = _text(given.preload, "N")
     return [
-        ("sphere radius", _text(study.radius, "m")),
-        ("material", fit.passport.name or str(study.material)),
+        ("sphere radius", _text(given.radius, "m")),
+        ("material", fit.passport.name or str(found.asked.material)),
         *_layer(found),
         ("temperature", "not stated" if temperature is None else f"{temperature - 273.15:.4g} °C"),
         ("preload", preload),
@@ -105,7 +106,7 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
     ]
 
 
-def _as_reported(found: Answer, repeats: SpeedTable) -> list[tuple[str, str]]:
+def _as_reported(found: "Identified", repeats: SpeedTable) -> list[tuple[str, str]]:
     """Return scatter of single tests, power law of force by speed, and comparison with JKR."""
     rows = []
     if repeats.scatter is not None:
@@ -116,14 +117,14 @@ def _as_reported(found: Answer, repeats: SpeedTable) -> list[tuple[str, str]]:
         exponent = _measured(repeats.exponent, "1")
         rows.append(("exponent of a power law of force by speed", exponent))
     slowest = repeats.speeds[0]
-    work = jkr_work(slowest.force, found.study.radius)
+    work = jkr_work(slowest.force, found.fit.given.radius)
     over = work / found.fit.work_of_adhesion
     at = _text(slowest.speed, "m/s", digits=3)
     comparison = f"{_text(work, 'J/m2', digits=3)}, {over:.3g} times the work of adhesion above"
     return [*rows, (f"JKR work of adhesion 2F/(3πR) at {at}", comparison)]
 
 
-def _solutions(found: Answer) -> list[tuple[str, ...]]:
+def _solutions(found: "Identified") -> list[tuple[str, ...]]:
     """Return the separate interfaces that fit the forces; empty if there is one."""
     several = found.fit.solutions
     if len(several) < 2:
@@ -158,9 +159,11 @@ def _mean(value: float, deviation: float | None, unit: str) -> tuple[str, str]:
     )
 
 
-def _tables(found: Answer, repeats: SpeedTable, forecast: RateForecast) -> list[tuple[str, str]]:
+def _tables(
+    found: "Identified", repeats: SpeedTable, forecast: RateForecast
+) -> list[tuple[str, str]]:
     """Return names of tables, and their CSV text as a data link."""
-    radius = found.study.radius
+    radius = found.fit.given.radius
     cycles = [{"file": x.source.path, **cycle_row(x, radius)} for x in found.survey.cycles]
     tables = {
         "cycles": cycles,
@@ -176,9 +179,9 @@ def _link(write: Writer) -> str:
     return f"data:text/csv;base64,{b64encode(stream.getvalue()).decode()}"
 
 
-def _layer(found: Answer) -> list[tuple[str, str]]:
+def _layer(found: "Identified") -> list[tuple[str, str]]:
     """Return thickness and base of the sample; empty for a half-space."""
-    body = found.study.body
+    body = found.fit.given.body
     if not isinstance(body, Layer):
         return []
     nu = body.poisson_ratio
@@ -186,7 +189,7 @@ def _layer(found: Answer) -> list[tuple[str, str]]:
     return [("layer", f"{_text(body.thickness, 'm')} thick, {base}")]
 
 
-def _growth(found: Answer) -> list[tuple[str, str]]:
+def _growth(found: "Identified") -> list[tuple[str, str]]:
     """Return the growth of the interface with speed; empty if it was not fitted."""
     grown = found.fit.growth
     if grown is None:
@@ -202,7 +205,7 @@ def _growth(found: Answer) -> list[tuple[str, str]]:
     ]
 
 
-def _shares(found: Answer) -> list[tuple[str, ...]]:
+def _shares(found: "Identified") -> list[tuple[str, ...]]:
     """Return the shares of bulk and interface in the energy at the edge, by speed."""
     grown = found.fit.growth
     return [
@@ -217,7 +220,7 @@ def _shares(found: Answer) -> list[tuple[str, ...]]:
     ]
 
 
-def _interval(found: Answer, name: str, unit: str) -> str:
+def _interval(found: "Identified", name: str, unit: str) -> str:
     fit = found.fit
     ends = fit.intervals[name]
     if ends.told:
@@ -229,7 +232,7 @@ def _interval(found: Answer, name: str, unit: str) -> str:
     return f"{_text(fit.best.values[name], unit)} ({both}, {fit.level:.0%})"
 
 
-def _tests(found: Answer) -> list[tuple[str, ...]]:
+def _tests(found: "Identified") -> list[tuple[str, ...]]:
     return [
         (Path(one.record.source.path).name, one.record.source.sha256[:12], *_cycle(cycle))
         for one in found.survey.evaluations
@@ -248,13 +251,13 @@ def _cycle(cycle: Cycle) -> tuple[str, ...]:
     )
 
 
-def _decisions(found: Answer) -> list[str]:
+def _decisions(found: "Identified") -> list[str]:
     """Return the notes on the evaluation of the files, without repetitions."""
     notes = (note for cycle in found.survey.cycles for note in cycle.source.notes)
     return list(dict.fromkeys(notes))
 
 
-def _series(found: Answer) -> list[tuple[str, ...]]:
+def _series(found: "Identified") -> list[tuple[str, ...]]:
     fit = found.fit
     return [
         (

@@ -1,4 +1,4 @@
-r"""Mean forces of repeated tests, with one scatter pooled over all speeds.
+r"""Repeated tests: equal temperatures and speeds, and one scatter pooled over all speeds.
 
 A few repeats at one speed do not determine their scatter: two tests that agree by chance would
 weigh a hundred times those that do not. The relative scatter s is therefore one number for a
@@ -21,7 +21,11 @@ import numpy.typing as npt
 from scipy.stats import norm, t
 
 from viscotack.arrays import Array
+from viscotack.lab.grouping import levels
 
+from .cycle import Cycle
+
+SAME = 0.03  # relative difference below which speeds, and preloads, are equal
 _FREEDOM = 6.0  # of the weights: less shrinks the scatter of three tests, more trusts outliers
 # Mean of w z^2 for a standard normal z
 _NORMAL = (_FREEDOM + 1) * (
@@ -105,3 +109,40 @@ def _far(logs: Array, scatter: float) -> tuple[int, ...]:
     apart = np.abs(logs - others) / np.sqrt(1 + 1 / (logs.size - 1))
     worst = int(np.argmax(apart))
     return (worst,) if apart[worst] > _FAR * scatter else ()
+
+
+def same_temperatures(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
+    """Return the cycles of each temperature, coldest first, before them those without one.
+
+    Temperatures that differ by less than 1 K from the next one are equal.
+    """
+    known = [one for one in cycles if one.temperature is not None]
+    groups = [[one for one in cycles if one.temperature is None]]
+    if known:
+        rows = levels(np.array([one.temperature for one in known]))
+        groups += [[known[i] for i in sorted(row)] for row in rows]
+    return [group for group in groups if group]
+
+
+def temperature_of(cycles: Sequence[Cycle]) -> float | None:
+    """Return the mean temperature of cycles [K], None if that of one is unknown."""
+    found = [one.temperature for one in cycles if one.temperature is not None]
+    return float(np.mean(found)) if len(found) == len(cycles) else None
+
+
+def same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
+    """Return the cycles of each temperature and speed, coldest and slowest first.
+
+    Speeds within 3 % are equal, and temperatures as in :func:`same_temperatures`.
+    """
+    return [group for same in same_temperatures(cycles) for group in _same_speeds(same)]
+
+
+def _same_speeds(cycles: Sequence[Cycle]) -> list[list[Cycle]]:
+    groups: list[list[Cycle]] = []
+    for cycle in sorted(cycles, key=lambda cycle: cycle.speed.value):
+        if groups and cycle.speed.value <= (1 + SAME) * groups[-1][0].speed.value:
+            groups[-1].append(cycle)
+        else:
+            groups.append([cycle])
+    return groups

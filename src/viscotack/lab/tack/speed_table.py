@@ -21,12 +21,11 @@ from itertools import islice
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.lab.tack import Cycle, Measured
 from viscotack.model.materials.shift import Shift
 from viscotack.theory.elastic import jkr
 
-from .pull_off import same_speeds, same_temperatures, temperature_of
-from .repeats import pooled
+from .cycle import Cycle, Measured
+from .repeats import pooled, same_speeds, same_temperatures, temperature_of
 
 _LEAST = 3  # speeds; two leave no residual
 
