@@ -107,21 +107,13 @@ def test_a_dwell_relaxes_the_force_to_that_of_the_relaxed_contact():
     assert held.force[-1] == pytest.approx(relaxed.force[-1], rel=5e-3, abs=0)
 
 
-def test_a_held_force_stays_as_it_is():
-    result = run(sphere(AtForce(1.0), LoadTo(-0.8, 0.1), Dwell(20.0, hold="force")))
-    held = result.time > 0.11
-    assert held.sum() > 10
-    np.testing.assert_allclose(result.force[held], -0.8, rtol=1e-5)
-    assert result.depth[held][-1] < result.depth[held][0]  # and the sphere creeps out
-
-
 # --- starts by force --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("make", "size"),
     [
-        *((sphere, {"tabor": mu}) for mu in (0.03, 1.0, 20.0)),
+        *((sphere, {"tabor": mu}) for mu in (0.03, 20.0)),
         *((punch, {"thickness": b}) for b in (0.5, 32.42)),
     ],
 )
@@ -187,11 +179,8 @@ def crack_time(load, tabor, material):
 @pytest.mark.parametrize(
     ("material", "tabor", "load"),
     [
-        (SOLID, 3.24, 1.3),
-        (SOLID, 3.24, 2.0),
         (SOLID, 8.0, 3.0),
         (power_law(), 3.24, 1.3),
-        (power_law(), 3.24, 2.0),
     ],
 )
 def test_a_dead_load_lets_go_after_the_time_of_persson_and_brener(material, tabor, load):
@@ -260,10 +249,9 @@ def six(make, shallow):
     return np.array(forces)
 
 
-@pytest.mark.parametrize("thickness", [3.24, 32.42])
-def test_the_history_of_a_punch_hardly_matters(thickness):
+def test_the_history_of_a_punch_hardly_matters():
     # thesis 3.5.1: "negligibly influenced by the loading history"
-    forces = six(lambda *x, **y: punch(*x, thickness=thickness, **y), 1.0)
+    forces = six(punch, 1.0)
     assert np.ptp(forces) < 0.02 * forces.mean()
 
 
@@ -274,10 +262,9 @@ def test_the_history_of_a_sphere_matters_and_ages_it():
     assert relaxed[0] > 1.1 * step[0]
 
 
-@pytest.mark.parametrize("tabor", [3.0, 5.0])
-def test_an_approaching_sphere_jumps_into_contact(tabor):
+def test_an_approaching_sphere_jumps_into_contact():
     result = run(
-        sphere(Apart(20.0), Approach(1.0, AtDepth(5.0)), rate=1.0, tabor=tabor, material=ELASTIC)
+        sphere(Apart(20.0), Approach(1.0, AtDepth(5.0)), rate=1.0, tabor=3.0, material=ELASTIC)
     )
     jump_in, jump_out = result.events
     assert (jump_in.kind, jump_out.kind) == ("jump into contact", "jump out of contact")
@@ -433,13 +420,6 @@ def test_a_viscoelastic_solid_behind_a_soft_spring_keeps_its_history_until_the_j
     ]
     assert forces[0] == pytest.approx(forces[1], rel=0.01)
     assert forces[0] == pytest.approx(7.74, rel=0.02)
-
-
-def test_nothing_jumps_where_a_deep_elastic_contact_waits():
-    result = solve(
-        sphere(AtDepth(1e5), Dwell(1.0), material=ELASTIC, tabor=3.0), accuracy=0.02, time_limit=20
-    )
-    assert result.events == () and result.outcome == "still in contact"
 
 
 def test_a_start_that_its_spring_does_not_hold_is_refused():
