@@ -153,20 +153,6 @@ def test_textbook_signals_are_evaluated_within_their_uncertainties():
     assert np.all((np.std(ratios, axis=0) > 0.5) & (np.std(ratios, axis=0) < 1.5))
 
 
-def test_a_contact_that_ends_in_steps_is_not_called_free():
-    test = tack_files.made(noise=2e-5)
-    # two fibrils hold on after the pull-off, with constant forces
-    last = int(np.flatnonzero(test.contact_radius > 0)[-1]) + 1
-    force = test.force.copy()
-    force[last : last + 60] -= 4e-4
-    force[last + 60 : last + 150] -= 2e-4
-    cycle = only(replace(test, force=force))
-    pull_off = cycle.pull_off_force
-    assert abs(pull_off.value + PULL_OFF.force) < 3 * pull_off.uncertainty < 0.01 * pull_off.value
-    assert abs(np.mean(cycle.force[-300:])) < 5e-6
-    assert abs(np.mean(cycle.force[:100])) < 5e-6
-
-
 def test_single_spikes_are_left_out():
     test = tack_files.made(noise=5e-5)
     force = test.force.copy()
