@@ -263,15 +263,14 @@ def test_simulation_is_second_order_in_time():
     groups = Groups(tabor=0.3, material=standard(0.1), start=AtForce(0.0), rate=3.0)
     base = _with(Settings.for_accuracy(5e-3), **STEPS_BY_TRAVEL)
     travels = np.array([0.02, 0.01, 0.005])
-    runs = [_run(groups, _with(base, travel=t, first_travel=t)) for t in (*travels, 0.000625)]
-    forces = np.array([pull_off_force(run) for run in runs])
-    errors = forces[:-1] - forces[-1]
-    assert slope(travels, errors) == pytest.approx(2.0, abs=0.1), errors
+    runs = [_run(groups, _with(base, travel=t, first_travel=t)) for t in (*travels, 0.0025)]
+    changes = -np.diff([pull_off_force(run) for run in runs])
+    assert slope(travels, changes) == pytest.approx(2.0, abs=0.1), changes
 
 
 def test_simulation_is_second_order_in_the_mesh():
     groups = Groups(tabor=1.0, material=standard(0.1), start=AtDepth(5.0), rate=1e3)
-    base = _with(Settings.for_accuracy(1e-3), fine_zones=20.0)
+    base = _with(Settings.for_accuracy(4e-3), fine_zones=20.0)
     sizes, forces = np.array([2.0, 1.0, 0.5]), []
     for size in (*sizes, 0.25):
         settings = _with(
