@@ -16,7 +16,7 @@ from viscotack.lab import (
     read_dma,
 )
 from viscotack.lab.fit import errors as fit_errors
-from viscotack.lab.fit import nonnegative
+from viscotack.lab.fit import nonnegative, prony
 from viscotack.lab.fit.fitting import Tried, _alike
 from viscotack.lab.fit.observed import observed
 from viscotack.lab.fit.passport import issued
@@ -213,12 +213,21 @@ def test_without_a_glassy_plateau_k_is_a_bound():
     assert "no glassy plateau" not in told.words()
 
 
-def test_a_series_without_a_plateau_has_a_bound_as_well():
+def test_a_series_without_a_plateau_has_a_bound_as_well(monkeypatch):
+    tails, end = [], prony.Plateau.end
+
+    def seen(self, side, tail):
+        tails.append(tail)
+        return end(self, side, tail)
+
+    monkeypatch.setattr(prony.Plateau, "end", seen)
     middle = curve(1).chosen((OMEGA[::-1] > 1e3) & (OMEGA[::-1] < 1e13))
     report = fit(middle, poisson_ratio=0.5, model="prony")
     assert report.interval("glassy_modulus").high == np.inf
     assert report.interval("rubbery_modulus").low == 0
     assert "the rubbery plateau was not measured" in report.words()
+    # an interval with one end has all that is outside of it there
+    assert tails == pytest.approx([0.1, 0.1])
 
 
 # ---- Prony series ------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from viscotack.lab import (
     fit_arrhenius,
     fit_wlf,
     master_curve,
+    nearest_law,
     read_dma,
     shift_factors,
 )
@@ -234,6 +235,23 @@ def test_the_law_behind_a_table_is_found():
         ShiftTable(rows, law.log10_shift(rows) + 0.7, None), reference_temperature=ROOM
     )
     assert found.law.activation_energy == pytest.approx(75e3, rel=1e-10)
+    # a straight line over 1/T: the error of its slope, 0.01 decades of scatter added to the stated
+    doubted = ShiftTable(rows, law.log10_shift(rows), np.full(4, 0.02))
+    unit = Arrhenius(ROOM, 1.0).log10_shift(rows)
+    expected = np.hypot(0.02, 0.01) / np.sqrt(np.sum((unit - unit.mean()) ** 2))
+    found = fit_arrhenius(doubted, reference_temperature=ROOM)
+    assert found.standard_error == pytest.approx([expected], rel=1e-9)
+
+
+@pytest.mark.parametrize(("share", "kind"), [(0.9, Arrhenius), (1.1, WLF)])
+def test_one_constant_more_is_taken_where_it_gains_the_logarithm_of_the_number_of_rows(share, kind):
+    rows = np.linspace(270.0, 320.0, 60)
+    exact, line = SHIFT.log10_shift(rows), Arrhenius(ROOM, 1.0).log10_shift(rows)
+    bent = exact - np.polyval(np.polyfit(line, exact, 1), line)
+    # the square of the deviation of a straight line, over that of a row
+    error = np.sqrt(bent @ bent / (share * np.log(60)) - 0.01**2)
+    table = ShiftTable(rows, exact, np.full(60, error))
+    assert isinstance(nearest_law(table, reference_temperature=ROOM).law, kind)
 
 
 def test_the_errors_of_a_law_are_those_of_repeated_tables():

@@ -60,7 +60,7 @@ def test_each_function_is_the_derivative_of_the_one_before(law):
     )
 
 
-@every_law
+@laws
 def test_separating_from_the_equilibrium_gap_costs_the_work_of_adhesion(law):
     h0, w = law.equilibrium_gap, law.work_of_adhesion
     corners = h0 * np.array([1.05, 1.5, 1.85, 2.2, 3.0, 6.0, 30.0])
@@ -84,6 +84,7 @@ def test_the_law_of_lennard_and_jones_has_the_verified_values():
         assert float(law.traction(gap)) == pytest.approx(row["value"], rel=1e-13, abs=1e-13)
     (row,) = (row for row in VALUES if row["equation"] == "2.1/3.17")
     assert law.edge_gap == pytest.approx(row["value"], rel=1e-14)
+    assert law.energy(np.array([1.0, 1e9])) == pytest.approx([-1.0, 0.0], abs=1e-14)
 
 
 @pytest.mark.parametrize("wrong", [-0.05, np.nan, "0.05 J/m2"])
