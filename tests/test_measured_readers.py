@@ -33,6 +33,7 @@ def assert_the_invented_film(sweeps, kind="E"):
     assert_allclose(sweeps.angular_frequency, lab_files.OMEGA, rtol=1e-11)
     assert_allclose(sweeps.storage, lab_files.PASCAL[0], rtol=1e-14)
     assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=1e-14)
+    assert_allclose(sweeps.complex_modulus.imag, lab_files.PASCAL[1], rtol=1e-14)
     assert sweeps.sweep.tolist() == [0] * 4 + [1] * 4 + [2] * 4
 
 

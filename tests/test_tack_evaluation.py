@@ -10,6 +10,7 @@ import rig_signals
 import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
+from viscotack.lab.tack import evaluation
 from viscotack.lab.tack.extremum import extremum
 from viscotack.theory import jkr
 
@@ -259,3 +260,12 @@ def test_a_tension_that_lasts_behind_the_pull_off_is_a_sign_of_fibrils():
     assert "fibrils or cavities" in fibrils.cautions[0]
     (sphere,) = tack.evaluate(pulled_film(1e-6, 5e-7), into=1).cycles
     assert sphere.cautions == ()
+
+
+def test_a_speed_that_changes_is_as_uncertain_as_one_anywhere_between_those_of_the_halves():
+    time = np.linspace(0.0, 2.0, 2001)
+    drive = 1e-6 * np.where(time < 1, time, 3 * time - 2)
+    for way, uncertainty in ((-drive, 2e-6 / np.sqrt(12)), (-2e-6 * time, 0.0)):
+        found = evaluation._speed(time, way, 0, 2000)
+        assert found.value == pytest.approx(2e-6, rel=1e-3)
+        assert found.uncertainty == pytest.approx(uncertainty, rel=0.01, abs=1e-12)

@@ -322,6 +322,11 @@ def test_where_the_machine_turns_is_no_pull_off(material):
     assert end.time > turns[-1]
 
 
+def test_a_move_behind_a_spring_ends_where_the_drive_is_told_to_be():
+    result = run(sphere(AtForce(1.0), MoveTo(9.0, 0.5), stiffness=0.5))
+    assert result.depth[-1] + result.force[-1] / 0.5 == pytest.approx(9.0, rel=1e-6, abs=0)
+
+
 def test_moves_end_where_they_are_to_end():
     history = [
         (Approach(5.0, AtForce(2.0)), "force", 2.0),
