@@ -163,6 +163,8 @@ def test_beyond_the_largest_rate_the_interval_widens_towards_the_fast_limit():
     fast = vt.predict(sphere(rate=1e10, exponent=2.0, modulus_ratio=1e-3)).pull_off_force
     assert np.all(np.diff(forces) > 0) and 0.97 * fast < forces[-1] < fast
     assert np.all(np.diff(widths) >= 0) and widths[1] == pytest.approx(widths[0], rel=0.02)
+    assert widths[-1] > 2 * widths[0]
+    assert all(x.interval[0] < x.pull_off_force < x.interval[1] for x in found)
 
 
 def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt():

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import rig_signals
 import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
-from viscotack.lab.tack import evaluation
+from viscotack.lab.tack import Measured, evaluation
 from viscotack.lab.tack.extremum import extremum
 from viscotack.theory import jkr
 
@@ -269,3 +270,18 @@ def test_a_speed_that_changes_is_as_uncertain_as_one_anywhere_between_those_of_t
         found = evaluation._speed(time, way, 0, 2000)
         assert found.value == pytest.approx(2e-6, rel=1e-3)
         assert found.uncertainty == pytest.approx(uncertainty, rel=0.01, abs=1e-12)
+
+
+def test_a_work_reaches_to_the_depth_at_which_it_ends_between_two_points():
+    exact = SimpleNamespace(noise=0.0, uncertainty=lambda *where: 0.0)
+    x = np.array([0.0, 1.0, 2.0])
+    found = evaluation._work(exact, (x, x, x, x), (0, 2), 0.0, Measured(2.5, 0.1))
+    # a triangle, a half step at the last force, and its uncertainty at that force
+    assert (found.value, found.uncertainty) == pytest.approx((3.0, 0.2))
+
+
+def test_no_minimum_is_placed_better_than_between_two_points():
+    force = 1e-3 * (np.arange(21.0) - 10.3) ** 2 - 1
+    found = extremum(force, 10, 1e-5)
+    assert found.at == pytest.approx(10.3, abs=0.1)
+    assert found.at_uncertainty == pytest.approx(np.sqrt(1 / 12), rel=0.05)
