@@ -27,6 +27,7 @@ from viscotack.result.observables import (
     pull_off,
     pull_off_force,
     summary,
+    work_to_pull_off,
 )
 from viscotack.simulate import Settings, solve
 from viscotack.simulate.solver import contact_of
@@ -293,7 +294,10 @@ def test_every_cycle_has_the_pull_off_of_a_test_of_its_own(make, span):
     # apart long enough, nothing is remembered
     tap = (Approach(5.0, AtDepth(span)), Retract(5.0, AtDepth(-12.0)), Dwell(50.0))
     found = cycles(run(make(Apart(12.0), *3 * tap)))
-    alone = cycles(run(make(Apart(12.0), Approach(5.0, AtDepth(span)), rate=5.0)))
+    once = run(make(Apart(12.0), Approach(5.0, AtDepth(span)), rate=5.0))
+    alone = cycles(once)
+    if make is sphere:
+        assert alone[0].work_to_pull_off == pytest.approx(work_to_pull_off(once), rel=1e-9)
     assert (len(found), len(alone)) == (3, 1)
     for cycle in found:
         # the minimum is flat, so that its place, and the work to it, are less certain
