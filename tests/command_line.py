@@ -1,5 +1,7 @@
 """The command line as tests call it."""
 
+import json
+
 import pytest
 
 from viscotack.app.cli import main
@@ -10,3 +12,17 @@ def exit_status(arguments):
     with pytest.raises(SystemExit) as end:
         main([str(word) for word in arguments])
     return end.value.code or 0
+
+
+def refused(arguments, capsys):
+    """Return the words of a refused command, which has written nothing to standard output."""
+    assert exit_status(arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and "Traceback" not in err
+    return err
+
+
+def answered(arguments, capsys):
+    """Return the one JSON object that a command prints."""
+    assert exit_status([*arguments, "--json"]) == 0, capsys.readouterr().err
+    return json.loads(capsys.readouterr().out)

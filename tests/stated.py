@@ -1,5 +1,7 @@
 """Problems that several tests state: by numbers, and as the text of a case file."""
 
+from dataclasses import asdict
+
 SPHERE = {
     "indenter": "sphere",
     "tabor": 3.24,
@@ -22,19 +24,44 @@ STANDARD = 'model = "sls"\nglassy_modulus = "10 MPa"\ntau0 = "1 ms"'
 PRESSED = 'preload_depth = "1 um"\nspeed = "10 um/s"'
 
 
-def case_text(material=ELASTIC, *, radius="1 mm", protocol=PRESSED):
-    """Return the text of a case file; its last table is that of the protocol."""
-    return f"""
+RUBBER = 'rubbery_modulus = "1 MPa"\npoisson_ratio = 0.5'
+LAW = 'law = "lennard-jones"\nwork_of_adhesion = "50 mJ/m^2"\nequilibrium_gap = "1 um"'
+# the lens of the thesis, Eq. 4.27 and section 4.6
+LENS = """
 [material]
-{material}
-rubbery_modulus = "1 MPa"
+model = "power-law"
+rubbery_modulus = "1.458 MPa"
+glassy_modulus = "3089 MPa"
+exponent = 0.2207
+tau0 = "18.76 ms"
 poisson_ratio = 0.5
+
 [interface]
 law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "1 um"
+work_of_adhesion = "0.1523 J/m^2"
+equilibrium_gap = "1.55 um"
+
 [sphere]
-radius = "{radius}"
+radius = "5.19 mm"
+
 [protocol]
-{protocol}
+preload_force = "1.5 mN"
+speed = "100 um/s"
 """
+
+
+def case_text(material=ELASTIC, *, radius="1 mm", protocol=PRESSED, shape=None, law=LAW):
+    """Return the text of a case file; its last table is that of the protocol."""
+    solid = material if "passport" in material else f"{material}\n{RUBBER}"
+    shape = shape or f'[sphere]\nradius = "{radius}"'
+    return f"\n[material]\n{solid}\n[interface]\n{law}\n{shape}\n[protocol]\n{protocol}\n"
+
+
+def numbers(thing):
+    """Return all the numbers of a problem, in order."""
+    if isinstance(thing, dict | list | tuple):
+        values = thing.values() if isinstance(thing, dict) else thing
+        return [number for value in values for number in numbers(value)]
+    if thing is None or isinstance(thing, str):
+        return []
+    return numbers(asdict(thing)) if hasattr(thing, "__dataclass_fields__") else [thing]

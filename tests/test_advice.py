@@ -3,15 +3,12 @@
 import json
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 import viscotack as vt
 from command_line import exit_status
 from viscotack.model.traction import effective_range
-from viscotack.theory import jkr, maugis, modulus_file, tabulated_modulus
-
-JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
+from viscotack.theory import modulus_file, tabulated_modulus
 
 
 def groups(rate, *, tabor=3.24, modulus_ratio=0.1, exponent=0.8, start=None):
@@ -99,13 +96,6 @@ def test_a_start_too_light_for_the_rate_has_no_state_at_pull_off():
     assert not long.applies and long.pull_off_force is not None
 
 
-def test_the_limits_bracket_the_simulation():
-    advice = vt.advise(groups(316.23))
-    assert estimate(advice, "elastic").pull_off_force < 7.33
-    assert estimate(advice, "glassy").pull_off_force > 7.33
-    assert not estimate(advice, "glassy").applies
-
-
 def test_adhesion_regime_follows_the_tabor_number():
     found = [
         vt.advise(groups(1.0, tabor=mu, start=vt.AtForce(1.0))).adhesion for mu in (0.05, 1, 9)
@@ -134,24 +124,6 @@ def test_pressing_harder_does_what_is_said(rate, exponent, radius, preload):
     low, high = advice.preload_change
     # each of the two simulations is good to half a per cent
     assert low - 0.01 <= heavy / light - 1 <= high + 0.01
-
-
-def test_the_same_start_said_in_three_ways_is_one():
-    depth, force = (
-        f(1.8 * np.pi ** (1 / 3), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0)
-        for f in (jkr.depth, jkr.force)
-    )
-    by_radius, by_depth, by_force = (
-        vt.advise(groups(100.0, start=start))
-        for start in (
-            vt.AtRadius(1.8),
-            vt.AtDepth(3.24 * depth),
-            vt.AtForce(force / (1.5 * np.pi)),
-        )
-    )
-    assert by_depth.start_radius == pytest.approx(1.8, rel=1e-9, abs=0)
-    assert by_force.start_radius == pytest.approx(by_radius.start_radius, rel=1e-9, abs=0)
-    assert by_force.preload_change == pytest.approx(by_radius.preload_change, rel=1e-9, abs=1e-12)
 
 
 # A hand-made table: a wall, a peak, a tail that ends.
@@ -197,14 +169,6 @@ def test_every_law_gets_advice_as_good_as_it_is_said_to_be(law, effective_tabor,
         assert e.pull_off_force == pytest.approx(force, rel=e.error + 5e-3, abs=0), e.tier
 
 
-def test_an_elastic_solid_has_one_answer():
-    elastic = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    case = vt.Groups(tabor=3.24, material=elastic, start=vt.AtDepth(20.0), rate=1.0)
-    advice = vt.advise(case)
-    assert (advice.rate_regime, advice.use, advice.preload) == ("elastic", "elastic", "any")
-    assert [e.tier for e in advice.estimates if e.applies] == ["elastic", "simulation"]
-
-
 def test_in_si_speed_and_strain_are_judged():
     slow, fast = vt.advise(silicone(1e-7)), vt.advise(silicone(1e-3))
     assert not slow.beyond_linear and fast.beyond_linear
@@ -214,22 +178,6 @@ def test_in_si_speed_and_strain_are_judged():
     dimensionless = vt.advise(silicone(1e-3).groups())
     assert dimensionless.crack_speed_at_pull_off_m_per_s is None and dimensionless.strain is None
     assert dimensionless.amplification == pytest.approx(fast.amplification, rel=1e-9, abs=0)
-
-
-def test_advice_does_not_depend_on_the_unit_of_time():
-    # a Prony series in minutes instead of seconds: 60 times the rate per unit
-    def case(unit):
-        material = vt.Prony(
-            rubbery_modulus=1.0, branches=((3.0, 0.6 / unit), (6.0, 60 / unit)), poisson_ratio=0.0
-        )
-        return vt.Groups(tabor=3.24, material=material, start=vt.AtDepth(40.0), rate=0.1 * unit)
-
-    first, second = vt.advise(case(1.0)), vt.advise(case(60.0))
-    # steps of the unloading are chosen by tolerance
-    assert first.amplification == pytest.approx(second.amplification, rel=1e-4, abs=0)
-    assert estimate(first, "rate-fit").pull_off_force == pytest.approx(
-        estimate(second, "rate-fit").pull_off_force, rel=1e-9, abs=0
-    )
 
 
 @pytest.mark.slow
@@ -252,44 +200,6 @@ def test_beyond_the_computed_threshold_force_hardly_grows():
 
 
 # The command line -----------------------------------------------------------------------------
-
-
-def test_theory_jkr_and_maugis_print_the_results_of_the_functions(tmp_path, capsys):
-    case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
-    picture = tmp_path / "jkr.png"
-    assert exit_status(["theory", "jkr", *JKR, "--json", "--plot", picture]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["pull_off_force_N"] == -jkr.pull_off(**case).force
-    assert picture.stat().st_size > 1000
-    assert exit_status(["theory", "maugis", *JKR, "--strength", "0.1 MPa", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["pull_off_force_N"] == pytest.approx(
-        maugis.pull_off_force(**case, strength=1e5), rel=1e-12, abs=0
-    )
-    assert exit_status(["theory", "jkr", *JKR]) == 0
-    assert "pull_off_force                              235.62 uN\n" in capsys.readouterr().out
-
-
-def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, capsys):
-    R, E, w, h0 = 1e-3, 1e6, 0.05, 4e-7
-    tabor = (R * w**2 / (E**2 * h0**3)) ** (1 / 3)
-    case = dict(radius=R, contact_modulus=E, work_of_adhesion=w)
-    case["strength"] = vt.LennardJones(work_of_adhesion=w, equilibrium_gap=h0).strength
-    end, load = maugis.pull_off(**case), 1.5 * np.pi * R * w
-    length = (np.pi * R**2 * w / E) ** (1 / 3)
-    picture = tmp_path / "maugis.png"
-    assert exit_status(["theory", "maugis", "--tabor", tabor, "--json", "--plot", picture]) == 0
-    found = json.loads(capsys.readouterr().out)
-    expected = {
-        "maugis_parameter": maugis.parameter_from_tabor(tabor),
-        "pull_off_force": -end.force / load,
-        "contact_radius_at_pull_off": end.contact_radius / length,
-        "cohesive_radius_at_pull_off": end.cohesive_radius / length,
-        "depth_at_pull_off": end.depth / h0,
-        "work_to_pull_off": maugis.work_to_pull_off(**case) / (load * h0),
-    }
-    assert found == pytest.approx(expected, rel=1e-9, abs=0)
-    assert picture.stat().st_size > 1000
 
 
 MODULUS = "frequency_Hz,storage_MPa,loss_kPa\n0.1,1.01,30\n1,1.1,200\n10,2,900\n100,4,3000\n"

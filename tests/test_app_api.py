@@ -4,7 +4,6 @@ import asyncio
 import json
 import os
 import signal
-from dataclasses import replace
 
 import httpx
 import pytest
@@ -132,45 +131,6 @@ def test_a_job_whose_process_crashes_says_how_and_the_next_is_served(ask, engine
     assert found["state"] == "failed"
     assert "a defect of viscotack: its process ended" in found["error"]
     assert ask.answer(ask.job("simulate", accuracy=0.02).json()["id"])["state"] == "done"
-
-
-def test_a_job_beyond_its_time_is_refused_and_the_next_is_served(ask, engine, monkeypatch):
-    with monkeypatch.context() as patch:
-        patch.setattr(engine, "limits", replace(engine.limits, job_time=0.0))
-        found = ask.answer(ask.job("simulate", accuracy=1e-6).json()["id"])
-    assert found["state"] == "refused"
-    assert "exceeded the time limit of 0 s of this server" in found["error"]
-    assert ask.answer(ask.job("simulate", accuracy=0.02).json()["id"])["state"] == "done"
-
-
-@pytest.mark.parametrize(
-    "table",
-    [
-        {"material": {"passport": "/etc/passwd"}},
-        {"material": {"model": "prony", "rubbery_modulus": "1 MPa", "file": "../x.csv"}},
-        {"interface": {"law": "table", "file": "/etc/passwd"}},
-        {"protocol": {"history": "/etc/passwd"}},
-    ],
-)
-def test_no_request_reads_a_file_of_the_server(ask, table):
-    answer = ask("POST", "/api/quick", json={"tables": FIRST | table})
-    assert answer.status_code == 422
-    assert "which is not allowed in a request" in answer.json()["error"]
-
-
-def test_a_table_that_is_sent_changes_the_problem_sent_with_it(ask):
-    rows = [{"lens": "a", "radius": "1 mm"}, {"lens": "b", "radius": "2 mm"}]
-    told = ask("POST", "/api/predict", json={"problem": FIRST, "cases": rows}).json()
-    text = "Lens;radius [mm]\na;1,0\n;\nb;2,0\n"
-    sent = ask("POST", "/api/files", files=[("files", ("cases.csv", text.encode()))]).json()
-    asked = {"problem": FIRST, "cases": "cases.csv"}
-    answer = ask("POST", "/api/predict", json=asked, params={**sent, "outputs": "csv"}).json()
-    outputs = [row["outputs"] for row in answer["rows"]]
-    assert outputs == [told["rows"][0]["outputs"], None, told["rows"][1]["outputs"]]
-    alone = FIRST | {"sphere": {"radius": "1 mm"}}
-    alone = ask("POST", "/api/predict", json={"problem": alone}).json()
-    assert outputs[0]["pull_off_force_N"] == pytest.approx(alone["pull_off_force_N"], rel=1e-12)
-    assert answer["beside"]["files"]["csv"].splitlines()[2].endswith(",empty row")
 
 
 @pytest.fixture

@@ -9,7 +9,6 @@ from viscotack.app.engine.overview import quick
 from viscotack.app.engine.state import State, state_of_toml
 from viscotack.app.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.model.problem.case_file import read_case
-from viscotack.prediction import advise, predict
 from viscotack.prediction.closed_forms import closed_forms
 from viscotack.theory import lennard_jones
 
@@ -28,31 +27,6 @@ def test_link_file_and_python_state_the_same_problem(tables, tmp_path):
     names = {}
     exec(state.python().partition("result =")[0], names)  # noqa: S102  # written by ourselves
     assert names["problem"] == problem
-
-
-def test_quick_answers_are_those_of_predict_and_advise():
-    problem = State(FIRST).problem
-    found, scales = quick(State(FIRST)), problem.scales()
-    answer = predict(problem)
-    learned = next(
-        x for x in found["numbers"] if (x["name"], x["method"]) == ("pull_off_force", "surrogate")
-    )
-    assert learned["value"] == pytest.approx(answer.pull_off_force * scales.force, rel=1e-12)
-    # the page has one headline, that of every other interface
-    assert [x["method"] for x in found["numbers"]] == ["surrogate", "surrogate"]
-    assert advise(problem).pull_off_force == answer.pull_off_force
-    tiers = {tier.tier: tier for tier in advise(problem).estimates}
-    edge = found["curves"]["edge"]
-    assert (edge["applies"], edge["why"]) == (tiers["unloading"].applies, tiers["unloading"].why)
-    # the slow limit is JKR's, from the start that was asked for
-    elastic = found["curves"]["elastic"]
-    assert elastic["force"][0] == pytest.approx(1.5e-3, rel=1e-6)
-    assert found["start"]["force"] == pytest.approx(1.5e-3, rel=1e-9)
-    assert min(elastic["force"]) == pytest.approx(-scales.force, rel=1e-3)
-    speeds = found["speeds"]
-    here = min(range(41), key=lambda i: abs(speeds["speed"][i] / speeds["here"] - 1))
-    assert speeds["force"][here] == pytest.approx(learned["value"], rel=0.05)
-    assert json.loads(json.dumps(found, allow_nan=False)) == found
 
 
 @pytest.mark.parametrize(("work", "is_crack"), [(0.15, False), (0.01, True)])

@@ -49,13 +49,6 @@ radius = "5 mm"
 """
 
 
-@pytest.fixture
-def small(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("small.toml").write_text(SMALL)
-    return Path("small.toml")
-
-
 @pytest.mark.slow
 def test_the_gripper_finger_holds_its_load_in_nine_of_ten_draws():
     record = ask("array", file=str(EXAMPLES / "gripper_finger.toml")).record()

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from stated import case_text
+from stated import LENS, case_text
 from viscotack.errors import InputError
 from viscotack.model.geometry import Sphere
 from viscotack.model.materials import (
@@ -13,7 +13,6 @@ from viscotack.model.materials import (
     RelaxationPowerLaw,
     RetardationPowerLaw,
     StandardSolid,
-    published,
 )
 from viscotack.model.problem import Problem
 from viscotack.model.problem.case_file import case_of_tables, read_case
@@ -23,28 +22,7 @@ from viscotack.model.problem.schema import schema
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.model.traction import LennardJones
 
-POWER_LAW = """
-[material]
-model = "power-law"
-rubbery_modulus = "1.458 MPa"
-glassy_modulus = "3089 MPa"
-exponent = 0.2207
-tau0 = "18.76 ms"
-poisson_ratio = 0.5
-
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.1523 J/m^2"
-equilibrium_gap = "1.55 um"
-
-[sphere]
-radius = "5.19 mm"
-
-[protocol]
-preload_force = "1.5 mN"
-speed = "100 um/s"
-"""
-LENS = Problem(
+PROBLEM = Problem(
     material=RetardationPowerLaw(
         rubbery_modulus=1.458e6,
         glassy_modulus=3.089e9,
@@ -66,18 +44,16 @@ def written(folder, text):
 
 def edited(old, new):
     """Return the case with a text replaced, after seeing that it is there."""
-    assert old in POWER_LAW
-    return POWER_LAW.replace(old, new)
+    assert old in LENS
+    return LENS.replace(old, new)
 
 
 def with_material(lines):
-    return re.sub(
-        r"\[material\].*?(?=\[interface\])", f"[material]\n{lines}\n\n", POWER_LAW, flags=re.S
-    )
+    return re.sub(r"\[material\].*?(?=\[interface\])", f"[material]\n{lines}\n\n", LENS, flags=re.S)
 
 
 def test_a_case_in_words_is_the_problem_in_numbers(tmp_path):
-    assert read_case(written(tmp_path, POWER_LAW)) == LENS
+    assert read_case(written(tmp_path, LENS)) == PROBLEM
 
 
 BASE = 'rubbery_modulus = "1 MPa"\npoisson_ratio = 0.4\n'
@@ -134,7 +110,6 @@ def test_every_start_can_be_written(line, start, tmp_path):
     [
         ("[material", "TOML"),
         (edited("[sphere]", "[ball]"), "ball"),
-        (edited('radius = "5.19 mm"', ""), r"\[sphere\] radius"),
         (edited('"5.19 mm"', "5.19"), r"\[sphere\] radius"),
         (edited('"5.19 mm"', '"5.19 Pa"'), r"\[sphere\] radius"),
         (edited('"3089 MPa"', '"3089 Pa"'), r"\[material\] glassy_modulus"),
@@ -145,8 +120,6 @@ def test_every_start_can_be_written(line, start, tmp_path):
             edited('"100 um/s"', '"1 um/s"\nmoves = "dwell 1 s"'),
             r"\[protocol\] moves must be a list",
         ),
-        (edited('"100 um/s"', '"1 um/s"\ncycles = 1.5'), r"\[protocol\] cycles must be"),
-        (edited('"100 um/s"', '"1 um/s"\ncycles = "2"'), r"\[protocol\] cycles must be a whole"),
         (edited('"100 um/s"', '"1 um/s"\ncycles = true'), r"\[protocol\] cycles must be a whole"),
         (edited("[protocol]", '[layer]\nthickness = "1 mm"\n[protocol]'), r"\[layer\] base"),
         (edited('equilibrium_gap = "1.55 um"', 'strength = "-1 MPa"'), r"\[interface\] strength"),
@@ -193,23 +166,11 @@ def test_the_documented_case_is_the_lens(tmp_path):
     text = (Path(__file__).parents[1] / "docs/input.md").read_text(encoding="utf-8")
     example = re.search(r"```toml\n(.*?)```", text, flags=re.S)
     assert example
-    assert read_case(written(tmp_path, example[1])) == LENS
+    assert read_case(written(tmp_path, example[1])) == PROBLEM
     series = re.search(r"```text\n(.*?)```", text, flags=re.S)
     assert series
     (tmp_path / "series.csv").write_text(series[1])
     assert read_prony(tmp_path / "series.csv") == (((5.0, 1e-3), (4.0, 1.0)), "s")
-
-
-def test_tables_that_were_sent_state_what_the_file_states():
-    assert case_of_tables(tomllib.loads(POWER_LAW)) == LENS
-
-
-def test_a_published_material_is_named_without_a_file():
-    tables = tomllib.loads(POWER_LAW) | {"material": {"passport": "pdms-10-1"}}
-    passport = published("pdms-10-1")
-    assert case_of_tables(tables).material == passport.material
-    tables["material"]["temperature"] = "0 degC"
-    assert case_of_tables(tables).material == passport.at_temperature(273.15)
 
 
 @pytest.mark.parametrize(
@@ -222,7 +183,7 @@ def test_a_published_material_is_named_without_a_file():
     ],
 )
 def test_tables_that_were_sent_name_no_file(table, replaced):
-    tables = tomllib.loads(POWER_LAW) | {table: replaced}
+    tables = tomllib.loads(LENS) | {table: replaced}
     with pytest.raises(InputError, match=r"the case, \[.*which is not allowed in a request"):
         case_of_tables(tables)
 

@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 from pathlib import Path
 
 import pytest
@@ -65,18 +64,6 @@ def test_each_row_has_the_answer_of_its_own_problem(case, tmp_path, capsys):
     assert "  a, sphere.radius 5 mm, protocol.speed 10 um/s: pull-off force " in said.out
 
 
-def test_python_and_files_give_the_same_rows(case, tmp_path, capsys):
-    assert exit_status(["predict", case, tmp_path / "cases.csv", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    rows = [dict(zip(HEADINGS, row, strict=True)) for row in ROWS]
-    answer = ask("predict", problem=vt.read_case(case), cases=rows)
-    assert json.loads(json.dumps(answer.record())) == told
-    # numbers in Python are in SI, or in the unit of their heading
-    si = ask("predict", problem=case, cases=[{"sphere.radius": 5e-3, "speed [um/s]": 10}])
-    first = si.record()["rows"][0]
-    assert first["outputs"] == told["rows"][0]["outputs"] and "carried" not in first
-
-
 def test_workbooks_and_semicolons_have_the_rows_of_a_plain_table(case, tmp_path, capsys):
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
@@ -98,27 +85,6 @@ def test_workbooks_and_semicolons_have_the_rows_of_a_plain_table(case, tmp_path,
         assert list(head[:4]) == HEADINGS and len(body) == len(ROWS)
         assert body[0][at] == outputs[0]["pull_off_force_N"] and body[1][at] is None
         assert body[0][head.index("inside")] is True and body[1][head.index("why")] == "empty row"
-
-
-def test_a_dimensionless_problem_is_changed_as_well():
-    stated = {"indenter": "sphere", "tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8}
-    stated |= {"preload": 73, "rate": 316.23}
-    found = ask("predict", problem=stated, cases=[{"Tabor": 1.0, "preload": "20"}])
-    alone = ask("predict", problem=stated | {"tabor": 1.0, "preload": 20.0}).record()
-    row = found.record()["rows"][0]
-    assert row["outputs"]["pull_off_force"] == alone["pull_off_force"]
-    stream = io.BytesIO()
-    found.files["csv"](stream)
-    assert stream.getvalue().startswith(b"Tabor,preload,pull_off_force,pull_off_force_low,")
-
-
-def test_a_pad_has_stresses():
-    found = ask("predict", problem=PAD, cases=[{"preload stress": "2 kPa", "thickness [um]": 50}])
-    alone = ask("predict", problem=PAD).record()
-    assert found.record()["rows"][0]["outputs"]["pull_off_stress_Pa"] == alone["pull_off_stress_Pa"]
-    stream = io.BytesIO()
-    found.files["csv"](stream)
-    assert b"pull_off_stress [Pa]" in stream.getvalue().splitlines()[0]
 
 
 def test_two_headings_of_one_number_are_refused(case):

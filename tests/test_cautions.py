@@ -9,6 +9,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from stated import LAW, case_text
 from viscotack.model.materials.library import published
 from viscotack.model.materials.passport import Evidence, Passport
 from viscotack.model.materials.passport_file import write_passport
@@ -19,19 +20,12 @@ from viscotack.theory import SteadyCrack
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=10e6, tau0=0.01, poisson_ratio=0.5)
 # Speed of the machine: the edge stays below 100 um/s.
 SLOW = 2e-6
-CASE = """
-[material]
-passport = "{}"
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "200 nm"
-[sphere]
-radius = "1 mm"
-[protocol]
-preload_force = "0.5 mN"
-speed = "{}"
-"""
+
+
+def case_of(passport, speed):
+    law = LAW.replace("1 um", "200 nm")
+    protocol = f'preload_force = "0.5 mN"\nspeed = "{speed}"'
+    return case_text(f'passport = "{passport}"', law=law, protocol=protocol)
 
 
 def lens(speed=SLOW):
@@ -87,7 +81,7 @@ def test_a_fast_edge_is_faster_than_linear_theory_holds():
 def test_every_command_has_the_cautions(tmp_path, capsys):
     case = tmp_path / "case.toml"
     for name, speed in (("dragon-skin-30", "1 mm/s"), ("vhb-4910", "10 um/s")):
-        case.write_text(CASE.format(name, speed))
+        case.write_text(case_of(name, speed))
         found = cautions_on(vt.read_case(case), passport=published(name))
         assert found
         for command in ("predict", "advise"):
@@ -105,7 +99,7 @@ def test_the_uncertainty_of_a_measured_material_is_not_in_the_interval(tmp_path)
     assert vt.predict(problem, passport=measured(1e-6, 1e3)).cautions == ()
     write_passport(known, tmp_path / "rubber.toml")
     case = tmp_path / "case.toml"
-    case.write_text(CASE.format("rubber.toml", "2 um/s"))
+    case.write_text(case_of("rubber.toml", "2 um/s"))
     wide = vt.ask("uncertainty", problem=case, passport=tmp_path / "rubber.toml", samples=32)
     low, high = vt.predict(problem).interval
     least, most = wide.record()["interval"]
@@ -117,7 +111,7 @@ def test_a_temperature_moves_the_measured_range(tmp_path):
     own = measured(1.0, 10.0, temperature=293.15, shift=shift)
     write_passport(own, tmp_path / "rubber.toml")
     case = tmp_path / "case.toml"
-    case.write_text(CASE.format("rubber.toml", "2 um/s"))
+    case.write_text(case_of("rubber.toml", "2 um/s"))
     cold = vt.ask("predict", problem={"case": str(case), "temperature": "0 degC"}).record()
     a = float(10 ** shift.log10_shift(273.15))
     (words,) = cold["cautions"]

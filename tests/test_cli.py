@@ -6,12 +6,14 @@ import sys
 import numpy as np
 import pytest
 
+import stated
 import viscotack
-from command_line import exit_status
+from command_line import exit_status, refused
 from synthetic import jkr_detachment, jkr_result
+from test_case_file import PROBLEM
 from viscotack import simulate
 from viscotack.app import cli
-from viscotack.model.materials import Elastic, Prony, RetardationPowerLaw
+from viscotack.model.materials import Elastic, RetardationPowerLaw
 from viscotack.model.problem import Groups, Problem
 from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.model.traction import LennardJones
@@ -38,15 +40,6 @@ def fake(monkeypatch):
 
     monkeypatch.setattr(simulate, "solve", solve)
     return asked
-
-
-def wrong(arguments, capsys):
-    """Return the message of a refused command: one paragraph, nothing on standard output."""
-    assert exit_status(arguments) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert "Traceback" not in err
-    return err
 
 
 def test_the_five_numbers_are_the_power_law(fake, capsys):
@@ -80,22 +73,6 @@ def test_a_start_is_by_depth_force_or_radius(flags, start, fake):
     exit_status([*SPHERE, "--material", "elastic", "--tabor", "2", *flags])
     assert fake["problem"].start == start
     assert fake["problem"].material == Elastic(rubbery_modulus=1, poisson_ratio=0)
-
-
-def test_a_prony_file_sets_the_unit_of_time(fake, tmp_path):
-    path = tmp_path / "series.csv"
-    path.write_text("modulus_ratio,relaxation_time_ms\n5,20\n4,300\n")
-    flags = ["--material", f"prony:{path}", *"--tabor 2 --preload 5 --rate 3".split()]
-    exit_status([*SPHERE, *flags])
-    assert fake["problem"].material == Prony(
-        rubbery_modulus=1, branches=((5, 20), (4, 300)), poisson_ratio=0
-    )
-    assert fake["problem"].rate == 3
-    series = {"material": f"prony:{path}", "modulus_ratio": None, "exponent": None}
-    exit_status(lens(**series))
-    assert fake["problem"].rate == 3  # a time beside those of the file is refused
-    exit_status(lens(**series, tau0=None))
-    assert fake["problem"].material.branches[1] == pytest.approx((4 * 1.458e6, 0.3), rel=1e-12)
 
 
 LENS = {
@@ -153,7 +130,7 @@ def test_flags_with_units_state_a_problem_in_si(fake, capsys):
     ],
 )
 def test_a_wrong_flag_in_si_is_named(changes, flag, fake, capsys):
-    assert flag in wrong(lens(**changes), capsys)
+    assert flag in refused(lens(**changes), capsys)
 
 
 def test_a_failed_simulation_exits_with_one_and_its_status(fake, capsys):
@@ -170,12 +147,6 @@ TAPS = [
     *"simulate sphere --tabor 1 --material sls --modulus-ratio 0.1 --accuracy 1e-2".split(),
     *["--apart", "10"],
     *2 * ["--move", "approach 5 to depth 2", "--move", "retract 5 to depth -15"],
-]
-HANG = [
-    *"simulate sphere --material sls --modulus-ratio 0.1 --accuracy 1e-2 --preload-force".split(),
-    *["0 N", "--radius", "5 mm", "--contact-modulus", "2 MPa", "--tau0", "0.1 s", "--strength"],
-    *["150 kPa", "--work-of-adhesion", "0.15 J/m^2"],
-    *["--move", "load to force -5.3 mN in 0.1 ms", "--move", "hold force 100 s"],
 ]
 
 
@@ -195,20 +166,6 @@ def test_each_cycle_is_printed_as_text_json_and_a_table(capsys, tmp_path):
     assert capsys.readouterr().out == (tmp_path / "c.csv").read_text()
 
 
-def test_time_to_failure_under_a_dead_load_is_printed_as_text_json_and_a_table(capsys, tmp_path):
-    run = [*HANG, "--save", tmp_path / "d.npz"]
-    assert exit_status([*run, "--cycles", tmp_path / "d.csv"]) == 0
-    words = capsys.readouterr().out
-    assert exit_status(["show", tmp_path / "d.npz", "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["pull_off_force"] is None and answer["pull_off_force_N"] is None
-    time = answer["time_to_detachment"]
-    assert answer["time_to_detachment_s"] == pytest.approx(0.1 * time, rel=1e-12)
-    assert f"{time:.5g}" in words and f"{0.1 * time:.4g} s" in words
-    table = np.genfromtxt(tmp_path / "d.csv", delimiter=",", names=True)
-    assert table["time_to_detachment_s"] == answer["time_to_detachment_s"]
-
-
 def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
     path = tmp_path / "run.npz"
     exit_status([*SPHERE, *ISSUE, "--json", "--save", path])
@@ -222,16 +179,14 @@ def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
 
 
 def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
-    from test_case_file import LENS, POWER_LAW
-
     path = tmp_path / "lens.toml"
-    path.write_text(POWER_LAW)
+    path.write_text(stated.LENS)
     assert exit_status([*SPHERE, path]) == 0
-    assert fake["problem"] == LENS
+    assert fake["problem"] == PROBLEM
     out = capsys.readouterr().out
     assert "= 3.725 mN" in out
-    path.write_text(POWER_LAW.replace("5.19 mm", "5.19"))
-    assert "[sphere] radius: '5.19' has no unit" in wrong([*SPHERE, path], capsys)
+    path.write_text(stated.LENS.replace("5.19 mm", "5.19"))
+    assert "[sphere] radius: '5.19' has no unit" in refused([*SPHERE, path], capsys)
 
 
 def test_a_true_simulation_from_a_terminal():

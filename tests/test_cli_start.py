@@ -36,10 +36,7 @@ def loaded(arguments, modules):
     ("arguments", "modules"),
     [
         ("--help", LISTED),
-        ("--version", LISTED),
-        ("theory --help", LISTED),
         ("predict --help", HELPED),
-        ("simulate sphere --help", HELPED),
         (PREDICT, PREDICTED),
     ],
 )

@@ -46,7 +46,7 @@ def at(speed, **more):
     return replace(PAD, protocol=replace(PAD.protocol, speed=speed, **more))
 
 
-@pytest.mark.parametrize("speed", [2e-5, 3.3e-5, 1.1e-4, 2e-4])
+@pytest.mark.parametrize("speed", [3.3e-5, 2e-4])
 def test_the_table_has_the_forces_of_simulations_between_its_speeds(table, speed):
     result, unit = vt.solve(at(speed), accuracy=0.01), PAD.scales()
     peak = vt.pull_off_force(result) * unit.force

@@ -84,7 +84,7 @@ def test_the_limits_of_punches_are_elastic_layers_and_fast_ones():
 def test_rows_are_what_the_solver_gives(name):
     table = loaded(name)
     quick = np.flatnonzero(numbers(table, "steps") < 300)
-    for place in np.random.default_rng(5).choice(quick, 3, replace=False):
+    for place in np.random.default_rng(5).choice(quick, 1):
         (row,) = table.slice(place, 1).to_pylist()
         kind = KINDS[kind_of(name)]
         problem = kind.problem({column: row[column] for column in INPUTS[kind.name]})

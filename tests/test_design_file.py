@@ -37,13 +37,6 @@ equilibrium_gap = "100 nm"
 """
 
 
-@pytest.fixture
-def small(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("small.toml").write_text(SMALL)
-    return Path("small.toml")
-
-
 @pytest.mark.parametrize(
     "old, new, field",
     [

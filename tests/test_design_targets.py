@@ -97,15 +97,6 @@ def test_a_simulated_load_falls_after_the_time(fast):
     assert run.time == pytest.approx(10.0, rel=0.3)
 
 
-def test_a_stiffer_family_is_a_scale(fast):
-    """Moduli and works times c at the same lengths: forces times c."""
-    pad = Pad("rubber", 1e-3, 2e-3, 1e-3)
-    twice = FastTier({"rubber": RUBBER}, replace(LAW, work_of_adhesion=0.1), SURROGATES)
-    stiff = twice.force(replace(pad, preload=4e-3, modulus=3e6))
-    assert stiff.value == pytest.approx(2 * fast.force(pad).value, rel=1e-9)
-    assert fast.force(replace(pad, modulus=1.5e6)).value == fast.force(pad).value
-
-
 def test_other_tips_layers_and_backings_have_the_limits_of_the_sphere(short):
     pad = Pad("rubber", 1e-3, 2e-3, 1e-4)
     sphere = short.force(pad)

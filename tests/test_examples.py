@@ -76,12 +76,6 @@ def test_profiles_show_tension_at_the_edge(tmp_path, capsys):
     assert np.nanmin(pressure) == pytest.approx(-vt.LennardJones(1, 1).strength, rel=0.05)
 
 
-def test_lens_from_a_file_is_the_lens_of_the_demo():
-    case = vt.read_case(EXAMPLES / "from_toml" / "lens.toml")
-    demo = load("pdms_lens")
-    assert vt.run_id(case) == vt.run_id(demo.lens(demo.PDMS, 100e-6))
-
-
 def test_the_loop_is_largest_at_a_middle_speed(tmp_path, capsys):
     example = load("hysteresis")
     results = example.main(accuracy=1e-2, picture=tmp_path / "loops.png")

@@ -16,7 +16,7 @@ from viscotack.lab import (
     read_dma,
 )
 from viscotack.lab.fit import errors as fit_errors
-from viscotack.lab.fit import nonnegative
+from viscotack.lab.fit import nonnegative, prony
 from viscotack.lab.fit.fitting import Tried, _alike
 from viscotack.lab.fit.observed import observed
 from viscotack.lab.fit.passport import issued
@@ -99,6 +99,16 @@ def test_without_noise_every_constant_is_exact():
     solid = report.material
     found = (solid.rubbery_modulus, solid.glassy_modulus, solid.exponent, solid.tau0)
     assert_allclose(found, TRUTH, rtol=1e-6)
+
+
+def test_intervals_and_draws_of_independent_errors_are_those_of_student():
+    rows = fit_errors.Rows(np.zeros(4, dtype=int), np.arange(4.0), None)
+    forms = (fit_errors._Form(0.0),)
+    found = fit_errors.Errors(rows, forms, np.ones(1), np.array([2.0]), degrees=3)
+    (half,) = found.half_width(np.array([[1.0, 0.0, 0.0, 0.0]]), 0.9)
+    assert half == pytest.approx(2 * 2.353363, rel=1e-5)  # t of 3 degrees at 0.95
+    drawn = np.abs(found.drawn(20_000, np.random.default_rng(2), sure=False)[:, 0])
+    assert np.mean(drawn < half) == pytest.approx(0.9, abs=0.01)
 
 
 def test_best_finds_the_law_that_made_the_numbers():
@@ -203,12 +213,21 @@ def test_without_a_glassy_plateau_k_is_a_bound():
     assert "no glassy plateau" not in told.words()
 
 
-def test_a_series_without_a_plateau_has_a_bound_as_well():
+def test_a_series_without_a_plateau_has_a_bound_as_well(monkeypatch):
+    tails, end = [], prony.Plateau.end
+
+    def seen(self, side, tail):
+        tails.append(tail)
+        return end(self, side, tail)
+
+    monkeypatch.setattr(prony.Plateau, "end", seen)
     middle = curve(1).chosen((OMEGA[::-1] > 1e3) & (OMEGA[::-1] < 1e13))
     report = fit(middle, poisson_ratio=0.5, model="prony")
     assert report.interval("glassy_modulus").high == np.inf
     assert report.interval("rubbery_modulus").low == 0
     assert "the rubbery plateau was not measured" in report.words()
+    # an interval with one end has all that is outside of it there
+    assert tails == pytest.approx([0.1, 0.1])
 
 
 # ---- Prony series ------------------------------------------------------------------------------
@@ -225,10 +244,15 @@ def test_a_series_of_few_arms_is_found_with_few_arms():
     low, high = report.band(data.angular_frequency)
     true = observed(data, poisson_ratio=0.4).predicted(solid)
     assert np.mean((low < true) & (true < high)) > 0.7
+    # 5 % of the sampled solids on either side, at each point
+    drawn = np.array(
+        [report.observed.predicted(one, data.angular_frequency) for one in report.draws]
+    )
+    below, above = np.mean(drawn < low, axis=0), np.mean(drawn > high, axis=0)
+    assert np.all(np.abs([below - 0.05, above - 0.05]) <= 1 / len(drawn))
 
 
-@pytest.mark.parametrize("exponent", [0.2, 0.5])
-@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize(("seed", "exponent"), [(0, 0.2), (1, 0.5)])
 def test_a_long_sweep_with_little_noise_has_a_series(seed, exponent):
     # neighbouring arms look alike, and the search for moduli goes in and out among them
     sweep = curve(
@@ -389,10 +413,9 @@ def test_a_fractional_zener_solid_is_found_again():
         assert found.tau0 == pytest.approx(1.0, rel=1e-3)
 
 
-@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
-def test_an_end_that_no_profile_reaches_is_no_bound(seed):
+def test_an_end_that_no_profile_reaches_is_no_bound():
     # a decade in the middle of a broad spectrum: nothing but its slope is known
-    data = curve(seed, material=SMOOTH, omega=np.geomspace(1e3, 1e4, 12), noise=0.05)
+    data = curve(0, material=SMOOTH, omega=np.geomspace(1e3, 1e4, 12), noise=0.05)
     for model in ("power-law", "relaxation-power-law", "fractional-zener"):
         report = fit(data, poisson_ratio=0.5, model=model, draws=3)
         assert any(not each.bounded for each in report.intervals)
@@ -409,15 +432,6 @@ def test_published_sweeps_become_a_series_within_three_percent():
     modulus = report.material.complex_modulus(data.angular_frequency)
     assert np.median(np.abs(modulus / data.complex_modulus - 1)) < 0.03
     assert report.median_error < 0.03
-
-
-def test_the_storage_of_a_published_curve_that_contradicts_itself_is_met_without_its_loss():
-    sweeps = read_dma(DMA / "freq_user_master.csv", temperature=298.15)
-    data = master_curve(sweeps, reference_temperature=298.15)
-    report = fit(data, poisson_ratio=0.35, model="prony", loss=False, draws=0)
-    assert report.median_error < 0.01
-    size = np.abs(report.material.complex_modulus(data.angular_frequency))
-    assert np.median(np.abs(size / np.abs(data.complex_modulus) - 1)) < 0.03
 
 
 def test_published_relaxation_master_curve_is_met():

@@ -8,7 +8,6 @@ import pytest
 import viscotack as vt
 from viscotack.prediction.surrogate import physics, store
 from viscotack.result.curve import curve
-from viscotack.theory import lennard_jones
 
 CASE = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
 UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
@@ -34,12 +33,6 @@ def in_si(groups):
     )
 
 
-def best_theory(problem):
-    """Return the estimate with the smallest error among those that apply."""
-    found = [e for e in vt.advise(problem).estimates if e.applies and e.pull_off_force is not None]
-    return min(found, key=lambda e: e.error)
-
-
 def series(**columns):
     """Return a table of cases, columns that are not given held as in CASE."""
     count = max(len(values) for values in columns.values())
@@ -58,7 +51,6 @@ def series(**columns):
     "changed",
     [
         {},
-        {"tabor": 0.5, "preload": 5.0, "rate": 100.0},
         {"tabor": 2.0, "modulus_ratio": 0.01, "exponent": 0.4, "preload": 20.0, "rate": 1.0},
         {"tabor": 1.0, "exponent": 1.5, "preload": 10.0, "rate": 1e5},
     ],
@@ -76,23 +68,6 @@ def test_prediction_and_simulation_agree(changed):
     assert np.median(off) < 0.03 * force
     off = np.abs(np.array(row["trajectory_depth"]) - answer.curve.depth)
     assert np.median(off) < 0.03 * row["travel_to_pull_off"]
-
-
-def test_slow_retraction_tends_to_the_elastic_force():
-    least, _ = store.shipped().limits["rate"]
-    answer = vt.predict(sphere(rate=least, modulus_ratio=0.5, exponent=1.6, tabor=1.0))
-    elastic = float(lennard_jones.pull_off_ratio(1.0))
-    assert answer.pull_off_force == pytest.approx(elastic, rel=0.02, abs=0)
-
-
-def test_the_curve_begins_at_the_start_and_ends_at_the_pull_off():
-    answer = vt.predict(sphere())
-    found = answer.curve
-    assert found.depth.shape == found.force.shape == found.contact_radius.shape == (24,)
-    assert found.depth[0] == pytest.approx(CASE["preload"], rel=1e-9, abs=0)
-    assert found.force[-1] == pytest.approx(-answer.pull_off_force, rel=1e-9, abs=0)
-    assert found.force.min() == pytest.approx(-answer.pull_off_force, rel=1e-9, abs=0)
-    assert np.all(np.diff(found.depth) < 0)
 
 
 def test_the_area_in_tension_is_the_work_by_the_rule_that_the_page_names():
@@ -122,33 +97,6 @@ def test_intervals_hold_the_value_and_grow_with_the_confidence():
 
 
 # Units and starts ----------------------------------------------------------------------------
-
-
-def test_a_problem_in_si_and_its_groups_have_one_answer():
-    groups = sphere()
-    problem = in_si(groups)
-    a, b = vt.predict(groups), vt.predict(problem)
-    assert a.inside and b.inside and a.method == "surrogate"
-    assert b.pull_off_force == pytest.approx(a.pull_off_force, rel=1e-9, abs=0)
-    said, scales = vt.prediction_summary(b), problem.scales()
-    assert said["pull_off_force_N"] == pytest.approx(
-        a.pull_off_force * scales.force, rel=1e-9, abs=0
-    )
-    assert said["interval_N"] == pytest.approx(
-        [x * scales.force for x in a.interval], rel=1e-9, abs=0
-    )
-    work = a.work_to_pull_off * scales.work
-    assert said["work_to_pull_off_J"] == pytest.approx(work, rel=1e-9, abs=0)
-    depth = a.curve.depth[-1] * scales.length
-    assert said["depth_at_pull_off_m"] == pytest.approx(depth, rel=1e-9, abs=0)
-
-
-def test_the_time_unit_of_the_groups_changes_nothing():
-    groups = sphere()
-    slower = replace(groups, material=replace(groups.material, tau0=50.0), rate=CASE["rate"] / 50)
-    assert vt.predict(slower).pull_off_force == pytest.approx(
-        vt.predict(groups).pull_off_force, rel=1e-9, abs=0
-    )
 
 
 @pytest.mark.parametrize("start", [vt.AtForce(5.0), vt.AtRadius(2.0)])
@@ -215,6 +163,8 @@ def test_beyond_the_largest_rate_the_interval_widens_towards_the_fast_limit():
     fast = vt.predict(sphere(rate=1e10, exponent=2.0, modulus_ratio=1e-3)).pull_off_force
     assert np.all(np.diff(forces) > 0) and 0.97 * fast < forces[-1] < fast
     assert np.all(np.diff(widths) >= 0) and widths[1] == pytest.approx(widths[0], rel=0.02)
+    assert widths[-1] > 2 * widths[0]
+    assert all(x.interval[0] < x.pull_off_force < x.interval[1] for x in found)
 
 
 def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt():
@@ -280,9 +230,8 @@ def test_the_depth_of_a_predicted_punch_holds_the_simulated_one():
     assert high - low < 0.06  # of a travel in tension of 1.1
 
 
-@pytest.mark.parametrize("depth", [20.0, 300.0])
-def test_zero_force_is_where_the_simulation_has_it(depth):
-    problem = sphere(preload=depth)
+def test_zero_force_is_where_the_simulation_has_it():
+    problem = sphere(preload=20.0)
     answer = vt.predict(problem)
     found = vt.solve(problem, until="pull-off", accuracy=1e-3)
     crossing = int(np.flatnonzero(found.force > 0)[-1])
@@ -290,14 +239,6 @@ def test_zero_force_is_where_the_simulation_has_it(depth):
     zero = np.interp(0.0, found.force[ends][::-1], found.depth[ends][::-1])
     low, high = answer.zero_force_interval
     assert low < zero < high
-
-
-def test_an_elastic_solid_is_answered_by_its_theory():
-    groups = sphere(material=vt.Elastic(**UNIT), rate=1.0)
-    answer = vt.predict(groups)
-    assert not answer.inside and answer.method == "elastic" == best_theory(groups).tier
-    light = replace(groups, start=vt.AtForce(-0.9))
-    assert "the start is in tension" in refused(light)
 
 
 def test_the_band_of_a_theory_is_not_scaled_to_another_confidence():
@@ -381,20 +322,6 @@ def test_rows_of_a_table_are_those_of_single_predictions_in_their_order():
     for i, words in ((3, "rate must be positive, got -1.0"), (4, "rate must be finite")):
         assert words in table["why"][i] and table["method"][i] == ""
         assert np.isnan(table["pull_off_force"][i])
-
-
-@pytest.mark.parametrize(
-    ("columns", "words"),
-    [
-        ({"tabor": [1.0]}, "exactly one of preload, preload_force, preload_radius"),
-        (series(rate=[1.0]) | {"nonsense": [1.0]}, "nonsense"),
-        (series(rate=[1.0]) | {"tabor": [1.0, 2.0]}, "of one length"),
-        (series(rate=[1.0]) | {"preload_force": [1.0]}, "exactly one of preload"),
-    ],
-)
-def test_tables_with_other_columns_are_refused(columns, words):
-    with pytest.raises(ValueError, match=words):
-        vt.predict_table(columns)
 
 
 # Pictures ------------------------------------------------------------------------------------

@@ -18,8 +18,8 @@ from viscotack.model.materials import Passport, write_passport
 from viscotack.model.materials.conversion import slowed
 from viscotack.model.materials.library import published
 from viscotack.model.materials.passport import Evidence
-from viscotack.model.materials.passport_uncertainty import allowed, shift_error
-from viscotack.model.materials.shift import WLF, TabulatedShift
+from viscotack.model.materials.passport_uncertainty import allowed
+from viscotack.model.materials.shift import WLF
 
 SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
@@ -101,15 +101,6 @@ def test_the_temperature_of_the_tests_is_in_intervals_and_bands():
     off = [one.objective.best(truth).misfit - one.best.misfit for one in fits]
     assert off[0] > 10 and off[1] < 3
     assert holds(forecast_rates(fits[1], v), warm.pulled(WORK, GAP, v, PRELOAD).force)
-
-
-def test_the_error_of_times_is_the_slope_of_the_shift():
-    assert shift_error(RUBBER, 2.0) == pytest.approx(5 / 150 * 2 * np.log(10), rel=1e-3)
-    # at the end of a table, from its other side
-    table = TabulatedShift(293.15, (273.15, 293.15), (2.0, 0.0))
-    end = replace(RUBBER, shift=table)
-    assert shift_error(end, 2.0) == pytest.approx(0.2 * np.log(10))
-    assert shift_error(replace(RUBBER, shift=None), 2.0) == 0.0
 
 
 def test_times_in_doubt_are_speeds_in_doubt(forward):

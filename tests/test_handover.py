@@ -90,7 +90,7 @@ def test_advice_and_prediction_take_the_theory_with_the_smallest_band():
     assert "the shape is profile" in cone.why
 
 
-@pytest.mark.parametrize("rate", [0.01, 0.3, 30.0])
+@pytest.mark.parametrize("rate", [0.3, 30.0])
 def test_a_cone_that_is_fast_at_once_pulls_hardest_where_it_began(rate):
     # a coarse way there was 2 % low, and a parabola through it 25 % high
     cone = vt.PowerLawProfile(1.0, 1.0)

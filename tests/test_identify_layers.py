@@ -1,17 +1,14 @@
 """The interface from a rate series on a layer: truth found, validity stated, the rest refused."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
-from rate_tests import LENS, RUBBER, holds, measured
+from rate_tests import RUBBER, holds, measured
 from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates
-from viscotack.identify.computed import Computed
 from viscotack.identify.forward import Forward
 from viscotack.theory.crack.contact.films import MOST_ZONE
 
@@ -122,29 +119,3 @@ def test_what_is_not_known_on_a_layer_is_refused(more):
     series = RateSeries(travelled, body=layer(1.0), **CASE, **more)
     with pytest.raises(InputError, match="layer"):
         identify_rates(series)
-
-
-@pytest.mark.slow
-def test_a_layer_goes_from_the_command_line_to_a_study_and_a_forecast(tmp_path, capsys):
-    study = tmp_path / "study.toml"
-    layer_of = ["--thickness", "2 mm", "--bonded", "0.49"]
-    words = ["--material", "pdms-10-1", "--radius", "5.19 mm", *layer_of, "-o", str(study)]
-    assert exit_status(["identify", "rates", *LENS, *words, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["layer"] == {"thickness_m": 2e-3, "base": "bonded", "poisson_ratio": 0.49}
-    assert exit_status(["forecast", str(study), "--speed", "10 um/s", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["work_of_adhesion_J_m2"] == found["work_of_adhesion_J_m2"]
-
-
-def test_a_refusal_is_kept_with_its_reason(tmp_path, monkeypatch):
-    thin, loads = layer(0.3), np.full(len(SPEEDS), 5 * PRELOAD)
-    computed = Computed()
-    case = (WORK, 2.3 * GAP, SPEEDS, loads)
-    first = Forward(RUBBER, RADIUS, body=thin, computed=computed).changed(*case)
-    assert first.holds.any() and not first.holds.all()
-    computed.write(tmp_path / "forces.npz")
-    monkeypatch.setattr(Forward, "_changed", None)
-    known = Computed.read(tmp_path / "forces.npz")
-    again = Forward(RUBBER, RADIUS, body=thin, computed=known).changed(*case)
-    assert again.refused.tolist() == first.refused.tolist()

@@ -57,17 +57,6 @@ def test_intervals_cover_the_true_value_at_their_stated_probability():
     assert inside >= 30
 
 
-@pytest.mark.slow
-def test_of_a_short_range_the_data_tell_only_that_it_is_short():
-    fit = identify_slow(of_jkr(1), models=["jkr", "maugis"])
-    assert fit.best.model == "jkr"
-    works = [one.intervals["work_of_adhesion"] for one in fit.fits]
-    covered = min(one.low for one in works), max(one.high for one in works)
-    assert (fit.work_of_adhesion.low, fit.work_of_adhesion.high) == covered
-    ends = next(one for one in fit.fits if one.model == "maugis").intervals["tabor"]
-    assert ends.closed_below and not ends.closed_above and ends.low > 2
-
-
 @pytest.mark.parametrize("tabor", [pytest.param(0.3, marks=pytest.mark.slow), 1.5])
 def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
     fit = identify_slow(of_maugis(tabor, 2))
@@ -89,15 +78,6 @@ def test_a_modulus_that_the_test_contradicts_leaves_an_upper_bound(modulus, cont
     assert bool(fit.upper_bound) == contradicts
     assert fit.work_of_adhesion.closed_below != contradicts
     assert fit.work_of_adhesion.high > LENS["work_of_adhesion"]
-
-
-@pytest.mark.parametrize(
-    "speed, slow", [pytest.param(1e-8, True, marks=pytest.mark.slow), (1e-4, False)]
-)
-def test_a_known_material_shows_whether_the_test_was_slow(speed, slow):
-    test = replace(of_jkr(1), speed=speed, preload=1.5e-3)
-    fit = identify_slow(test, models=["jkr"], material=passport_of("pdms-10-1"))
-    assert bool(fit.upper_bound) != slow and fit.same_pull.assumed == 5.0
 
 
 def test_a_range_that_the_data_determine_is_not_assumed():

@@ -1,6 +1,7 @@
 """Identification from rate series at several temperatures, each test at its own."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from rate_tests import GAP, PRELOAD, RADIUS, RUBBER, WORK, holds, linear, measur
 from viscotack.app.operations.parts.records import rates_record
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, RateSeries, forecast_rates, identify_rates
+from viscotack.identify.covariances import shift_covariance
 from viscotack.identify.pull_off import History
 from viscotack.identify.temperatures import shifted
 from viscotack.lab.tack import Measured
@@ -91,6 +93,17 @@ def test_errors_of_temperature_and_of_the_table_of_shifts_are_in_the_covariance(
     both = more[np.ix_(at == 278.15, at == 278.15)]
     # the interfaces of the two fits, at which covariances are computed, differ a little
     assert both[0, 1] ** 2 == pytest.approx(both[0, 0] * both[1, 1], rel=0.02)
+
+
+def test_errors_of_shifts_are_one_at_one_temperature_and_independent_between_them():
+    series: Any = SimpleNamespace(
+        shift_deviations=lambda: np.array([0.1, 0.1, 0.2]), temperatures=(278.15, 278.15, 308.15)
+    )
+    # of tests whose ln(force) grows by 1, 2 and 3 times the error of all times
+    own: Any = SimpleNamespace(slower=lambda error, interface: error * np.array([1.0, 2.0, 3.0]))
+    found = shift_covariance(series, own, None)
+    expected = np.array([[0.01, 0.02, 0.0], [0.02, 0.04, 0.0], [0.0, 0.0, 0.36]])
+    assert found == pytest.approx(expected, abs=1e-15)
 
 
 def test_a_series_whose_temperatures_are_not_usable_is_refused():

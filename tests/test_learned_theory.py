@@ -47,7 +47,6 @@ def drawn(count, seed=0):
     [
         {},
         {"tabor": 30.0, "rate": 30.0, "preload": 100.0},
-        pytest.param({"exponent": 1.2, "rate": 3.0}, marks=pytest.mark.slow),
     ],
 )
 def test_the_surrogate_reproduces_the_theory(changed):
@@ -88,34 +87,6 @@ def test_its_band_is_measured_where_simulations_were_compared():
     cone = replace(problem(tabor=30.0, rate=30.0, modulus_ratio=0.01), geometry=vt.Cone(1.0))
     with pytest.raises(vt.OutOfRange, match="modulus_ratio is 0.01"):
         vt.predict(cone)
-
-
-def test_a_start_by_force_or_radius_is_one_by_depth():
-    case = problem(preload=500.0)
-    theory = vt.crack_contact(case)
-    radius, force = theory.contact_radius[0], theory.force[0]
-    wanted = vt.predict(case).pull_off_force
-    for start in (vt.AtRadius(float(radius)), vt.AtForce(float(force))):
-        assert vt.predict(replace(case, start=start)).pull_off_force == pytest.approx(
-            wanted, rel=2e-3
-        )
-    with pytest.raises(vt.OutOfRange):
-        vt.predict(replace(case, start=vt.AtForce(-5.0)), budget=AT_ONCE)
-
-
-def test_creep_is_that_of_the_solid():
-    rows = drawn(40, seed=3)
-    time = np.geomspace(1e-9, 1e6, 40)
-    found = short_range.creep_of(rows)(time)
-    for row, t, creep in zip(rows, time, found, strict=True):
-        solid = vt.RetardationPowerLaw(
-            rubbery_modulus=1.0,
-            glassy_modulus=1 / row[1],
-            exponent=row[2],
-            tau0=1.0,
-            poisson_ratio=0.0,
-        )
-        assert creep == pytest.approx(float(solid.creep(t)), rel=2e-6, abs=0)
 
 
 def test_many_cases_of_a_solid_are_answered_at_once_as_alone():

@@ -48,22 +48,6 @@ def test_the_tape_has_the_shear_moduli_of_its_sources(omega):
     assert complex(*modulus("vhb-4910-stewart", omega)) == pytest.approx(3e3 * stewart, rel=2.1e-2)
 
 
-def test_the_nitrile_rubber_has_the_shear_moduli_of_its_source():
-    arms = (535.7, 1.0), (76.2, 10.0), (120.5, 100.0), (21.3, 1e3), (22.9, 1e4)
-    for omega in (1e-4, 1e-2, 1.0):
-        stated = 3e3 * maxwell(omega, 400.0, *arms)
-        assert complex(*modulus("nbr-stewart", omega)) == pytest.approx(stated, rel=1e-2)
-
-
-@pytest.mark.parametrize(
-    ("omega", "storage", "loss"),
-    [(0.3, 2.63805, 1.3006), (3.0, 5.10973, 2.41018), (30.0, 9.66712, 4.11596)],
-)
-def test_the_foam_has_the_moduli_of_its_file(omega, storage, loss):
-    # [MPa] at 20 C; the scatter of the fit is 0.4 and 0.2 %
-    assert modulus("vn-foam", omega) == pytest.approx((storage * 1e6, loss * 1e6), rel=0.015)
-
-
 # Engineering strain and stress [MPa] at two points of each tensile test.
 TENSILE = {
     "ecoflex-00-30": ((0.09084, 0.00343), (0.5, 0.01689)),

@@ -6,7 +6,8 @@ import shlex
 import numpy as np
 import pytest
 
-from melts import CHAMBER, LAW, relaxations
+from melts import CHAMBER, LAW
+from stated import case_text
 from viscotack.app.cli import main
 from viscotack.model.materials import Prony, StandardSolid
 from viscotack.model.materials.exchange import CODES
@@ -126,24 +127,11 @@ def trios_files(folder):
         (folder / name).write_text("\r\n".join([*lines, ""]), encoding="utf-8")
 
 
-CASE = """
-[sphere]
-radius = "5 mm"
-[material]
-passport = "rubber.toml"
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.15 J/m^2"
-equilibrium_gap = "1 um"
-[protocol]
-preload_depth = "3 um"
-speed = "1 um/s"
-"""
-
-
 def test_sweeps_in_several_files_give_a_force_at_another_temperature(lab, capsys):
     trios_files(lab)
-    (lab / "case.toml").write_text(CASE)
+    protocol = 'preload_depth = "3 um"\nspeed = "1 um/s"'
+    text = case_text('passport = "rubber.toml"', radius="5 mm", protocol=protocol)
+    (lab / "case.toml").write_text(text.replace("50 mJ", "150 mJ"))
     files = " ".join(f"rubber_{celsius}.txt" for celsius in (-40, -30, -20, -10, 0))
     line = f"material fit {files} --poisson-ratio 0.5 --model sls --shift-by both "
     assert '--reference-temperature "20 degC"' in refused(line, capsys)
@@ -164,19 +152,3 @@ def test_sweeps_in_several_files_give_a_force_at_another_temperature(lab, capsys
     # faster relaxation holds less
     assert forces[1] < 0.9 * forces[0]
     assert "superposition is not extrapolated" in refused(f'{pull} "20 degC"', capsys)
-
-
-def test_relaxation_at_many_temperatures_is_one_curve(lab, capsys):
-    rows = [
-        f"{t:.6g},{E:.6g},{test.temperature - 273.15:.6g}"
-        for test in relaxations(0)
-        for t, E in zip(test.time, test.modulus, strict=True)
-    ]
-    (lab / "steps.csv").write_text("\n".join(["t,G_relax,T", "s,Pa,C", *rows, ""]))
-    line = "material fit steps.csv --test relaxation --poisson-ratio 0.5 --model prony --arms 8 "
-    assert "say at which temperature" in refused(line, capsys)
-    out, _ = printed(line + '--reference-temperature "-30 degC" --vertical "6.5e-4 1/K" --json',
-                     capsys)  # fmt: skip
-    answer = json.loads(out)
-    assert np.allclose(answer["shift"]["values"], LAW.log10_shift(CHAMBER[:5]), atol=0.1)
-    assert "5 tests" in answer["origin"]["notes"][-1]

@@ -7,7 +7,6 @@ from numpy.testing import assert_allclose
 import lab_files
 from reference_data import DMA
 from viscotack.lab import (
-    MasterCurve,
     read,
     read_creeps,
     read_dma,
@@ -15,18 +14,6 @@ from viscotack.lab import (
     read_shifts,
 )
 from viscotack.lab.grouping import grouped
-
-
-@pytest.fixture
-def file(tmp_path):
-    """Write a file and return its path."""
-
-    def write(content, name="film.txt"):
-        path = tmp_path / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return write
 
 
 def table(*rows, names="f, E', E'', T", units="Hz, MPa, MPa, C"):
@@ -46,6 +33,7 @@ def assert_the_invented_film(sweeps, kind="E"):
     assert_allclose(sweeps.angular_frequency, lab_files.OMEGA, rtol=1e-11)
     assert_allclose(sweeps.storage, lab_files.PASCAL[0], rtol=1e-14)
     assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=1e-14)
+    assert_allclose(sweeps.complex_modulus.imag, lab_files.PASCAL[1], rtol=1e-14)
     assert sweeps.sweep.tolist() == [0] * 4 + [1] * 4 + [2] * 4
 
 
@@ -123,24 +111,11 @@ def test_a_frequency_in_one_over_seconds_is_refused_until_the_unit_is_given(file
     assert read_dma(path, frequency_unit="Hz").angular_frequency[0] == 2 * np.pi
 
 
-def test_two_columns_of_frequency_must_agree(file):
-    names, units = "f, omega, E', E''", "Hz, rad/s, MPa, MPa"
-    good = read_dma(file(table("1, 6.2832, 3, 0.4", names=names, units=units)))
-    assert good.angular_frequency[0] == pytest.approx(6.2832)
-    with pytest.raises(ValueError, match=r"line 3: .omega. is 1 rad/s but .f. gives 6.28"):
-        read_dma(file(table("1, 1, 3, 0.4", names=names, units=units)))
-
-
 def test_a_modulus_without_a_unit_is_refused_until_it_is_given(file):
     path = file(table("1, 3, 0.4, 20", units="Hz, -, -, C"))
     with pytest.raises(ValueError, match=r"the unit of .E'. and .E''. \(--modulus-unit Pa, "):
         read_dma(path)
     assert read_dma(path, modulus_unit="MPa").storage[0] == 3e6
-
-
-def test_a_modulus_above_diamond_is_refused(file):
-    with pytest.raises(ValueError, match=r"line 4: .*diamond; check its unit"):
-        read_dma(file(table("1, 3, 1, 20", "1, 3000, 2, 20", units="Hz, GPa, MPa, C")))
 
 
 def test_moduli_whose_units_cannot_both_be_right_are_refused(file):
@@ -159,15 +134,6 @@ def test_a_modulus_of_unknown_kind_is_refused_until_it_is_given(file):
     assert read_dma(file(OPEN), kind="G").kind == "G"
     with pytest.raises(ValueError, match="--kind must be E"):
         read_dma(file(OPEN), kind="shear")
-
-
-def test_the_kind_of_moduli_is_read_from_their_headings(file):
-    beside = OPEN.replace("Loss modulus\n", "Loss modulus\tTorque\n").replace(
-        "\tPa\n", "\tPa\tuNm\n"
-    )
-    sweeps = read_dma(file(beside.replace("4e5", "4e5\t12")))
-    assert sweeps.kind == "G"
-    assert "kind 'G' from the word shear" in notes(sweeps)
 
 
 def test_of_two_kinds_in_one_table_one_is_chosen(file):
@@ -202,7 +168,7 @@ def test_a_number_that_may_be_thousands_is_refused_until_the_mark_is_given(file)
     assert read_dma(other).storage[0] == 1.234e6  # 0,5 can only be a decimal comma
 
 
-@pytest.mark.parametrize("cell", ["abc", "1_000", "0x10", "1e", "1.2.3", "inf", "--3", "٣"])
+@pytest.mark.parametrize("cell", ["abc", "1_000", "1.2.3", "inf", "٣"])
 def test_what_is_no_number_is_refused_with_its_line(file, cell):
     with pytest.raises(ValueError, match=r"line 4: column .E'.: expected a number"):
         read_dma(file(table("1, 3, 0.4, 20", f"10, {cell}, 0.4, 20")))
@@ -238,12 +204,6 @@ def test_a_number_that_contradicts_its_row_is_found(file, name, unit):
 
 
 # ---- rows, sweeps and damage -------------------------------------------------------------------
-
-
-def test_a_missing_or_added_cell_is_refused(file):
-    for row in ("10, 4, 0.7", "10, 4, 0.7, 20, 5"):
-        with pytest.raises(ValueError, match=r"line 4: .* cells under 4 headings"):
-            read_dma(file(table("1, 3, 0.4, 20", row)))
 
 
 @pytest.mark.parametrize("name", ["trios text", "rheocompass", "rheocompass csv"])
@@ -387,36 +347,3 @@ def test_a_drift_of_the_chamber_is_one_test(file):
         # the time of a test begins again at each temperature; here it runs on
         with pytest.raises(ValueError, match="the temperature varies by 40 K"):
             read(file(STEPS + rows))
-
-
-def test_files_of_steps_are_tests_of_one_material(file):
-    step = "t, G_relax\ns, Pa\n1,{}\n10,{}\n"
-    paths = [file(step.format(500, 300), "pib_40C.csv"), file(step.format(900, 700), "pib_20C.csv")]
-    tests = read(paths, temperature_in_name=True)
-    assert [test.temperature for test in tests] == [293.15, 313.15]
-    assert [test.modulus[0] for test in tests] == [900, 500]
-    creep = file("t, J\ns, 1/MPa\n1,3\n10,6\n", "pib_60C.csv")
-    with pytest.raises(ValueError, match="some files are relaxation, others creep tests"):
-        read([*paths, creep], temperature_in_name=True, kind="G")
-    with pytest.raises(ValueError, match="no file"):
-        read_creeps([])
-
-
-# ---- the objects -------------------------------------------------------------------------------
-
-
-def test_a_curve_is_sorted_with_all_its_columns():
-    curve = MasterCurve(
-        293.15,
-        [9, 1, 5],
-        [3, 1, 2],
-        [30, 10, 20],
-        "G",
-        temperature=[300, 310, 305],
-        sweep=[0, 2, 1],
-    )
-    assert curve.storage.tolist() == [1, 2, 3]
-    assert curve.temperature.tolist() == [310, 305, 300]
-    assert curve.sweep.tolist() == [2, 1, 0]
-    assert curve.in_tension(0.5).storage.tolist() == [3, 6, 9]
-    assert len(curve.chosen([0, 1])) == 2

@@ -9,6 +9,7 @@ import pytest
 from command_line import exit_status
 from rate_tests import PRELOAD, RADIUS, SPEEDS, WORK, fitted, holds, linear
 from viscotack.identify import forecast_rates
+from viscotack.identify.covariances import trend_covariance
 from viscotack.lab import tack
 
 # Computed tests of an interface that grows with speed: R 5 mm, E* 2 MPa, noise 10 uN, five speeds.
@@ -96,3 +97,13 @@ def test_a_forecast_is_not_below_a_force_measured_at_a_slower_speed():
     assert forecast.high[0] >= forecast.force[0] >= forecast.low[0]
     # another preload is no slower test of the same contact
     assert forecast_rates(fit, 1.2e-3, preload=0.5 * PRELOAD).force[0] < raised[-1]
+
+
+def test_a_trend_has_its_part_of_the_variance_at_the_tests_and_grows_twice_as_fast_beyond():
+    logs = np.array([0.0, 1.0, 2.0, 3.0])  # standard deviation sqrt(5)/2
+    at_tests = trend_covariance(np.exp(logs), np.exp(logs), 0.1)
+    assert np.diag(at_tests).mean() == pytest.approx(0.8 * 0.1**2)
+    assert np.linalg.matrix_rank(at_tests, tol=1e-12) == 1
+    # two e-foldings beyond: 3.5 from the middle, and 2 of a power of twice 0.1 over the deviation
+    (beyond,) = trend_covariance(np.exp([5.0]), np.exp(logs), 0.1)
+    assert beyond[0] == pytest.approx(0.01 / 1.25 * (0.8 * 3.5**2 + 4 * 2**2))

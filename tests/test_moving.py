@@ -1,14 +1,13 @@
 """Measured forces of a lab move a surrogate, in every way of asking it."""
 
 import warnings
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from viscotack import OutOfRange, predict, predict_table
 from viscotack.model.problem.kinds import KINDS
-from viscotack.prediction.surrogate import physics, store
+from viscotack.prediction.surrogate import physics
 from viscotack.prediction.surrogate.moving import moved
 from viscotack.prediction.surrogate.store import shipped
 
@@ -130,15 +129,3 @@ def test_a_punch_is_moved_too():
     assert answer.pull_off_stress == pytest.approx(stress[1], rel=5e-3)
     with pytest.raises(ValueError, match="model is of 'punch', the columns are of 'sphere'"):
         predict_table({n: [1.0] for n in physics.INPUTS}, model=found)
-
-
-def test_what_a_moved_surrogate_cannot_do_is_refused(lab, tmp_path):
-    problem = KINDS["sphere"].problem(dict(zip(physics.INPUTS, [*SOLID, 20.0, 30.0], strict=True)))
-    with pytest.raises(ValueError, match="either a model or exact"):
-        predict(problem, model=lab, exact=True)
-    with pytest.raises(ValueError, match="keep its points"):
-        store.save(lab, tmp_path / "lab.npz", {})
-    with pytest.raises(ValueError, match="spheres or punches"):
-        predict(problem, model=shipped("short range"))
-    # a surrogate without measured forces keeps its measured intervals
-    assert predict(problem, model=replace(lab, move=None)).interval == predict(problem).interval

@@ -10,7 +10,6 @@ from synthetic import (
     GROUPS,
     PULL_OFF_DEPTH,
     PULL_OFF_RADIUS,
-    RATE,
     SI,
     WORK_TO_PULL_OFF,
     jkr_crack_speed,
@@ -66,17 +65,6 @@ def test_round_off_does_not_choose_the_points_around_the_minimum():
     assert np.ptp(found) < 1e-11
 
 
-def test_time_of_the_pull_off_is_where_the_drive_meets_its_depth():
-    result = jkr_result()
-    found = pull_off(result)
-    assert found.time == pytest.approx((result.depth[0] - found.depth) / RATE, rel=1e-12)
-
-
-def test_pull_off_between_steps_lies_below_every_step():
-    result = jkr_result(steps=30)
-    assert pull_off_force(result) > -result.force.min()
-
-
 def test_work_starts_with_the_retraction_where_that_is_in_tension():
     # Two routes: from zero force, less the piece from zero force to the start.
     start = 1.4
@@ -127,14 +115,6 @@ def test_a_jump_adds_no_work(width):
     assert work_of_separation(result) == pytest.approx(10 / 3, rel=1e-12)
 
 
-def test_a_jump_within_tension_does_not_end_the_count():
-    x, y = np.linspace(0, 2, 7), np.linspace(0, 3, 9)
-    force = np.concatenate([-1 - x, 0.8 * (y - 1.5) ** 2 - 4])
-    result = plain(-np.concatenate([x, 2 + y]), force)
-    # 4 before the jump, 6 - 0.9 from there to the minimum
-    assert work_to_pull_off(result) == pytest.approx(9.1, rel=1e-12)
-
-
 def test_a_dwell_at_the_relaxed_start_keeps_the_pull_off_there():
     """A start beyond the force minimum: the force is least where the retraction begins."""
     from viscotack.model.protocol import Dwell
@@ -180,14 +160,6 @@ def test_work_of_separation_goes_past_the_jump_to_infinity():
     assert work_of_separation(result) - synthetic.WORK_TO_INSTABILITY > 0.2
 
 
-def test_work_of_separation_without_energies_ends_with_the_run():
-    whole = work_of_separation(jkr_detachment())
-    for energy in (None, synthetic.energies(interface=np.array([0.0, 5.0]))):
-        rest = whole - work_of_separation(jkr_detachment(energy=energy))
-        last_gap = 1 - jkr_detachment().depth[-1]
-        assert rest == pytest.approx((16 / 9) / last_gap, rel=1e-9)
-
-
 def test_a_failed_run_has_no_observables():
     failed = jkr_result(status="stopped because the step became too small")
     with pytest.raises(ValueError, match="the run failed.*step became too small"):
@@ -204,17 +176,6 @@ def test_a_force_that_still_falls_has_no_pull_off():
     with pytest.raises(ValueError, match="still decreases at the end of the run"):
         pull_off_force(jkr_result(end=1.2))
     assert summary(jkr_result(end=1.2))["pull_off_force"] is None
-
-
-def test_a_force_that_is_never_tensile_has_no_pull_off():
-    with pytest.raises(ValueError, match="nowhere tensile"):
-        pull_off_force(jkr_result(end=1.8, status="detached"))
-
-
-def test_a_retraction_that_starts_past_the_minimum_pulls_off_at_once():
-    result = jkr_result(start=0.9)
-    assert pull_off_force(result) == pytest.approx(-result.force[0], rel=1e-12)
-    assert work_to_pull_off(result) == 0
 
 
 def test_only_the_retraction_counts_when_there_is_an_approach():
@@ -331,19 +292,3 @@ def test_a_pull_off_is_not_drawn_below_steps_between_which_the_force_breaks_off(
     result = vt.solve(punch, accuracy=0.01, until="pull-off", estimate_error=False)
     # 1.21 where a run five times as accurate has 0.977
     assert vt.pull_off_stress(result) == pytest.approx(-result.force.min(), rel=0.03)
-
-
-def test_a_change_of_speed_bends_the_curve_whose_area_is_the_work():
-    law = vt.GentSchultz.of(vt.LennardJones(1.0, 1.0), reference_speed=20.0, exponent=0.433)
-    solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=730.0, tau0=1.0, poisson_ratio=0.0)
-    groups = vt.Groups(
-        tabor=3.0,
-        material=solid,
-        start=vt.AtForce(0.0),
-        rate=8000.0,
-        traction=law,
-        moves=(vt.Retract(0.5658, vt.AtDepth(-26.74)),),
-    )
-    result = vt.solve(groups, accuracy=0.01, estimate_error=False)
-    # -2.4 where the drive works 26.9: a spline went through the jump of the tension
-    assert vt.work_of_separation(result) > vt.work_to_pull_off(result) > 0

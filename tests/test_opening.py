@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscotack.model.protocol import AtDepth, LoadTo, Retract
-from viscotack.result import Outcome, observables, opening
+from viscotack.result import observables, opening
 
 MOVED, LOADED = Retract(1.0, AtDepth(-9.0)), LoadTo(-1.0, 1.0)
 
@@ -75,32 +75,6 @@ def test_the_minimum_of_a_parabola_or_a_cubic_through_uneven_points_is_exact():
     assert opening._minimum(x, (x - 7) ** 2, 4) == (6.0, 1.0)
 
 
-def test_the_edge_that_runs_out_is_found_from_the_travel_as_a_cubic_of_its_place():
-    travel = np.polynomial.Polynomial([10.0, -2.0, 0.0, -0.1])
-    edge = np.array([3.0, 2.5, 1.8, 1.0, np.nan, np.nan])
-    x = np.append(travel(edge[:4]), [10.5, 11.0])
-    time = 2 + x / 4
-    for place in (1.4, 1.0, 0.5):
-        found = opening._running_out(x, edge, time, float(travel(place)))
-        assert found == pytest.approx((place, -4 / travel.deriv()(place)), rel=1e-9)
-    assert opening._running_out(x[1:], edge[1:], time[1:], float(travel(1.4))) is None
-    assert opening._running_out(x, edge[[0, 1, 1, 3, 4, 5]], time, float(travel(1.4))) is None
-
-
-@pytest.mark.parametrize(
-    ("moves", "lowest", "steps"),
-    [
-        ([0, 0, 0], 1, slice(0, 3)),
-        ([0, 0, 1, 1, 1], 3, slice(1, 5)),
-        ([0, 0, 1, 1, 2], 2, slice(1, 4)),
-        ([0, 0, 1, 1, 2], 1, None),
-        ([0, 0, 1, 1, 1], 4, slice(1, 5)),
-    ],
-)
-def test_the_curve_is_smooth_within_a_move_and_from_the_last_step_before_it(moves, lowest, steps):
-    assert opening._smooth(np.array(moves), lowest) == steps
-
-
 @pytest.fixture
 def valley(monkeypatch):
     """Make what looks at a valley see an uneven parabola of curvature 6 under one move."""
@@ -122,14 +96,6 @@ def test_what_an_error_of_the_slope_costs_is_the_square_of_the_force_over_the_cu
         assert opening.lost_beside(valley(end, MOVED), None) == 0.0
 
 
-def test_a_fold_reaches_as_far_as_the_force_differs_by_itself(valley):
-    # at the last step, under a growing load: 6/2 d^2 = P
-    result = valley(2, LOADED, steps=3)
-    assert opening.reach_of_fold(result, None) == pytest.approx((7.88 / 3) ** 0.5, rel=1e-12)
-    for lowest, kind, steps in ((2, MOVED, 3), (1, LOADED, 2), (2, LOADED, 5)):
-        assert opening.reach_of_fold(valley(lowest, kind, steps), None) == 0.0
-
-
 def test_a_parabola_is_known_between_its_steps_and_a_bent_curve_is_not(valley):
     result = valley(2, MOVED)
     assert opening.between_steps(result, None) == pytest.approx(0.0, abs=1e-12)
@@ -143,24 +109,3 @@ def test_a_parabola_is_known_between_its_steps_and_a_bent_curve_is_not(valley):
     assert far > 0.01
     for end in (0, 4):
         assert opening.between_steps(valley(end, MOVED), None) == 0.0
-
-
-@pytest.mark.parametrize(
-    ("last", "snaps"),
-    [(2, [(2, False)]), (3, [(2, True), (3, False)]), (4, [(2, True), (4, True)])],
-)
-def test_a_piece_snaps_at_a_jump_inside_its_cycle_or_at_the_end_of_the_run(
-    last, snaps, monkeypatch
-):
-    # the contact jumps after step 2 and at the end of the run
-    monkeypatch.setattr(opening, "moves_of", lambda _: [MOVED])
-    monkeypatch.setattr(opening, "move_numbers", lambda _: np.zeros(5, dtype=int))
-    monkeypatch.setattr(opening, "_jump", lambda *_: np.arange(4) == 2)
-    run = SimpleNamespace(
-        depth=np.array([4.0, 3.0, 2.0, 1.0, 0.0]),
-        contact_radius=np.ones(5),
-        events=[SimpleNamespace(kind="jump out")],
-        outcome=Outcome.JUMPED,
-    )
-    pieces = opening._pieces(run, SimpleNamespace(turn=0, last=last))
-    assert [(int(piece.steps[-1]), piece.snaps) for piece in pieces] == snaps

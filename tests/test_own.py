@@ -137,16 +137,6 @@ def test_a_theory_predicts_with_own_parts():
 # --- and they are right -----------------------------------------------------------------------
 
 
-def test_the_traction_of_morse_is_the_derivative_of_its_energy():
-    law = MORSE(0.15, 0.5e-6, 3.0)
-    h = np.linspace(0.3e-6, 3e-6, 200)
-    step = 1e-12
-    slope = (law.energy(h + step) - law.energy(h - step)) / (2 * step)
-    np.testing.assert_allclose(law.traction(h), slope, rtol=1e-5, atol=1e-3 * law.strength)
-    assert law.traction(law.edge_gap) == pytest.approx(law.strength, rel=1e-12)
-    assert law.energy(law.equilibrium_gap) == pytest.approx(-0.15, rel=1e-12)
-
-
 def test_a_morse_law_of_short_range_pulls_like_jkr():
     solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     groups = vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, MORSE(1.0, 1.0, 3.0))
@@ -156,15 +146,6 @@ def test_a_morse_law_of_short_range_pulls_like_jkr():
 
 
 # --- refusals ---------------------------------------------------------------------------------
-
-
-def test_times_and_moduli_of_ones_own_go_to_si_by_their_cards():
-    solid = ZENER(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=2.0, order=0.6, poisson_ratio=0.0)
-    groups = vt.Groups(3.0, solid, vt.AtDepth(1.0), 1.0)
-    scales = dict(radius=1e-3, contact_modulus=1e6, time_unit=0.5, poisson_ratio=0.5)
-    found = groups.in_si(**scales, work_of_adhesion=0.05).material
-    assert (found.tau0, found.glassy_modulus) == pytest.approx((1.0, 7.5e6), rel=1e-12)
-    assert found.order == 0.6
 
 
 def test_an_incomplete_noun_is_refused_before_anything_is_solved():

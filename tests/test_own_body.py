@@ -7,9 +7,6 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from front_ends import Http, Question, by_command, by_http, by_python, by_study
-from tier_problems import PROBLEMS, refusal
-from viscotack.files.toml import read_toml
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.prediction.simulation import SIMULATION
 from viscotack.prediction.tiers import TIERS
@@ -48,22 +45,6 @@ def result(problem):
     return vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
 
 
-def test_a_case_file_states_it_by_its_word(problem):
-    assert problem.body == FOUNDATION(50e-6)
-    groups = problem.groups()
-    assert groups.body.thickness == pytest.approx(
-        50e-6 / problem.scales().radius * np.pi ** (1 / 3)
-    )
-    back = groups.in_si(
-        radius=5e-3,
-        contact_modulus=problem.material.contact_modulus,
-        equilibrium_gap=1e-6,
-        time_unit=problem.scales().time,
-        poisson_ratio=0.5,
-    )
-    assert back.body.thickness == pytest.approx(50e-6, rel=1e-12)
-
-
 def test_it_is_simulated_saved_and_loaded(problem, result, tmp_path):
     stiff = vt.solve(replace(problem, body=vt.HalfSpace()), accuracy=1e-2, estimate_error=False)
     force = vt.pull_off_force(result)
@@ -76,42 +57,6 @@ def test_it_is_simulated_saved_and_loaded(problem, result, tmp_path):
     assert again.problem == problem and vt.pull_off_force(again) == force
     assert vt.run_id(problem) != vt.run_id(replace(problem, body=FOUNDATION(60e-6)))
     assert vt.summary(again)["thickness"] == problem.groups().body.thickness
-
-
-def test_every_door_gives_the_same_answer(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("case.toml").write_text(CASE.read_text())
-    given = {"problem": "case.toml", "until": "pull-off", "accuracy": 0.01}
-    question = Question("simulate", given, own=(str(FILE),))
-    found = by_python(question)
-    assert found.record["pull_off_force"] > 0 and found.record["thickness"] > 0
-    assert found.record["problem"]["foundation"] == {"thickness": 50e-6}
-    http = Http(own=(FILE,))
-    try:
-        assert found == by_command(question) == by_study(question) == by_http(question, http)
-        tables = Question("simulate", given | {"problem": read_toml(Path("case.toml"))})
-        assert by_http(tables, http).record == found.record
-    finally:
-        http.close()
-
-
-@pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
-@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_a_tier_accepts_the_bodies_on_its_list_alone(tier, body):
-    case = next(case for case in PROBLEMS if refusal(tier, case) == "")
-    if type(case.body) is type(body) and case.body.decay_length == body.decay_length:
-        return
-    try:
-        stranger = replace(case, body=body)
-    except vt.InputError as error:
-        assert "needs a layer" in str(error)
-        return
-    listed = {each for verified in tier.verified for each in verified.bodies}
-    reason = refusal(tier, stranger)
-    kind = type(getattr(body, "base", body))
-    assert (reason == "") == (kind in listed), reason
-    if reason:
-        assert f"the body is {kind.word}" in reason
 
 
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
@@ -148,11 +93,6 @@ def test_small_strain_is_judged_on_the_body(problem):
     vt.Problem(problem.material, problem.traction, problem.geometry, deep)
     with pytest.raises(vt.InputError, match="exceeds small strain"):
         replace(problem, protocol=deep)
-
-
-def test_the_energy_at_an_edge_is_read_on_a_half_space_alone(result):
-    with pytest.raises(vt.InputError, match="on a foundation"):
-        vt.edge_energy(result)
 
 
 @pytest.mark.parametrize(

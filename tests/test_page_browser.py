@@ -8,11 +8,7 @@ from pathlib import Path
 
 import pytest
 
-import viscotack as vt
 from app_server import browsing, running, until
-from viscotack.app.operations.parts.examples import EXAMPLES
-from viscotack.model.problem.case_file import case_of_tables
-from viscotack.units import readable
 
 pytestmark = pytest.mark.outside
 
@@ -96,15 +92,6 @@ def test_a_dma_file_becomes_the_material_and_a_rig_file_stands_beside_the_foreca
     assert "lens_1000_um_s.csv" in legend and "simulation of the case" in legend
 
 
-def test_what_a_file_does_not_say_becomes_a_field_in_sight(page, server, tmp_path):
-    file = tmp_path / "dma.csv"
-    file.write_text("frequency [Hz],storage modulus [MPa],loss modulus [MPa]\n1,1,0.1\n10,2,0.2\n")
-    opened(page, server[0])
-    page.set_input_files("#material-file", file)
-    until(page, "document.activeElement.id === 'fit-kind'")  # tensile or shear?
-    assert page.is_visible("#fit-kind")
-
-
 def test_a_number_that_is_impossible_is_refused_where_it_stands(page, server):
     opened(page, server[0])
     page.fill("#sphere-radius", "-5 mm")
@@ -122,31 +109,6 @@ def test_a_number_that_is_impossible_is_refused_where_it_stands(page, server):
     page.click("summary:text('Test')")
     page.evaluate("viscotack.set('protocol', 'moves', ['approach fast'])")
     page.wait_for_selector(".problem:text('approach fast')")
-
-
-@pytest.mark.parametrize("example", [0, 1, 2, 3])
-def test_the_answer_is_that_of_predict_and_the_tiers_are_folded_beneath(page, server, example):
-    tables = list(EXAMPLES.values())[example]
-    opened(page, server[0])
-    page.select_option("#example", index=example + 1)
-    at_rest(page)
-    until(page, "document.querySelector('.stale') === null")  # the table of the tiers as well
-    problem = case_of_tables(tables)
-    punch, (number, *rest) = "punch" in tables, page.inner_text("#best").split("\n\n")[1:]
-    try:
-        found = vt.predict(problem)
-    except vt.OutOfRange:
-        force, method = page.evaluate("viscotack.run.answer.summary.pull_off_force_N"), "simulation"
-    else:
-        scale = problem.scales().stress if punch else problem.scales().force
-        force, method = found.pull_off_force * scale, found.method
-    assert number == readable(force, "Pa" if punch else "N").replace("u", "µ")
-    assert rest[-1].startswith(f"by the {method}:")
-    fold = page.locator("#view-contact details:has-text('How do the theories compare')").first
-    assert fold.get_attribute("open") is None
-    page.click("text=How do the theories compare")
-    assert method in fold.locator("tbody th", has_text="(the answer)").inner_text()
-    assert fold.locator("tbody tr").count() > 3
 
 
 def test_reload_and_link_restore_the_state(page, browser, server):

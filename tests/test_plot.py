@@ -3,8 +3,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from picture_units import in_si
-from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
-from viscotack.plot.simulation import draw_force, draw_radius
+from synthetic import PULL_OFF_DEPTH, SI, jkr_result
+from viscotack.plot.simulation import draw_force
 from viscotack.plot.style import axis_unit, log_axis_unit, plain_ticks, save_figure
 
 
@@ -29,15 +29,6 @@ def test_force_is_drawn_against_depth_with_its_pull_off():
     assert mark(axes).get_label() == "pull-off, 1"
     assert axes.get_xlabel() == "depth / $h_0$"
     assert axes.get_ylabel().startswith("force / ")
-
-
-def test_force_is_drawn_against_radius_where_there_is_an_edge():
-    result = jkr_detachment()
-    (axes,) = draw_radius(result).axes
-    edge = np.isfinite(result.contact_radius)
-    assert not edge.all()
-    np.testing.assert_array_equal(curve(axes).get_xdata(), result.contact_radius[edge])
-    assert mark(axes).get_xdata() == pytest.approx(PULL_OFF_RADIUS, rel=1e-4)
 
 
 def test_a_problem_in_si_is_drawn_with_readable_units():

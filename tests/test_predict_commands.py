@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
-from command_line import exit_status
+from command_line import answered, exit_status, refused
+from stated import LENS
 from viscotack.prediction import cautions_on
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
@@ -16,27 +17,6 @@ PUNCH = (
     "punch --size 64.85 --thickness 3.24 --cohesion 0.05 --modulus-ratio 0.1 --preload 1".split()
 )
 PAD = Path(__file__).parents[1] / "examples" / "from_toml" / "pad.toml"
-LENS = """
-[material]
-model = "power-law"
-rubbery_modulus = "1.458 MPa"
-glassy_modulus = "3089 MPa"
-exponent = 0.2207
-tau0 = "18.76 ms"
-poisson_ratio = 0.5
-
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.1523 J/m^2"
-equilibrium_gap = "1.55 um"
-
-[sphere]
-radius = "5.19 mm"
-
-[protocol]
-preload_force = "1.5 mN"
-speed = "100 um/s"
-"""
 
 
 @pytest.fixture
@@ -52,17 +32,11 @@ def call(*arguments):
 
 
 def answer(capsys, *arguments):
-    """Return the one JSON object of a command that ends well."""
-    assert call(*arguments, "--json") == 0
-    return json.loads(capsys.readouterr().out)
+    return answered(["predict", *arguments], capsys)
 
 
 def wrong(capsys, *arguments):
-    """Return the message of a refused command: one paragraph, nothing on standard output."""
-    assert call(*arguments) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and "Traceback" not in err
-    return err
+    return refused(["predict", *arguments], capsys)
 
 
 def table(path):
@@ -97,22 +71,6 @@ def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
     assert call(*words) == 0
     out = capsys.readouterr().out
     assert f"the prediction is {abs(off):.2%}" in out and "simulated in" in out
-
-
-@pytest.mark.slow
-def test_a_theory_predicts_outside_the_range_and_is_compared(capsys):
-    deep = [*SPHERE[:-1], "600", "--rate", "1"]
-    found = answer(capsys, *deep, "--compare")
-    assert found["method"] != "surrogate" and found["inside"] is False
-    assert found["why"].startswith(
-        "preload is 600 h0, outside the training range of 0.005 to 500 h0"
-    )
-    assert found["work_to_pull_off"] is None and found["difference"]["work_to_pull_off"] is None
-    assert abs(found["difference"]["pull_off_force"]) < 0.3
-    assert call(*deep, "--why") == 0
-    out = capsys.readouterr().out
-    assert ", outside of the surrogates\npreload is 600 h0" in out and "work to" not in out
-    assert f"by the theory {found['method']!r}" in out
 
 
 def test_the_curve_is_written_and_drawn(lens, tmp_path, capsys):

@@ -1,6 +1,7 @@
 """A start so deep that its depth no longer matters: where the march begins, and what is said."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -93,6 +94,20 @@ def test_the_depth_grows_by_fours_until_the_end_no_longer_changes():
     assert abs(forces[1] / forces[0] - 1) > 0.1 > 0.01 > abs(forces[-1] / forces[-2] - 1)
     assert begun.start.force <= 0.3 * DEFAULT_ACCURACY
     assert begun.start.work <= 1.5 * DEFAULT_ACCURACY
+
+
+def test_what_is_left_of_the_creep_bounds_what_the_depth_still_does():
+    last = SimpleNamespace(left=0.2, values={"force": 1.0, "work": 2.0})
+
+    def effects(left):
+        return preload._effects([last], SimpleNamespace(left=left, values=values), SOLID)
+
+    values = {"force": 1.0 / 0.9, "work": 2.0 / 0.2}  # changed by 0.1 and 0.8 of themselves
+    # 1.5 times the change, as what is left to what has crept in between; at most 5 times that rest
+    assert effects(0.05) == pytest.approx({"force": 0.05, "work": 0.25})
+    # creep is not the only slow process: a tenth of the change at least
+    assert effects(1e-9) == pytest.approx({"force": 0.01, "work": 0.08})
+    assert effects(0.2) == pytest.approx({"force": 1.0, "work": 1.0})
 
 
 def test_a_march_begins_pressed_as_hard_as_the_contact_then_pulls():

@@ -10,20 +10,16 @@ from scipy.special import struve
 
 import viscotack as vt
 from front_ends import Http, Question, by_command, by_http, by_python, by_study
-from tier_problems import PROBLEMS, refusal
+from stated import case_text
 from viscotack.files.toml import read_toml, toml_value
 from viscotack.model.traction import LennardJones
-from viscotack.prediction.simulation import SIMULATION
-from viscotack.prediction.tiers import TIERS
 from viscotack.simulate.contacts.shape import ShapeContact
 from viscotack.simulate.settings import Settings
 from viscotack.simulate.solver import contact_of
-from viscotack.theory import jkr
 from viscotack.theory.elastic import indenter
 
 ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 RELAXING = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-CHEAP = [tier for tier in TIERS if tier.name != SIMULATION]
 RADII = np.linspace(0.0, 6.0, 241)
 WAVY = vt.WavySphere(1.0, 0.06, 0.5)
 SOLID: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
@@ -54,22 +50,14 @@ def test_a_paraboloid_by_its_heights_is_one_everywhere():
     assert shape.equivalent_radius(1e-9) == pytest.approx(1.0, rel=1e-12)
 
 
-def test_a_profile_goes_on_smoothly_behind_its_last_row():
-    shape, end = reduced(worn), RADII[-1]
-    for of in (shape.gap, shape.flank):
-        assert of(end * (1 + 1e-9)) == pytest.approx(of(end), rel=1e-6)
-
-
 @pytest.mark.parametrize(
     ("points", "words"),
     [
         ([(0, 0), (1, 1)], "3 to 10,000 rows"),
         ([(0.1, 0), (1, 1), (2, 4)], "ascend from 0"),
-        ([(0, 0), (1, 1), (1, 4)], "ascend from 0"),
         ([(0, 0), (1, np.nan), (2, 4)], "finite"),
         ([(0, 1), (1, 4), (2, 0)], "rise at the last row"),
         ([(0, 9), (1, 4), (2, 1), (3, 0), (4, 1)], "rise outwards as a whole"),
-        ([(0, 0), (1, 2, 3), (2, 4)], "pairs of numbers"),
     ],
 )
 def test_rows_that_are_no_profile_are_refused(points, words):
@@ -135,16 +123,6 @@ def test_a_contact_beyond_the_last_row_is_refused():
         vt.solve(apart, accuracy=1e-2)
 
 
-@pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
-@pytest.mark.parametrize("shape", [WAVY, reduced(worn), vt.Disc(1.0)], ids=lambda x: x.word)
-def test_no_cheap_tier_answers_for_a_shape_that_it_was_not_shown(tier, shape):
-    case = next(case for case in PROBLEMS if refusal(tier, case) == "")
-    # punches have a cohesion, and a layer under them
-    others = {"tabor": 3.0, "cohesion": None, "body": vt.HalfSpace(), "start": vt.AtDepth(5.0)}
-    stranger = replace(case, geometry=shape, **(others if case.in_plane_strain else {}))
-    assert f"the shape is {shape.word}" in refusal(tier, stranger)
-
-
 def test_nodes_of_a_tip_grow_slowly_away_from_its_kinks():
     # panels of seven times the length beside those of the kink had no positive definite compliance
     shape = vt.MeasuredProfile.sampled(lambda r: max(r * r - 0.694, 0.0) / 2, RADII[::2])
@@ -159,64 +137,27 @@ def test_nodes_of_a_tip_grow_slowly_away_from_its_kinks():
 
 # --- the ways in ----------------------------------------------------------------------------------
 
-CASE = """
-[material]
-model = "elastic"
-rubbery_modulus = "1 MPa"
-poisson_ratio = 0.5
 
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "1 um"
-
-[{table}]
-{keys}
-
-[protocol]
-preload_depth = "2 um"
-speed = "10 um/s"
-"""
+def case_of(table, keys):
+    pressed = 'preload_depth = "2 um"\nspeed = "10 um/s"'
+    return case_text(shape=f"[{table}]\n{keys}", protocol=pressed)
 
 
 @pytest.mark.parametrize("table", ["profile", "measured-profile"])
 def test_a_case_file_names_the_table(tmp_path, table):
     (tmp_path / "tip.csv").write_text("radius_um,height_nm\n0,5\n50,505\n100,2005\n400,32005\n")
     path = tmp_path / "case.toml"
-    path.write_text(CASE.format(table=table, keys='file = "tip.csv"'))
+    path.write_text(case_of(table, 'file = "tip.csv"'))
     shape = vt.read_case(path).geometry
     assert isinstance(shape, vt.MeasuredProfile)
     assert shape.gap(1e-4) == pytest.approx(2e-6, rel=1e-9)
     points = (
         '[["0 um", "5 nm"], ["50 um", "505 nm"], ["100 um", "2005 nm"], ["400 um", "32005 nm"]]'
     )
-    path.write_text(CASE.format(table="measured-profile", keys=f"points = {points}"))
+    path.write_text(case_of("measured-profile", f"points = {points}"))
     typed = vt.read_case(path).geometry
     assert isinstance(typed, vt.MeasuredProfile)
     assert np.array(typed.points) == pytest.approx(np.array(shape.points), rel=1e-9, abs=1e-18)
-
-
-def test_steep_waves_are_beyond_small_strain(tmp_path):
-    path = tmp_path / "case.toml"
-    keys = 'radius = "5 mm"\namplitude = "6 um"\nwavelength = "50 um"'
-    path.write_text(CASE.format(table="wavy-sphere", keys=keys).replace('"2 um"', '"20 um"'))
-    with pytest.raises(vt.InputError, match="exceeds small strain"):
-        vt.read_case(path)
-
-
-def test_si_gives_what_groups_do():
-    solid = vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
-    problem = vt.Problem(
-        material=solid,
-        traction=LennardJones(0.05, 1e-6),
-        geometry=vt.MeasuredProfile.sampled(lambda r: r * r / 0.01, np.linspace(0, 6e-4, 61)),
-        protocol=vt.Retraction(vt.AtDepth(5e-6), 1e-6),
-    )
-    result = vt.solve(problem, until="pull-off", accuracy=1e-2)
-    pulled = result.pull_off_force * problem.scales().force
-    E = solid.contact_modulus
-    assert E == pytest.approx(4e6 / 3)
-    assert pulled == pytest.approx(jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.05), rel=0.1)
 
 
 # --- several edges --------------------------------------------------------------------------------
@@ -255,14 +196,6 @@ def test_both_edges_of_a_ring_are_reported(ring_result):
     assert inner[after][-1] > 1.1 * inner[after][0]
 
 
-def test_a_ring_pulls_alike_from_rest_and_after_its_approach(ring_result):
-    rest = replace(ring_result.groups, start=vt.AtDepth(5.0), moves=())
-    found = vt.solve(rest, until="pull-off", accuracy=1e-2)
-    assert found.error_estimate is not None and ring_result.error_estimate is not None
-    error = found.error_estimate["force"] + ring_result.error_estimate["force"]
-    assert found.pull_off_force == pytest.approx(ring_result.pull_off_force, rel=error)
-
-
 def test_parts_of_a_contact_that_comes_together_are_counted():
     # a groove around a tip: it closes with a jump on the way in, whose energy is booked
     def groove(r):
@@ -296,7 +229,7 @@ TABLES = {
 def test_every_door_gives_the_same_answer(word, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     keys = "\n".join(f"{key} = {toml_value(value)}" for key, value in TABLES[word].items())
-    Path("case.toml").write_text(CASE.format(table=word, keys=keys))
+    Path("case.toml").write_text(case_of(word, keys))
     question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.02})
     found = by_python(question)
     record: Any = found.record

@@ -207,31 +207,6 @@ def test_units_scale_out(case, modulus, time, gap):
     )
 
 
-@related(3, case=contacts(material=series()), share=st.floats(0.1, 0.9))
-def test_an_arm_in_two_halves_changes_no_pull_off(case, share):
-    agree(pulled(case), pulled(replace(case, material=split(case.material, share))), ACCURACY)
-
-
-@related(3, case=contacts(material=standard_solids()))
-def test_one_arm_is_the_standard_solid(case):
-    agree(pulled(case), pulled(replace(case, material=one_arm(case.material))), 1e-6)
-
-
-@related(3, case=contacts(), factor=decades(1e-2, 1e2))
-def test_a_slower_solid_at_a_slower_speed_has_the_same_pull_off(case, factor):
-    slow = replace(case, material=slowed(case.material, factor), rate=case.rate / factor)
-    agree(pulled(case), pulled(slow), 1e-6)
-
-
-@related(
-    3,
-    case=contacts(material=st.just(ELASTIC)),
-    factor=decades(1e-3, 1e3),
-)
-def test_an_elastic_solid_has_no_time(case, factor):
-    agree(pulled(case), pulled(replace(case, rate=case.rate * factor)), 1e-6)
-
-
 @related(3, case=contacts())
 def test_the_square_profile_is_the_sphere_and_a_stiff_spring_a_rigid_machine(case):
     known = pulled(case)

@@ -5,14 +5,13 @@ import json
 import pytest
 from typer.testing import CliRunner
 
+from stated import LAW, case_text
 from viscotack.app.cli import application
-from viscotack.files.quantities import read_quantities
 from viscotack.model.problem.case_file import read_case
 from viscotack.model.problem.law_table import law_from_words
 from viscotack.model.protocol import (
     Apart,
     Approach,
-    AtDepth,
     AtForce,
     AtRadius,
     Dwell,
@@ -30,31 +29,10 @@ from viscotack.model.protocol.words import (
 )
 from viscotack.model.traction import Dugdale, Exponential, Tabulated
 
-CASE = """
-[material]
-model = "elastic"
-rubbery_modulus = "1.5 MPa"
-poisson_ratio = 0.5
 
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "0.15 J/m^2"
-equilibrium_gap = "1.5 um"
-
-[sphere]
-radius = "5 mm"
-
-[protocol]
-"""
-
-
-def case(folder, protocol, interface=None):
+def case(folder, protocol, law=LAW):
     path = folder / "case.toml"
-    text = CASE + protocol
-    if interface is not None:
-        begin, end = text.index("law ="), text.index("[sphere]")
-        text = text[:begin] + interface + "\n" + text[end:]
-    path.write_text(text)
+    path.write_text(case_text(law=law, protocol=protocol))
     return read_case(path)
 
 
@@ -62,20 +40,15 @@ def case(folder, protocol, interface=None):
     ("words", "move"),
     [
         ("approach 10 um/s to 1.5 mN", Approach(1e-5, AtForce(1.5e-3))),
-        ("approach 10 um/s to 2 um", Approach(1e-5, AtDepth(2e-6))),
         ("approach 10 um/s to radius 0.2 mm", Approach(1e-5, AtRadius(2e-4))),
         ("retract  10 um/s to  force -1 mN", Retract(1e-5, AtForce(-1e-3))),
-        ("retract 10 um/s to 0 um", Retract(1e-5, AtDepth(0.0))),
         ("move to -2 um in 3 s", MoveTo(-2e-6, 3.0)),
-        ("move to depth 2 um in 3 ms", MoveTo(2e-6, 3e-3)),
         ("load to -1 mN in 1 s", LoadTo(-1e-3, 1.0)),
-        ("dwell 60 s", Dwell(60.0)),
         ("dwell for 2 min", Dwell(120.0)),
         ("hold force 60 s", Dwell(60.0, "force")),
         ("hold depth for 1 h", Dwell(3600.0, "depth")),
         ({"approach": "10 um/s", "to": "1.5 mN"}, Approach(1e-5, AtForce(1.5e-3))),
         ({"load_to": "-1 mN", "in": "1 s"}, LoadTo(-1e-3, 1.0)),
-        ({"hold": "drive", "for": "2 s"}, Dwell(2.0)),
     ],
 )
 def test_words_are_moves(words, move):
@@ -95,7 +68,6 @@ def test_numbers_alone_are_dimensionless_and_a_punch_bears_a_stress():
         ("go home", "'go home' is not a move"),
         ("approach 10 um/s", "write approach SPEED"),
         ("dwell 60", "'60' has no unit"),
-        ("dwell -60 s", "duration must be positive"),
         ("approach 10 um to 1 mN", "'10 um' has the wrong dimension"),
     ],
 )
@@ -119,14 +91,6 @@ speed = "100 um/s"
     assert (protocol.stiffness, protocol.speed) == (500.0, 1e-4)
 
 
-def test_a_test_may_end_with_its_moves_and_repeat_them(tmp_path):
-    cycle = 'moves = ["approach 1 um/s to 2 um", "retract 1 um/s to 0 um"]\ncycles = 3'
-    protocol = case(tmp_path, 'preload_depth = "0 um"\n' + cycle).protocol
-    assert protocol.speed is None
-    assert len(protocol.moves) == 6
-    assert protocol.moves[:2] == protocol.moves[4:]
-
-
 @pytest.mark.parametrize(
     ("protocol", "said"),
     [
@@ -134,7 +98,6 @@ def test_a_test_may_end_with_its_moves_and_repeat_them(tmp_path):
         ('start = "apart 2 um"', r"\[protocol\] speed"),
         ('start = "apart 2 um"\nmoves = ["dwell 1 s"]\ncycles = 0', "cycles"),
         ('start = "apart 2 um"\nhistory = "h.csv"', "history states the start"),
-        ('start = "apart 2 um"\nmoves = ["dwell 1 s"]\nstiffness = "1 N"', "stiffness"),
     ],
 )
 def test_a_wrong_protocol_is_refused_with_its_key(protocol, said, tmp_path):
@@ -145,7 +108,7 @@ def test_a_wrong_protocol_is_refused_with_its_key(protocol, said, tmp_path):
 def test_a_history_is_a_table_of_time_and_displacement(tmp_path):
     (tmp_path / "h.csv").write_text("time_s,displacement_um\n0,-20\n2,1\n12,1\n12.5,-20\n")
     protocol = case(tmp_path, 'history = "h.csv"').protocol
-    assert protocol.start.gap == pytest.approx(21.5e-6, rel=1e-12, abs=0)
+    assert protocol.start.gap == pytest.approx(21e-6, rel=1e-12, abs=0)
     assert protocol.moves == (MoveTo(1e-6, 2.0), MoveTo(1e-6, 10.0), MoveTo(-20e-6, 0.5))
     start, moves = history_from_file(tmp_path / "h.csv", 0.0)
     assert start == Apart(2e-5) and len(moves) == 3
@@ -155,7 +118,6 @@ def test_a_history_is_a_table_of_time_and_displacement(tmp_path):
     ("text", "said"),
     [
         ("time_s,depth_um\n0,1\n1,2\n", "displacement"),
-        ("time_s,displacement_N\n0,1\n1,2\n", "unit of column displacement"),
         ("time_s,displacement_um\n0,1\n0,2\n", "ascending times"),
         ("time_s,displacement_um\n0,1\n1,two\n", "line 3: displacement"),
     ],
@@ -166,20 +128,9 @@ def test_a_wrong_history_is_refused_with_file_and_line(text, said, tmp_path):
         history_from_file(tmp_path / "h.csv", 1e-6)
 
 
-def test_columns_are_found_by_name_and_put_into_si(tmp_path):
-    path = tmp_path / "law.csv"
-    path.write_text("# from afar\ntraction_kPa,note,gap_nm\n-3,a,1.5\n4,b,2\n")
-    columns = read_quantities(path, {"gap": "m", "traction": "Pa"})
-    assert columns == {"gap": (1.5e-9, 2e-9), "traction": (-3e3, 4e3)}
-
-
 @pytest.mark.parametrize(
     ("interface", "law"),
     [
-        (
-            'law = "dugdale"\nwork_of_adhesion = "0.15 J/m^2"\nstrength = "100 kPa"',
-            Dugdale(0.15, 1.5e-6),
-        ),
         (
             'law = "dugdale"\nwork_of_adhesion = "0.15 J/m^2"\nequilibrium_gap = "1 um"\n'
             "fall = 1.0",

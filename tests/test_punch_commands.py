@@ -1,11 +1,9 @@
 """The commands of the punch: flags and files in, numbers, words and pictures out."""
 
-import json
-
 import numpy as np
 import pytest
 
-from command_line import exit_status
+from command_line import answered, refused
 from viscotack.model.geometry import Bonded
 from viscotack.model.problem import Problem
 from viscotack.model.problem.case_file import read_case
@@ -52,20 +50,6 @@ PAD = [
 ]
 
 
-def asked(arguments, capsys):
-    """Return the one JSON object that a command prints."""
-    assert exit_status([*arguments, "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
-def wrong(arguments, capsys):
-    """Return the message of a refused command."""
-    assert exit_status(arguments) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and "Traceback" not in err
-    return " ".join(err.split())
-
-
 @pytest.fixture
 def case_file(tmp_path):
     path = tmp_path / "pad.toml"
@@ -76,7 +60,7 @@ def case_file(tmp_path):
 def test_a_test_with_a_history_and_another_law_is_stated_in_words(capsys):
     flags = "--size 20 --thickness 2 --cohesion 0.05 --modulus-ratio 0.1 --apart 15 --law dugdale"
     moves = ["--move", "approach 5 to depth 1", "--move", "dwell 2"]
-    answer = asked([*PUNCH, *flags.split(), *moves, "--rate", "10", "--stiffness", "5"], capsys)
+    answer = answered([*PUNCH, *flags.split(), *moves, "--rate", "10", "--stiffness", "5"], capsys)
     problem = from_dict(answer["problem"])
     assert problem.moves == (Approach(speed=5.0, to=AtDepth(1.0)), Dwell(2.0))
     assert problem.start == Apart(15.0) and problem.stiffness == 5.0
@@ -90,7 +74,7 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
     assert isinstance(problem, Problem)
     assert problem.body.base == Bonded(poisson_ratio=0.4)
     assert problem.protocol.start == AtForce(2000.0)
-    answer = asked([*PUNCH, case_file, "-o", tmp_path / "pad.npz"], capsys)
+    answer = answered([*PUNCH, case_file, "-o", tmp_path / "pad.npz"], capsys)
     for name, unit in KEYS.items():
         assert answer[f"{name}_{unit}"] > 0, name
     unit = problem.scales()
@@ -120,23 +104,23 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
 def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, capsys):
     assert old in CASE
     case_file.write_text(CASE.replace(old, new))
-    assert words in wrong([*PUNCH, case_file], capsys)
+    assert words in " ".join(refused([*PUNCH, case_file], capsys).split())
 
 
 def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
-    assert "contains a punch" in wrong(["simulate", "sphere", case_file], capsys)
-    assert "contains a punch" in wrong(["advise", case_file], capsys)
-    assert "leave out --size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
+    assert "contains a punch" in refused(["simulate", "sphere", case_file], capsys)
+    assert "contains a punch" in refused(["advise", case_file], capsys)
+    assert "leave out --size" in refused([*PUNCH, case_file, "--size", 3], capsys)
 
 
 def test_theory_says_how_thick_a_pad_must_be(capsys):
     ask = ["theory", "punch", *PAD, "--speed", "100 um/s"]
-    answer = asked([*ask, "--stress", "30 kPa"], capsys)
+    answer = answered([*ask, "--stress", "30 kPa"], capsys)
     assert answer["cohesive_below_m"] == pytest.approx(4e-5)
     assert answer["cohesive_when_fast_below_m"] == pytest.approx(4e-4)
     assert answer["half_plane_above_m"] == pytest.approx(4e-3 / np.pi)
     thickness = answer["thickness_m"]
-    back = asked([*ask, "--thickness", f"{thickness!r} m"], capsys)
+    back = answered([*ask, "--thickness", f"{thickness!r} m"], capsys)
     assert back["pull_off_stress_Pa"] == pytest.approx(3e4, rel=1e-4)
     assert back["regime"] == "thin layer"
     assert back["slowest_pull_off_stress_Pa"] < 3e4 < back["fastest_pull_off_stress_Pa"]
@@ -145,7 +129,7 @@ def test_theory_says_how_thick_a_pad_must_be(capsys):
 @pytest.mark.slow
 def test_theory_draws_its_map(capsys, tmp_path):
     picture = tmp_path / "map.png"
-    found = asked(["theory", "punch", *PAD, "--map", "--plot", picture], capsys)["map"]
+    found = answered(["theory", "punch", *PAD, "--map", "--plot", picture], capsys)["map"]
     assert picture.stat().st_size > 10_000
     assert np.shape(found["regime"]) == (len(found["thickness_m"]), len(found["speed_m_per_s"]))
     assert {word for row in found["regime"] for word in row} == {
@@ -159,7 +143,7 @@ def test_theory_draws_its_map(capsys, tmp_path):
 
 def test_an_elastic_pad_has_an_answer_and_no_map(capsys, tmp_path):
     pad = ["theory", "punch", *PAD[:8], "--material", "elastic"]
-    answer = asked([*pad, "--thickness", "200 um", "--speed", "1 mm/s"], capsys)
+    answer = answered([*pad, "--thickness", "200 um", "--speed", "1 mm/s"], capsys)
     assert answer["pull_off_stress_Pa"] == pytest.approx(answer["slowest_pull_off_stress_Pa"])
     assert answer["crack_speed_at_pull_off_m_per_s"] is None
-    assert "no regime map" in wrong([*pad, "--plot", tmp_path / "map.png"], capsys)
+    assert "no regime map" in refused([*pad, "--plot", tmp_path / "map.png"], capsys)

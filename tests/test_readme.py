@@ -3,8 +3,6 @@
 import itertools
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -106,17 +104,6 @@ def test_the_readme_has_one_short_example(anywhere, capsys):
     assert stated and capsys.readouterr().out == f"pull-off force {stated[1]} mN\n"
 
 
-def test_first_steps_have_an_example_in_python(anywhere, capsys):
-    page = ROOT / "docs/first_hour.md"
-    (example,) = [block for block in blocks(page, "python") if "vt.Problem(" in block]
-    exec(compile(example, page.name, "exec"), {})
-    printed = capsys.readouterr().out
-    stated = re.search(r"# ([\d.]+) mN; slowly, it is ([\d.]+) mN", example)
-    assert stated and printed.endswith(f"pull-off force {stated[1]} mN\n")
-    # 1.5 pi R times the work of adhesion, the slow limit at a large Tabor number
-    assert float(stated[2]) == pytest.approx(0.2356, abs=0.006)
-
-
 @pytest.mark.parametrize(
     "page", [in_time(page) for page in PAGES[1:] if page != ASKS_A_SERVER], ids=name
 )
@@ -150,17 +137,6 @@ def compare(lines, shown):
 def test_commands_of_the_pages_run_and_print_what_is_shown(page, anywhere):
     shown = sessions.sessions((ROOT / page).read_text())
     compare(short()[page], {session.command: session for session in shown})
-
-
-@pytest.mark.slow
-def test_classes_of_the_page_on_own_classes_pass_all_checks(tmp_path):
-    files = save_files_of(OWN, tmp_path)
-    checked = [line.split()[1] for line in commands(OWN) if line.startswith("python my_")]
-    assert checked == [file for file in files if re.fullmatch(r"my_.*\.py", file)]
-    assert checked
-    for file in checked:
-        done = subprocess.run([sys.executable, file], cwd=tmp_path, capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.slow

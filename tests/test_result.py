@@ -70,41 +70,17 @@ def flip(path):
     path.write_bytes(bytes(data))
 
 
-def table(path):
-    path.write_text("time,depth\n0,1\n")
-
-
 def other_npz(path):
     np.savez(path, force=np.ones(3))
 
 
-def pickled(path):
-    np.savez(path, header=np.array([{"format": "viscotack result"}], dtype=object))
-
-
-@pytest.mark.parametrize("damage", [flip, table, other_npz, pickled])
+@pytest.mark.parametrize("damage", [flip, other_npz])
 def test_a_damaged_or_foreign_file_is_named_as_such(damage, tmp_path):
     path = tmp_path / "run.npz"
     save(full(), path)
     damage(path)
     with pytest.raises(ValueError, match=r"run\.npz is not a readable result of viscotack"):
         load(path)
-
-
-def test_a_failed_write_leaves_the_old_file_and_no_scraps(tmp_path, monkeypatch):
-    path = tmp_path / "run.npz"
-    save(jkr_result(), path)
-    before = path.read_bytes()
-
-    def full_disk(file, **arrays):
-        file.write(b"half")
-        raise OSError("no space left")
-
-    monkeypatch.setattr(np, "savez_compressed", full_disk)
-    with pytest.raises(OSError, match="no space left"):
-        save(full(), path)
-    assert path.read_bytes() == before
-    assert [p.name for p in tmp_path.iterdir()] == ["run.npz"]
 
 
 def test_a_csv_has_si_columns_with_units_for_a_problem_in_si(tmp_path):

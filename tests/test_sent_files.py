@@ -56,11 +56,3 @@ def test_what_is_sent_names_files_that_were_sent_with_it(word, folder):
     # it is read, and is no pad, or no curve of a rig
     with pytest.raises(InputError, match=r"asked.toml states a sphere|branches.csv: "):
         answer(word, folder, "branches.csv")
-
-
-def test_without_files_that_were_sent_none_is_read(folder, monkeypatch):
-    monkeypatch.chdir(folder)
-    (folder / "asked.toml").write_text(CASE)
-    asked = request_of(operation("predict"), {"problem": "asked.toml"})
-    with pytest.raises(InputError, match="was sent with the request"):
-        asked.answer(Caller(sent=True))

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.model.geometry import Cone, FlatPunch, Layer
+from viscotack.model.geometry import FlatPunch, Layer
 from viscotack.model.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.model.problem import Groups
-from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
+from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
 from viscotack.model.traction import Exponential, Eyring, LennardJones
 from viscotack.result.observables import (
     depth_at_pull_off,
@@ -59,10 +59,7 @@ def soft_law(start, *moves, **changes):
     ("start", "words"),
     [
         (AtDepth(4.0), "at a depth of 4 h0 .* presses with up to 31.8"),
-        (AtDepth(8.0), "at a depth of 8 h0 .* presses with up to 51.3"),
-        (AtDepth(40.0), "at a depth of 40 h0 .* presses with up to 12[56]"),
         (AtForce(45.0), "a force of 45 .dimensionless. is not reached: .* presses with up to 29.5"),
-        (AtRadius(8.0), "a contact radius of 8 .dimensionless. is not reached"),
     ],
     ids=str,
 )
@@ -81,12 +78,10 @@ def test_a_start_that_presses_nearly_as_hard_as_the_law_repels_exists(start):
 @pytest.mark.parametrize(
     "changes",
     [
-        {"moves": (Approach(speed=1.0, to=AtDepth(6.0)),)},
         {"moves": (Approach(speed=1.0, to=AtDepth(6.0)),), "start": Apart(3.0)},
         {"moves": (LoadTo(force=80.0, duration=10.0),)},
-        {"moves": (Approach(speed=1.0, to=AtDepth(6.0)),), "stiffness": 10.0},
     ],
-    ids=["pressed", "from apart", "loaded", "through a spring"],
+    ids=["from apart", "loaded"],
 )
 def test_a_march_that_presses_harder_than_the_law_repels_says_where_it_stopped(changes):
     result = solve(replace(soft_law(AtDepth(1.0)), **changes), throw=False)
@@ -130,8 +125,8 @@ def test_the_same_problem_gives_the_same_bytes():
 
 @pytest.mark.parametrize(
     ("tabor", "depth", "material"),
-    [(0.01, 0.0, ELASTIC), (0.001, 0.003, ELASTIC), (0.03, 0.0, ELASTIC), (0.1, -0.03, SOLID)],
-    ids=["0.01", "0.001", "0.03", "viscoelastic"],
+    [(0.01, 0.0, ELASTIC), (0.1, -0.03, SOLID)],
+    ids=["elastic", "viscoelastic"],
 )
 def test_the_stated_error_covers_that_of_a_small_work(tabor, depth, material):
     # the way to the force minimum is short, and the minimum is flat
@@ -144,11 +139,8 @@ def test_the_stated_error_covers_that_of_a_small_work(tabor, depth, material):
     assert error < estimate < 5 * error
 
 
-@pytest.mark.parametrize(
-    ("tabor", "depth"), [(1e-5, 0.0), (1e-3, 0.0), (0.01, -0.1)], ids=["0", "near", "behind"]
-)
-def test_a_work_that_is_lost_in_its_error_is_not_told(tabor, depth):
-    result = solve(case(AtDepth(depth), tabor, material=ELASTIC), until="pull-off")
+def test_a_work_that_is_lost_in_its_error_is_not_told():
+    result = solve(case(AtDepth(0.0), 1e-3, material=ELASTIC), until="pull-off")
     with pytest.raises(ValueError, match="is half of it or more.*start deep"):
         work_to_pull_off(result)
     answer = summary(result)
@@ -187,14 +179,6 @@ def test_what_watches_a_run_is_told_its_curve_and_ends_it():
 
     with pytest.raises(KeyboardInterrupt):
         solve(case(), watch=enough)
-
-
-def test_progress_goes_from_zero_to_one():
-    seen = []
-    solve(case(), progress=seen.append, estimate_error=False)
-    assert seen[0] < 0.2
-    assert seen[-1] == 1.0
-    assert all(0 <= s <= 1 for s in seen)
 
 
 @pytest.mark.march
@@ -244,17 +228,6 @@ def test_a_runaway_behind_a_soft_spring_adds_no_work():
     groups = replace(start, traction=law, stiffness=2e-5)
     result = solve(groups, accuracy=0.01, estimate_error=False, throw=False)
     assert work_to_pull_off(result) < work_of_separation(result) < 10
-
-
-def test_a_dwell_at_a_start_beyond_the_force_minimum_changes_no_pull_off():
-    sphere = case(AtDepth(0.3), tabor=0.2, rate=4.0, material=ELASTIC)
-    alone = replace(sphere, geometry=Cone(slope=1.0))
-    waits = replace(alone, moves=(Dwell(1.0),))
-    forces = [
-        pull_off_force(solve(each, accuracy=0.01, estimate_error=False, throw=False))
-        for each in (alone, waits)
-    ]
-    assert forces == pytest.approx([11.0118, 11.0118], rel=1e-4)
 
 
 def test_the_stated_error_of_the_work_holds_under_a_growing_load():

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import rig_signals
 import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
+from viscotack.lab.tack import Measured, evaluation
 from viscotack.lab.tack.extremum import extremum
 from viscotack.theory import jkr
 
@@ -153,20 +155,6 @@ def test_textbook_signals_are_evaluated_within_their_uncertainties():
     assert np.all((np.std(ratios, axis=0) > 0.5) & (np.std(ratios, axis=0) < 1.5))
 
 
-def test_a_contact_that_ends_in_steps_is_not_called_free():
-    test = tack_files.made(noise=2e-5)
-    # two fibrils hold on after the pull-off, with constant forces
-    last = int(np.flatnonzero(test.contact_radius > 0)[-1]) + 1
-    force = test.force.copy()
-    force[last : last + 60] -= 4e-4
-    force[last + 60 : last + 150] -= 2e-4
-    cycle = only(replace(test, force=force))
-    pull_off = cycle.pull_off_force
-    assert abs(pull_off.value + PULL_OFF.force) < 3 * pull_off.uncertainty < 0.01 * pull_off.value
-    assert abs(np.mean(cycle.force[-300:])) < 5e-6
-    assert abs(np.mean(cycle.force[:100])) < 5e-6
-
-
 def test_single_spikes_are_left_out():
     test = tack_files.made(noise=5e-5)
     force = test.force.copy()
@@ -273,3 +261,27 @@ def test_a_tension_that_lasts_behind_the_pull_off_is_a_sign_of_fibrils():
     assert "fibrils or cavities" in fibrils.cautions[0]
     (sphere,) = tack.evaluate(pulled_film(1e-6, 5e-7), into=1).cycles
     assert sphere.cautions == ()
+
+
+def test_a_speed_that_changes_is_as_uncertain_as_one_anywhere_between_those_of_the_halves():
+    time = np.linspace(0.0, 2.0, 2001)
+    drive = 1e-6 * np.where(time < 1, time, 3 * time - 2)
+    for way, uncertainty in ((-drive, 2e-6 / np.sqrt(12)), (-2e-6 * time, 0.0)):
+        found = evaluation._speed(time, way, 0, 2000)
+        assert found.value == pytest.approx(2e-6, rel=1e-3)
+        assert found.uncertainty == pytest.approx(uncertainty, rel=0.01, abs=1e-12)
+
+
+def test_a_work_reaches_to_the_depth_at_which_it_ends_between_two_points():
+    exact = SimpleNamespace(noise=0.0, uncertainty=lambda *where: 0.0)
+    x = np.array([0.0, 1.0, 2.0])
+    found = evaluation._work(exact, (x, x, x, x), (0, 2), 0.0, Measured(2.5, 0.1))
+    # a triangle, a half step at the last force, and its uncertainty at that force
+    assert (found.value, found.uncertainty) == pytest.approx((3.0, 0.2))
+
+
+def test_no_minimum_is_placed_better_than_between_two_points():
+    force = 1e-3 * (np.arange(21.0) - 10.3) ** 2 - 1
+    found = extremum(force, 10, 1e-5)
+    assert found.at == pytest.approx(10.3, abs=0.1)
+    assert found.at_uncertainty == pytest.approx(np.sqrt(1 / 12), rel=0.05)

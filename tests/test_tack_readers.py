@@ -55,17 +55,6 @@ def test_intervals_in_files_of_their_own_are_one_test(tmp_path):
         tack.evaluate(only)
 
 
-def test_intervals_that_do_not_follow_each_other_are_records_of_their_own(tmp_path):
-    first, second, third = tack_files.anton_paar(WHOLE)
-    paths = [tmp_path / f"probe_Interval_{number}.csv" for number in (1, 2, 4)]
-    for path, content in zip(paths, (first, second, third), strict=True):
-        path.write_bytes(content)
-    assert [len(record) for record in tack.read(paths)] == [560, 700]
-    paths[2].rename(tmp_path / "probe_Interval_0.csv")
-    with pytest.raises(InputError, match="before the end of the previous interval"):
-        tack.read([tmp_path / "probe_Interval_0.csv", *paths[:2]])
-
-
 def test_a_workbook_gives_the_sheet_with_a_test(tmp_path):
     pytest.importorskip("openpyxl")
     tack_files.workbook(WHOLE, tmp_path / "probe.xlsx")
@@ -96,10 +85,7 @@ def test_a_cantilever_that_the_file_names_bends(tmp_path):
 PLAIN = tack_files.plain(WHOLE)
 REFUSED = {
     "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
-    "no time": (PLAIN.replace(b"Time [s]", b"Number"), "--nominal-speed"),
-    "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "--force-column"),
     "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
-    "few rows": (b"\r\n".join(PLAIN.split(b"\r\n")[:10]) + b"\r\n", "at least 20 are needed"),
     "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells under"),
     "time goes back": (
         b"\r\n".join([PLAIN.split(b"\r\n")[0], *PLAIN.split(b"\r\n")[300:], PLAIN.split(b"\r\n")[9],
@@ -173,17 +159,3 @@ def test_a_map_is_read_by_afmformats_curve_by_curve(tmp_path, monkeypatch):
     (cycle,) = tack.evaluate(second).cycles
     # the minimum lies between two points
     assert cycle.pull_off_force.value == pytest.approx(-WHOLE.force.min(), rel=5e-4)
-
-
-def test_a_curve_of_afmformats_without_time_needs_the_nominal_speed(tmp_path, monkeypatch):
-    curve = Curve(WHOLE, 0)
-    del curve["time"]
-    stand_in(monkeypatch, lambda path: [curve])
-    content = b"Force-Distance Curve\nFile Format:\t3\n"
-    with pytest.raises(InputError, match="test.csv.*no column of time.*--nominal-speed"):
-        read(tmp_path, content)
-    (record,) = read(tmp_path, content, nominal_speed=1e-5)
-    assert record.time[-1] == pytest.approx(np.sum(np.abs(np.diff(WHOLE.drive))) / 1e-5)
-    del curve["force"]
-    with pytest.raises(InputError, match="curve 0 has no force"):
-        read(tmp_path, content, nominal_speed=1e-5)

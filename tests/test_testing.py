@@ -262,22 +262,6 @@ def test_each_check_fails_for_a_broken_noun(name, noun):
         check(noun, thorough=False)
 
 
-@pytest.mark.parametrize(
-    ("name", "noun"),
-    [
-        ("law_contacts", vt.Exponential(0.05, 1e-6, decay=0.3)),
-        ("solid_contact", vt.StandardSolid(**SOLID)),
-        ("shape_contact", vt.Sphere(1e-3)),
-        ("body_contact", FOUNDATION(2e-5)),
-    ],
-)
-def test_simulated_contacts_out_of_their_limits_fail(name, noun, monkeypatch):
-    monkeypatch.setattr("viscotack.testing.pull_off_force", lambda result: 100.0)
-    monkeypatch.setattr("viscotack.testing._simulated", lambda problem, accuracy=0: None)
-    with pytest.raises(AssertionError, match="100|pull-off"):
-        named(noun, name)()
-
-
 def test_an_observable_in_newtons_fails():
     def newtons(result):
         return vt.pull_off_force(result) * (1.0 if result.scales is None else result.scales.force)

@@ -33,10 +33,7 @@ def test_what_a_passport_states_is_not_stated_beside_it(name, passport):
     ("word", "name", "given"),
     [
         ("theory punch", "material", PAD | ASKED),
-        ("theory greenwood", "material", {"speed": [1.0, 10.0]}),
-        ("theory steady-crack", "material", {"speed": [1.0]}),
         ("material show", "passport", {}),
-        ("material convert", "source", {"temperature": "0 degC"}),
         ("material export", "passport", {"to": "abaqus", "bulk_modulus": "2 GPa"}),
     ],
 )

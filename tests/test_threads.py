@@ -1,8 +1,5 @@
 """The same answers in several threads, and in any order of questions."""
 
-import os
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -14,26 +11,6 @@ SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=4.0, tau0=1.0, pois
 REST = vt.LennardJones(1.0, 1.0)
 LAWS = [REST, vt.GentSchultz(1.0, 1.0, 1.0, 0.3)]
 SPEEDS = (0.003, 0.3)
-
-LIMITS = """
-import scipy.linalg
-from concurrent.futures import ThreadPoolExecutor
-from threadpoolctl import threadpool_info
-from viscotack.threads import one_blas_thread
-
-def most():
-    return sorted({p["num_threads"] for p in threadpool_info() if p["user_api"] == "blas"})
-
-blocks, counts = [one_blas_thread(), one_blas_thread()], [most()]
-threads = [ThreadPoolExecutor(1), ThreadPoolExecutor(1)]
-for thread, block in zip(threads, blocks):
-    thread.submit(block.__enter__).result()
-counts.append(most())
-for thread, block in zip(threads, blocks):
-    thread.submit(block.__exit__, None, None, None).result()
-    counts.append(most())
-print(*counts)
-"""
 
 
 def forget():
@@ -62,17 +39,6 @@ def test_a_steady_crack_does_not_depend_on_the_speeds_that_were_asked_before(alo
     forget()
     SteadyCrack(SOLID, law).amplification(10.0)
     assert [asked(law, speed) for speed in SPEEDS] == expected
-
-
-def test_the_blas_limit_holds_until_the_last_thread_is_done():
-    # in a fresh process, where BLAS has two threads
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITS],
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"},
-        capture_output=True,
-        text=True,
-    )
-    assert done.stdout == "[2] [1] [1] [2]\n", done.stderr
 
 
 def test_simulations_and_predictions_in_threads_are_those_of_one_thread():

@@ -1,6 +1,6 @@
 """The tiers: what each was verified for, what it refuses, and how the best one is chosen."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -215,10 +215,6 @@ SLOW = [
     (3.2, 2e-4, 1.3, 1.6, 1e-3),
     (0.1, 0.1, 0.5, 10.0, 1e-4),
     (0.5, 5e-3, 0.3, 3.0, 1e-9),
-    # the surrogate abstains at its limit, and the simulation takes over
-    pytest.param(4.69, 8.54e-4, 0.731, 202.6, 5e-3, marks=pytest.mark.slow),
-    # by the theory of the crack
-    pytest.param(20.0, 1e-3, 0.3, 150.0, 1e-5, marks=pytest.mark.slow),
 ]
 
 
@@ -248,8 +244,7 @@ def test_slow_forces_are_continuous_and_fall_to_the_elastic_one(material, tabor,
     assert found[0].work_to_pull_off == pytest.approx(found[2].work_to_pull_off, rel=0.02)
 
 
-@pytest.mark.parametrize("rate", [1e-2, 1e-4])
-@pytest.mark.parametrize("kind", ["standard", "prony"])
+@pytest.mark.parametrize(("kind", "rate"), [("standard", 1e-2), ("prony", 1e-4)])
 def test_other_solids_that_hardly_lag_have_the_slow_force_of_simulations(kind, rate):
     prony = vt.Prony(**UNIT, branches=((9.0, 0.01), (90.0, 0.003)))
     material = prony if kind == "prony" else standard(0.01)
@@ -260,33 +255,11 @@ def test_other_solids_that_hardly_lag_have_the_slow_force_of_simulations(kind, r
     assert found.work_interval[0] <= vt.work_to_pull_off(result) <= found.work_interval[1]
 
 
-def test_a_slow_punch_tends_to_the_relaxed_layer():
-    pads = [
-        replace(punch(), material=standard(0.01), body=vt.Layer(1.5), rate=rate)
-        for rate in (1.01e-3, 0.99e-3, 1e-5)
-    ]
-    edge, below, slow = (vt.predict(pad) for pad in pads)
-    assert below.pull_off_force == pytest.approx(edge.pull_off_force, rel=1e-3)
-    assert below.work_to_pull_off == pytest.approx(edge.work_to_pull_off, rel=0.01)
-    result = vt.solve(pads[2], until="pull-off", estimate_error=False)
-    low, high = slow.interval
-    assert low <= vt.pull_off(result).force <= high < 1.005 * low
-    assert slow.work_interval[0] <= vt.work_to_pull_off(result) <= slow.work_interval[1]
-
-
-@pytest.mark.parametrize("rate", [0.02, 1e-3, 1e-9])
+@pytest.mark.parametrize("rate", [0.02, 1e-9])
 def test_no_interval_of_a_force_reaches_below_the_relaxed_elastic_force(rate):
     slow = vt.predict(groups(rate=rate, tabor=0.5, start=vt.AtDepth(0.1)))
     elastic = float(pull_off_ratio(0.5))
     assert elastic <= slow.interval[0] <= slow.pull_off_force
-
-
-def test_advice_has_the_force_of_predict_as_its_headline():
-    # by the closed form "unloading", which does not hold there, this was 30.6 times the slow force
-    case = groups(tabor=2.0, material=solid(0.01, 0.5), start=vt.AtDepth(20.0), rate=1e6)
-    advice = vt.advise(case)
-    assert advice.pull_off_force == vt.predict(case).pull_off_force
-    assert advice.amplification == pytest.approx(18.0, rel=5e-3)
 
 
 @pytest.mark.parametrize("kind", ["unloading", "detachment"])
@@ -296,7 +269,7 @@ def test_theories_refuse_power_laws_by_relaxation(kind):
     assert "the solid is relaxation-power-law" in refusal(tier, groups(material=material))
 
 
-@pytest.mark.parametrize("tabor", [0.03, 0.5, 3.24, 20.0])
+@pytest.mark.parametrize("tabor", [0.5, 20.0])
 def test_the_table_of_elastic_forces_is_that_of_simulations(tabor):
     case = groups(tabor=tabor, material=vt.Elastic(**UNIT), start=vt.AtForce(1.0), rate=1.0)
     (tier,) = (t for t in THEORIES if t.name == "elastic")
@@ -344,25 +317,3 @@ def test_the_best_tier_is_one_that_covers_the_problem_and_advice_agrees():
         if found.method in {t.name for t in LEARNED}:
             assert vt.predict(case, budget=AT_ONCE).pull_off_force == found.pull_off_force
     assert len(methods) >= 4
-
-
-def test_a_tabor_number_at_the_end_of_a_range_is_answered_however_it_is_rounded():
-    in_groups = groups(1.0, standard(0.1), vt.AtDepth(20.0), rate=0.5)
-    # mu = (R w^2/(E0*^2 h0^3))^(1/3) = 1
-    radius, modulus, work = 1e-3, 1e6, 0.05
-    length = (radius * work**2 / modulus**2) ** (1 / 3)
-    problem = vt.Problem(
-        material=vt.StandardSolid(
-            rubbery_modulus=modulus * 0.75,
-            glassy_modulus=modulus * 7.5,
-            tau0=0.1,
-            poisson_ratio=0.5,
-        ),
-        traction=vt.LennardJones(work_of_adhesion=work, equilibrium_gap=length),
-        geometry=vt.Sphere(radius=radius),
-        protocol=vt.Retraction(start=vt.AtDepth(20 * length), speed=0.5 * length / 0.1),
-    )
-    assert problem.groups().tabor < 1
-    unloading = next(tier for tier in THEORIES if tier.name == "unloading")
-    found = unloading.answer(problem).pull_off_force
-    assert found == pytest.approx(unloading.answer(in_groups).pull_off_force, rel=1e-9)

@@ -57,7 +57,7 @@ def test_the_weaker_of_two_elastic_contacts_opens(elastic_pair, side):
     assert vt.which_opens(donor, with_work(stamp, work)).nominal == (1 if side < 0 else 0)
 
 
-@pytest.mark.parametrize("gap", [2.1e-8, 1.45e-8, 1e-9])
+@pytest.mark.parametrize("gap", [2.1e-8, 1e-9])
 def test_a_slender_elastic_tip_of_any_short_range_is_that_of_jkr(gap):
     """Sneddon's cubic tip with the singular edge of JKR: its largest tension over the radius."""
     A, w, E = 2e4, 0.05, 3e6 / 0.75
@@ -119,17 +119,9 @@ def test_a_far_stiffer_and_stronger_contact_leaves_that_of_the_other():
     assert vt.which_opens(strong, weak).tension == pytest.approx(expected, rel=0.05)
 
 
-@pytest.mark.parametrize(
-    "donor, stiffness",
-    [
-        (ELASTIC, 300.0),
-        pytest.param(RUBBER, None, marks=pytest.mark.slow),
-        pytest.param(RUBBER, 300.0, marks=pytest.mark.slow),
-    ],
-)
-def test_energy_is_balanced_over_both_contacts_and_the_spring(donor, stiffness):
-    first = contact(donor, work=0.25, stiffness=stiffness)
-    result = vt.simulate_in_series(first, contact(work=0.12, stiffness=stiffness))
+def test_energy_is_balanced_over_both_contacts_and_the_spring():
+    first = contact(ELASTIC, work=0.25, stiffness=300.0)
+    result = vt.simulate_in_series(first, contact(work=0.12, stiffness=300.0))
     assert result.energy_residual < 1e-3
 
 

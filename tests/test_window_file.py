@@ -42,13 +42,6 @@ SMALL = "".join(
 )
 
 
-@pytest.fixture
-def small(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("small.toml").write_text(SMALL)
-    return Path("small.toml")
-
-
 @pytest.mark.slow
 def test_the_example_picks_fast_and_prints_slowly():
     record = ask("window", file=str(EXAMPLE)).record()

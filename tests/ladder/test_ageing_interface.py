@@ -5,7 +5,6 @@ import pytest
 
 import viscotack as vt
 from dimensionless import ELASTIC, SOLID
-from viscotack.model.materials import StandardSolid
 from viscotack.model.problem import Groups
 from viscotack.model.protocol import Apart, Approach, AtDepth, Dwell, Retract
 from viscotack.model.traction import LennardJones
@@ -71,19 +70,6 @@ def test_a_reduced_law_counts_times_in_the_unit_of_time(law):
     assert back.reference_time == pytest.approx(law.reference_time, rel=1e-15)
 
 
-@laws
-def test_tiers_that_do_not_know_ages_refuse_them(law):
-    problem = vt.Problem(
-        StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5),
-        law,
-        vt.Sphere(1e-3),
-        vt.Retraction(start=vt.AtForce(1e-4), speed=1e-5),
-    )
-    for ask in (vt.predict, vt.advise, vt.crack_contact):
-        with pytest.raises(vt.OutOfRange):
-            ask(problem)
-
-
 # --- limits
 
 
@@ -113,16 +99,6 @@ def test_the_force_follows_the_dwell():
         strong = pull_off_force(run(LennardJones(1, 1), tabor=3.0 * grown ** (2 / 3)))
         found = pull_off_force(pressed(law, dwell, speed=1e5))
         assert found == pytest.approx(grown * strong, rel=6e-3)
-
-
-def test_an_approach_is_that_of_the_law_at_rest():
-    def approached(law):
-        moves = (Approach(1e4, to=AtDepth(5.0)),)
-        return run(law, start=Apart(6.0), moves=moves, rate=None, until="detached", material=SOLID)
-
-    plain, old = approached(LennardJones(1, 1)), approached(vt.SaturatingAgeing(1, 1, 1.0, 2.0))
-    assert old.force[-1] == pytest.approx(plain.force[-1], rel=2e-3)
-    assert abs(old.energy.interface_heat[-1]) < 0.02 * abs(old.energy.interface[-1])
 
 
 # --- energy, order

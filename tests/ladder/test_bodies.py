@@ -35,20 +35,6 @@ def test_the_matrix_of_the_half_space_gives_its_closed_forms(shape):
     assert on_body.drawn(RADII, shape, HalfSpace(), 1.0) == pytest.approx(drawn, rel=1e-5)
 
 
-def test_a_flat_tip_sinks_into_a_body_without_rising():
-    # a table that begins with a flat: M is zero there, and has no logarithm
-    worn = vt.MeasuredProfile(((0.0, 0.0), (0.5, 0.0), (1.0, 0.2), (2.0, 1.0)))
-    depth = on_body.bare_depth(np.array([0.2, 1.5]), worn, HalfSpace())
-    assert depth[0] == pytest.approx(0.0, abs=1e-12) and depth[1] > 0
-
-
-def test_the_gap_around_a_contact_on_the_half_space_is_that_of_jkr():
-    r, a = np.linspace(1.8, 20.0, 12), 1.7
-    jkr = indenter.gap(r, contact_radius=a, shape=Sphere(1.0), **SOLID)
-    depth = float(indenter.depth(a, shape=Sphere(1.0), **SOLID))
-    assert on_body.gap(r, a, depth, Sphere(1.0), HalfSpace()) == pytest.approx(jkr, abs=1e-5)
-
-
 def test_jkr_on_a_foundation_is_each_spring_for_itself():
     # a spring detaches when it holds the work of adhesion: b w = (E*/2) drawn^2
     b, theory = 0.3, {"shape": Sphere(1.0), "body": FOUNDATION(0.3), **SOLID}

@@ -1,11 +1,7 @@
-"""The ladder of the viscoelastic crack: identities, limits with their exponents, units."""
-
-from dataclasses import replace
+"""The ladder of the viscoelastic crack: identities, limits with their exponents."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import gamma as gamma_function
 
@@ -30,22 +26,11 @@ SOLIDS = [
         poisson_ratio=0.5,
     ),
     RetardationPowerLaw(**MODULI, exponent=0.22, tau0=0.019),
-    RetardationPowerLaw(**MODULI, exponent=1.0, tau0=0.019),
     RetardationPowerLaw(**MODULI, exponent=1.6, tau0=0.019),
     RelaxationPowerLaw(**MODULI, exponent=0.6, tau0=1e-3),
     FractionalZener(**MODULI, order=0.4, tau0=1e-3),
-    FractionalZener(**MODULI, order=0.7, tau0=1e-3),
 ]
-NAMES = [
-    "standard",
-    "prony",
-    "broad",
-    "integer",
-    "narrow",
-    "relaxation",
-    "fractional-broad",
-    "fractional",
-]
+NAMES = ["standard", "prony", "broad", "narrow", "relaxation", "fractional"]
 solids = pytest.mark.parametrize("material", SOLIDS, ids=NAMES)
 theories = pytest.mark.parametrize("theory", [persson_brener, greenwood])
 SPEEDS = [1e-3, 0.3, 20.0, 1e5]
@@ -89,7 +74,7 @@ def test_greenwood_closes_the_work_of_the_zone_with_the_creep_under_it(material,
     assert 1 / amplification == pytest.approx(material.rubbery_modulus * total, rel=1e-9, abs=0)
 
 
-@pytest.mark.parametrize("ratio", [1e-3, 0.4, 0.999, 1.001, 7.0, 49.99, 50.01, 300.0])
+@pytest.mark.parametrize("ratio", [1e-3, 0.999, 1.001, 49.99, 50.01])
 def test_zone_response_is_the_integral_of_the_opening_kernel(ratio):
     def kernel(x):
         # H of Eq. 3.33
@@ -184,30 +169,6 @@ def test_one_mode_has_the_explicit_inverse_of_the_appendix():
     np.testing.assert_allclose(2 * np.pi * found, 2 * y * gamma / (1 - y**2), rtol=1e-11)
 
 
-def test_one_mode_of_greenwood_is_explicit_in_its_parameter():
-    # Gamma = 1/[k + (1 - k) g(alpha)], v = Gamma/alpha
-    alpha = np.geomspace(1e-6, 1e6, 25)
-    gamma = 1 / (0.04 + 0.96 * greenwood.zone_response(alpha))
-    found = greenwood.amplification(gamma / alpha, material=SOLIDS[0])
-    np.testing.assert_allclose(found, gamma, rtol=1e-12)
-    found = greenwood.speed(gamma[6:-6], material=SOLIDS[0])
-    np.testing.assert_allclose(found, (gamma / alpha)[6:-6], rtol=1e-9)
-
-
-@pytest.mark.parametrize("material", [SOLIDS[0], SOLIDS[1]], ids=NAMES[:2])
-def test_fast_cracks_of_both_theories_agree_for_the_right_ratio_of_their_lengths(material):
-    # responses q and alpha/3 of a slow mode: 2 pi v / l0 = 3 v / l
-    speed = np.array([1e12, 1e14])
-    limit = 1 / material.modulus_ratio
-    tip = limit - persson_brener.amplification(speed, material=material)
-    zone = limit - greenwood.amplification(speed * 2 * np.pi / 3, material=material)
-    np.testing.assert_allclose(zone, tip, rtol=1e-3)
-    slow = persson_brener.amplification(1.0, material=material)
-    assert greenwood.amplification(2 * np.pi / 3, material=material) != pytest.approx(
-        slow, rel=0.01, abs=0
-    )
-
-
 def test_lengths_of_the_two_theories_differ_by_the_ratio_of_their_conventions():
     case = dict(contact_modulus=1.9e6, work_of_adhesion=0.2, strength=5e6)
     zone = greenwood.cohesive_zone_length(**case)
@@ -254,41 +215,3 @@ def test_a_limited_crack_is_slowed_in_proportion_at_the_same_passage(name, mater
     )
     # and a limit beyond the glassy end is none
     assert law.limited(modulus_ratio=k / 2) == law
-
-
-def test_a_law_of_no_theory_or_of_no_length_is_refused():
-    law = CrackLaw(theory="greenwood", material=SOLIDS[0], tip_length=3e-7)
-    with pytest.raises(ValueError, match="greenwood or persson-brener, got 'griffith'"):
-        replace(law, theory="griffith")
-    with pytest.raises(ValueError, match="tip_length must be positive and finite, got 0.0 m"):
-        replace(law, tip_length=0)
-    with pytest.raises(ValueError, match=r"in \(0, 1\], got 2.0"):
-        law.limited(modulus_ratio=2)
-
-
-POWER = st.floats(-9, 9)
-
-
-@theories
-@pytest.mark.parametrize("material", SOLIDS[1:3], ids=NAMES[1:3])
-@settings(max_examples=15, deadline=None)
-@given(load=POWER, time=POWER)
-def test_crack_theory_does_not_depend_on_the_units(theory, material, load, time):
-    F, T = 10**load, 10**time
-    if isinstance(material, Prony):
-        other = Prony(
-            rubbery_modulus=F * material.rubbery_modulus,
-            branches=tuple((F * E, T * tau) for E, tau in material.branches),
-            poisson_ratio=0.5,
-        )
-    else:
-        other = RetardationPowerLaw(
-            rubbery_modulus=F * material.rubbery_modulus,
-            glassy_modulus=F * material.glassy_modulus,
-            exponent=material.exponent,
-            tau0=T * material.tau0,
-            poisson_ratio=0.5,
-        )
-    speed = np.array([1e-2, 3.0, 1e4])
-    gamma = theory.amplification(speed, material=material)
-    np.testing.assert_allclose(theory.amplification(speed, material=other), gamma, rtol=1e-11)

@@ -1,7 +1,5 @@
 """A disc: Kendall, the strength of its interface, and what simulations have between them."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -119,24 +117,11 @@ def test_a_relaxing_solid_holds_a_disc_harder_and_accounts_for_its_energy():
     ("make", "words"),
     [
         (lambda: vt.Disc(1e-3, edge_width=1e-5), "has a width, up to the radius, and a height"),
-        (lambda: vt.Disc(1e-3, 2e-3, 1e-3), "up to the radius"),
         (lambda: vt.solve(groups(start=vt.AtRadius(0.5))), "start it at a depth or a force"),
         (lambda: vt.crack_contact(groups()), "rise ever more steeply"),
-        (lambda: vt.predict(groups()), "the shape is disc"),
         (lambda: vt.solve(groups(300.0)), "Tabor number"),
     ],
 )
 def test_what_a_disc_is_not_is_refused(make, words):
     with pytest.raises(vt.InputError, match=words):
         make()
-
-
-def test_a_disc_pressed_deep_or_with_a_steep_edge_is_beyond_small_strain():
-    law = vt.LennardJones(0.05, 1e-6)
-    test = vt.Retraction(vt.AtDepth(0.0), 1e-5)
-    solid = vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
-    good = vt.Problem(solid, law, vt.Disc(1e-3), test)
-    with pytest.raises(vt.InputError, match="deeper than half its radius"):
-        replace(good, protocol=vt.Retraction(vt.AtDepth(0.6e-3), 1e-5))
-    with pytest.raises(vt.InputError, match="too steep"):
-        replace(good, geometry=vt.Disc(1e-3, 1e-5, 2e-5))

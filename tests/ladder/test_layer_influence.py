@@ -12,7 +12,7 @@ from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.geometry.layer import layer_influence
 from viscotack.theory.punch import crossover
 
-BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.49, 0.5))]
 SQUEEZED = Bonded(poisson_ratio=0.5)
 
 
@@ -63,18 +63,11 @@ def test_equal_nodes_have_the_hats_of_the_thesis():
 
 
 @pytest.mark.parametrize("base", BASES, ids=repr)
-@pytest.mark.parametrize("thickness", [0.02, 0.3, 1.9, 2.1, 30.0])
+@pytest.mark.parametrize("thickness", [0.02, 1.9, 2.1, 30.0])
 def test_uniform_pressure_moves_the_surface_as_its_fourier_integral_says(thickness, base):
     x = np.concatenate([np.linspace(0, 0.6, 7), [0.7, 0.83, 0.9, 0.97, 1.0]])
     u = layer_influence(x, thickness, base) @ np.ones(len(x))
     assert u == pytest.approx(strip(x, 1.0, thickness, base), abs=1e-12, rel=1e-12)
-
-
-def test_the_unit_of_length_does_not_matter():
-    x = crowded(20, 1e-2)
-    for base in BASES:
-        scaled = layer_influence(1e-3 * x, 0.2e-3, base)
-        assert scaled == pytest.approx(1e-3 * layer_influence(x, 0.2, base), rel=1e-9, abs=1e-16)
 
 
 # limit
@@ -87,15 +80,6 @@ def test_a_thin_layer_is_a_foundation_with_half_of_it_at_the_end(base):
     inside = x < 0.7
     assert u[inside] == pytest.approx(0.005 * base.foundation, abs=1e-13, rel=0)
     assert u[-1] == pytest.approx(0.005 * base.foundation / 2, abs=1e-13, rel=0)
-
-
-def test_the_foundation_of_a_bonded_layer_is_that_of_appendix_one():
-    for nu in (0.0, 0.2, 0.45):
-        zeta = (1 - nu) ** 2 / (1 - 2 * nu)
-        base = Bonded(poisson_ratio=nu)
-        x = np.linspace(0, 1, 11)
-        middle = layer_influence(x, 0.01, base)[0] @ np.ones(11)
-        assert middle == pytest.approx(0.01 / zeta, rel=1e-11)
 
 
 def test_an_incompressible_bonded_layer_is_squeezed_out_with_an_error_of_third_order():
@@ -148,8 +132,9 @@ def test_the_symmetric_compliance_is_positive_definite(base):
 # order, and a peer: the same punch from its integral equation, by Chebyshev polynomials
 
 
-@pytest.mark.parametrize("base", BASES[:4], ids=repr)
-@pytest.mark.parametrize("thickness", [0.2, 1.0, 20.0])
+@pytest.mark.parametrize(
+    ("thickness", "base"), [(0.2, BASES[1]), (1.0, BASES[2]), (20.0, BASES[0])]
+)
 def test_the_stiffness_of_a_punch_is_first_order_in_the_nodes_distance(thickness, base):
     exact = crossover.stiffness(thickness, half_width=1.0, contact_modulus=1.0, base=base)
     found = np.array([punch_stiffness(np.linspace(0, 1, n), thickness, base) for n in LEVELS])

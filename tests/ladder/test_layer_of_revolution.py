@@ -8,7 +8,7 @@ from viscotack.model.geometry import Bonded, Frictionless, Layer, half_space
 from viscotack.model.geometry.layer_of_revolution import influence
 from viscotack.simulate.surface import relaxed_stiffness
 
-BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.49, 0.5))]
 SQUEEZED = Bonded(poisson_ratio=0.5)
 
 
@@ -53,15 +53,8 @@ def test_hats_move_the_surface_as_their_hankel_transforms_say(thickness, base):
     assert found @ pressure == pytest.approx(exact @ pressure, abs=1e-7 * np.max(exact @ pressure))
 
 
-def test_the_unit_of_length_does_not_matter():
-    r = graded(1.0, 0.02, 3.0)
-    for base in BASES:
-        other = influence(1e-6 * r, 0.2e-6, base)
-        assert other == pytest.approx(1e-6 * influence(r, 0.2, base), rel=1e-9, abs=1e-15)
-
-
 @pytest.mark.parametrize("base", BASES, ids=repr)
-@pytest.mark.parametrize("thickness", [0.05, 0.1, 0.3, 3.0, 300.0])
+@pytest.mark.parametrize("thickness", [0.05, 0.3, 300.0])
 def test_the_compliance_has_a_stiffness(thickness, base):
     for edge, finest, outer in ((1.5, 0.003, 6.0), (0.4, 0.01, 20.0), (4.0, 0.001, 10.0)):
         # what is squeezed out needs nodes that tell thicknesses apart
@@ -87,7 +80,7 @@ def test_a_thick_layer_is_a_half_space_as_a_over_b(base):
     assert error[-1] < 0.02 * np.max(exact @ np.ones(len(r)))
 
 
-@pytest.mark.parametrize("base", BASES[:4], ids=repr)
+@pytest.mark.parametrize("base", BASES[:3], ids=repr)
 def test_a_thin_layer_is_a_foundation(base):
     r = np.linspace(0.0, 1.0, 201)
     moved = influence(r, 0.02, base) @ (1 - r * r)

@@ -55,8 +55,7 @@ def test_the_two_forms_are_one_solid_to_round_off(pairs):
 
 
 @pytest.mark.parametrize("kind", [RetardationPowerLaw, RelaxationPowerLaw])
-@pytest.mark.parametrize("n", [0.2, 0.8, 1.6])
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize(("n", "tolerance"), [(0.2, 1e-6), (1.6, 1e-2)])
 def test_the_error_of_a_prony_form_is_below_its_stated_bound(kind, n, tolerance):
     solid = kind(rubbery_modulus=E0, glassy_modulus=3e9, exponent=n, tau0=1e-3, poisson_ratio=0.5)
     form = prony_form(solid, frequencies=(1.0, 1e7), tolerance=tolerance)
@@ -92,10 +91,8 @@ def test_temperature_multiplies_times_by_the_shift_factor():
 # ---- rung 4: the simulation is the judge -------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("n", "k", "rate"), [(0.8, 0.1, 316.23), (0.2207, 1.458 / 3089, 1e3), (1.6, 0.01, 10.0)]
-)
-def test_a_prony_form_holds_as_hard_as_its_power_law(n, k, rate):
+def test_a_prony_form_holds_as_hard_as_its_power_law():
+    n, k, rate = 0.2207, 1.458 / 3089, 1e3
     solid = RetardationPowerLaw(
         rubbery_modulus=1.0, glassy_modulus=1 / k, exponent=n, tau0=1.0, poisson_ratio=0.0
     )

@@ -1,7 +1,5 @@
 """The verification ladder of the materials: identities, limits, orders, peers."""
 
-from dataclasses import replace
-
 import mpmath
 import numpy as np
 import pytest
@@ -56,14 +54,11 @@ SOLIDS = {
         poisson_ratio=NU,
     ),
     "retardation 0.2": power_law(RetardationPowerLaw, exponent=0.2, k=1e-3),
-    "retardation 1": power_law(RetardationPowerLaw, exponent=1, k=0.1),
     "retardation 1.6": power_law(RetardationPowerLaw, exponent=1.6, k=1e-6),
     "relaxation 0.5": power_law(RelaxationPowerLaw, exponent=0.5, k=1e-3),
-    "relaxation 2": power_law(RelaxationPowerLaw, exponent=2, k=0.1),
     "relaxation 3": power_law(RelaxationPowerLaw, exponent=3, k=1e-6),
     "fractional 0.2": fractional(0.2, k=1e-3),
-    "fractional 0.6": fractional(0.6, k=1e-6),
-    "fractional 0.9": fractional(0.9, k=0.1),
+    "fractional 0.9": fractional(0.9, k=1e-6),
 }
 every_solid = pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
 
@@ -280,15 +275,6 @@ def test_late_relaxation_falls_with_the_exponent(n):
     assert slope(t, solid.relaxation(t) - E0) == pytest.approx(-n, abs=1e-3)
 
 
-@pytest.mark.parametrize("n", [0.2, 1.0, 3.0])
-def test_slow_losses_of_the_retardation_form_are_those_of_a_dashpot(n):
-    # C'' -> (C0 - Cinf) n omega tau0: the mean retardation time is n tau0
-    solid = power_law(RetardationPowerLaw, exponent=n, k=0.1)
-    omega = np.array([1e-12, 1e-10, 1e-8]) / TAU
-    loss = -E0 * solid.complex_compliance(omega).imag
-    assert_allclose(loss, 0.9 * n * omega * TAU, rtol=1e-7)
-
-
 @pytest.mark.parametrize("kind", [*POWER_LAWS, "standard"])
 def test_solids_tend_to_the_elastic_one_as_the_moduli_meet(kind):
     gap = np.array([1e-2, 1e-4, 1e-6])
@@ -302,32 +288,6 @@ def test_solids_tend_to_the_elastic_one_as_the_moduli_meet(kind):
         away.append([solid.relaxation(TAU) / E0 - 1, 1 - solid.creep(TAU / 50) * E0])
     for distances in np.array(away).T:
         assert slope(gap, distances) == pytest.approx(1, abs=2e-3)
-
-
-power = st.floats(-6, 6)
-
-
-@settings(deadline=None, max_examples=60)
-@given(st.sampled_from(sorted(SOLIDS)), power, power, st.floats(-9, 3))
-def test_materials_do_not_depend_on_the_units(name, modulus, time, when):
-    old, M, T, t = SOLIDS[name], 10**modulus, 10**time, 10**when * TAU
-    scaled = dict(rubbery_modulus=old.rubbery_modulus * M)
-    if isinstance(old, Prony):
-        scaled["branches"] = [(E * M, tau * T) for E, tau in old.branches]
-    elif not isinstance(old, Elastic):
-        scaled |= dict(glassy_modulus=old.glassy_modulus * M, tau0=old.tau0 * T)
-    new = replace(old, **scaled)
-    assert new.relaxation(t * T) == pytest.approx(M * old.relaxation(t), rel=1e-12)
-    assert M * new.creep(t * T) == pytest.approx(old.creep(t), rel=1e-12)
-    for part in ("real", "imag"):
-        one = getattr(new.complex_modulus(1 / (t * T)), part)
-        other = getattr(old.complex_modulus(1 / t), part)
-        assert one == pytest.approx(M * other, rel=1e-12)
-    window = dict(shortest=1e-6 * TAU, longest=TAU)
-    one = new.retardation_modes(**{x: T * y for x, y in window.items()}, tolerance=1e-4)
-    other = old.retardation_modes(**window, tolerance=1e-4)
-    assert one.weights == pytest.approx(other.weights, rel=1e-9)
-    assert np.array(one.times) / T == pytest.approx(other.times, rel=1e-9)
 
 
 # ---- rung 3: orders ----------------------------------------------------------------------------
@@ -348,12 +308,11 @@ def test_error_of_the_spectrum_nodes_falls_exponentially_with_their_distance():
     assert rate == pytest.approx(-(np.pi**2), abs=0.1), amplitude
 
 
-WINDOWS = [(1e-9, 1e3), (1e-12, 1.0), (1e-12, 1e-6), (1e-3, 1e3), (10.0, 1e6), (1e-15, 1e10)]
+WINDOWS = [(1e-9, 1e3), (1e-12, 1e-6), (10.0, 1e6), (1e-15, 1e10)]
 
 
 @pytest.mark.parametrize("kind", POWER_LAWS)
-@pytest.mark.parametrize("n", [0.05, 0.2, 1.0, 2.0, 3.0])
-@pytest.mark.parametrize("k", [0.5, 1e-4])
+@pytest.mark.parametrize(("n", "k"), [(0.05, 1e-4), (1.0, 0.5), (3.0, 1e-4)])
 def test_modes_keep_the_stated_error_over_their_window(kind, n, k):
     solid = power_law(kind, exponent=n, k=k)
     for shortest, longest in WINDOWS:
@@ -376,7 +335,7 @@ def test_modes_keep_the_stated_error_over_their_window(kind, n, k):
 # ---- rung 4: peers -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("n", [0.01, 0.7, 1.0, 1 + 1e-6, 3.0])
+@pytest.mark.parametrize("n", [0.7, 1 + 1e-6, 3.0])
 def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
     k = 1e-6
     solid = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
@@ -389,7 +348,7 @@ def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
             assert E0 * solid.creep(t) == pytest.approx(float(exact), rel=1e-13)
 
 
-@pytest.mark.parametrize("n", [0.01, 0.7, 1.0, 1 + 1e-6, 3.0])
+@pytest.mark.parametrize("n", [0.01, 1.0, 1 + 1e-6, 3.0])
 def test_complex_functions_agree_with_an_exponential_integral_of_many_digits(n):
     relaxing = power_law(RelaxationPowerLaw, exponent=n, k=0.5, tau0=1.0)
     creeping = power_law(RetardationPowerLaw, exponent=n, k=0.5, tau0=1.0)

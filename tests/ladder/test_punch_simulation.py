@@ -11,9 +11,8 @@ from dimensionless import ELASTIC, SOLID, slope
 from punches import resized
 from reference_data import VALUES
 from viscotack.model.geometry import Bonded, FlatPunch, Frictionless, Layer
-from viscotack.model.materials import StandardSolid
-from viscotack.model.problem import Groups, Problem
-from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth, AtRadius, Dwell, Retract
 from viscotack.model.traction import LennardJones
 from viscotack.result.observables import (
     crack_speed_at_pull_off,
@@ -21,7 +20,6 @@ from viscotack.result.observables import (
     ligament_at_pull_off,
     pull_off,
     pull_off_stress,
-    summary,
     work_of_separation,
     work_to_pull_off,
 )
@@ -78,27 +76,6 @@ def test_work_of_a_punch_is_its_curve_in_units_of_the_work_of_adhesion():
     left = 4 / 3 / 10**2
     assert work_of_separation(result) == pytest.approx(of_curve + left, rel=3e-3, abs=0)
     assert work_to_pull_off(result) < work_of_separation(result)
-
-
-def test_the_answer_of_a_punch_does_not_depend_on_the_units():
-    problem = Problem(
-        material=StandardSolid(
-            rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.4
-        ),
-        traction=LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6),
-        geometry=FlatPunch(half_width=1e-3),
-        body=Layer(thickness=50e-6, base=Bonded(poisson_ratio=0.4)),
-        protocol=Retraction(start=AtForce(2e3), speed=100e-6),
-    )
-    answers = [
-        summary(solve(p, estimate_error=False, accuracy=8e-3)) for p in (problem, problem.groups())
-    ]
-    for name in ("pull_off_stress", "work_of_separation", "ligament_at_pull_off"):
-        assert answers[0][name] == pytest.approx(answers[1][name], rel=1e-9, abs=0)
-    inside, unit = answers[0], problem.scales()
-    assert inside["pull_off_stress_Pa"] == inside["pull_off_stress"] * unit.stress
-    assert inside["ligament_at_pull_off_m"] == inside["ligament_at_pull_off"] * 1e-3
-    assert unit.stress == pytest.approx(16 / (9 * 3**0.5) * 0.15 / 1.5e-6, rel=1e-12)
 
 
 def test_cohesion_changes_crack_speeds_and_nothing_else():
@@ -213,20 +190,21 @@ def test_the_punch_is_second_order_in_time():
     travels = np.array([0.01, 0.005, 0.0025])
     stress = [
         pull_off_stress(run(settings=dataclasses.replace(base, travel=t, first_travel=t), size=8.0))
-        for t in (*travels, 0.0003)
+        for t in (*travels, 0.00125)
     ]
-    errors = np.array(stress[:-1]) - stress[-1]
-    assert slope(travels, errors) == pytest.approx(2, abs=0.2), errors
+    # from a step to one half as long the stress changes by three quarters of its error
+    changes = -np.diff(stress)
+    assert slope(travels, changes) == pytest.approx(2, abs=0.2), changes
 
 
 def test_the_punch_is_second_order_in_the_mesh():
     base = dataclasses.replace(Settings.for_accuracy(1e-4), fine_zones=400.0)
     sizes, stress = np.array([2.0, 1.0, 0.5]), []
-    for size in (*sizes, 0.125):
+    for size in (*sizes, 0.25):
         settings = dataclasses.replace(base, nodes_per_zone=6 / size)
         stress.append(pull_off_stress(run(settings=settings, size=4.0, rate=1.0)))
-    errors = np.array(stress[:3]) - stress[3]
-    assert slope(sizes, errors) == pytest.approx(2, abs=0.4), errors
+    changes = -np.diff(stress)
+    assert slope(sizes, changes) == pytest.approx(2, abs=0.4), changes
 
 
 # --- the plain twin -------------------------------------------------------------------------

@@ -1,11 +1,9 @@
-"""The ladder of the flat punch on an elastic layer: identities, limits with exponents, units."""
+"""The ladder of the flat punch on an elastic layer: identities, and limits with exponents."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.special import jv
 
 from dimensionless import last_slope
@@ -18,8 +16,8 @@ LAYER = dict(contact_modulus=1.3e6, work_of_adhesion=0.08)
 PAD = dict(LAYER, half_width=1e-3)
 FREE = Frictionless()
 STRONG = Pad(**PAD, strength=9e4, base=FREE)
-BASES = [FREE, Bonded(poisson_ratio=0.0), Bonded(poisson_ratio=0.3), Bonded(poisson_ratio=0.45)]
-bases = pytest.mark.parametrize("base", BASES, ids=["free", "nu=0", "nu=0.3", "nu=0.45"])
+BASES = [FREE, Bonded(poisson_ratio=0.0), Bonded(poisson_ratio=0.45)]
+bases = pytest.mark.parametrize("base", BASES, ids=["free", "nu=0", "nu=0.45"])
 
 
 def without_energy(case):
@@ -38,13 +36,6 @@ def test_thin_layer_comes_off_where_its_elastic_energy_pays(base):
     stiffness = LAYER["contact_modulus"] / (base.foundation * b)
     np.testing.assert_allclose(stiffness * depth**2 / 2, LAYER["work_of_adhesion"], rtol=1e-14)
     np.testing.assert_allclose(stress, -stiffness * depth, rtol=1e-14)
-
-
-def test_half_plane_stress_is_that_of_the_stress_intensity_at_the_edges():
-    # p = P/(pi sqrt(a^2 - x^2)): K = P/sqrt(pi a) = sqrt(2 E* w)
-    stress = punch.half_plane_pull_off_stress(PAD["half_width"], **LAYER)
-    K = 2 * PAD["half_width"] * stress / np.sqrt(np.pi * PAD["half_width"])
-    assert K**2 / 2 == pytest.approx(1.3e6 * 0.08, rel=1e-14, abs=0)
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.2, 0.3, 0.45])
@@ -87,15 +78,6 @@ def test_envelope_follows_the_regime_it_names(base):
     np.testing.assert_allclose(found, expected, rtol=1e-14)
 
 
-def test_limits_are_the_envelopes_of_the_two_moduli():
-    b = np.geomspace(1e-6, 1e-1, 30)
-    slow, fast = punch.limits(b, STRONG, modulus_ratio=0.1)
-    np.testing.assert_array_equal(slow, punch.pull_off_stress(b, STRONG))
-    glassy = replace(STRONG, contact_modulus=1.3e7)
-    np.testing.assert_allclose(fast, punch.pull_off_stress(b, glassy), rtol=1e-14)
-    assert np.all(slow <= fast) and np.all(fast <= 9e4)
-
-
 def test_thin_layer_law_warns_of_a_layer_near_incompressible_and_refuses_one():
     with pytest.warns(UserWarning, match="0.45"):
         punch.thin_layer_pull_off_stress(1e-5, **LAYER, base=Bonded(poisson_ratio=0.47))
@@ -108,19 +90,6 @@ def test_thin_layer_law_warns_of_a_layer_near_incompressible_and_refuses_one():
 
 
 # The exact curve ------------------------------------------------------------------------------
-
-
-@bases
-def test_a_pad_returns_the_exact_curve(base):
-    pad, b = replace(STRONG, base=base), np.geomspace(1e-6, 1e-2, 7)
-    stress = pad.elastic_stress(b)
-    np.testing.assert_array_equal(stress, crossover.pull_off_stress(b, **PAD, base=base))
-    np.testing.assert_array_equal(
-        pad.elastic_depth(b), crossover.depth_at_pull_off(b, **PAD, base=base)
-    )
-    np.testing.assert_array_equal(
-        pad.elastic_thickness(stress), crossover.thickness(stress, **PAD, base=base)
-    )
 
 
 @bases
@@ -155,7 +124,7 @@ def test_pull_off_is_where_the_energy_released_pays_for_the_interface(base):
 
 
 @bases
-@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.5])
+@pytest.mark.parametrize("ratio", [0.3, 2.5])
 def test_stiffness_equals_the_plain_twin(base, ratio):
     # Galerkin in T_2n / sqrt(1 - t^2) with the Fourier integral of the kernel taken literally,
     # its tail 1/(pi u^2) beyond the last point added
@@ -204,36 +173,6 @@ def test_thickness_is_the_inverse_of_the_stress(base):
     # a thick layer hardly matters
     excess = stress / punch.half_plane_pull_off_stress(1e-3, **LAYER) - 1
     assert np.all(np.abs(found / b - 1) * np.minimum(excess, 1) < 1e-11)
-
-
-POWER = st.floats(-6, 6)
-
-
-@settings(max_examples=15, deadline=None)
-@given(length=POWER, load=POWER, ratio=st.floats(-3, 3))
-def test_the_punch_does_not_depend_on_the_units(length, load, ratio):
-    L, F = 10**length, 10**load
-    base = BASES[2]
-    old = dict(half_width=2.0, contact_modulus=3.0, work_of_adhesion=5.0)
-    new = dict(half_width=2.0 * L, contact_modulus=3.0 * F / L**2, work_of_adhesion=5.0 * F / L)
-    b = 2.0 * 10**ratio
-    for function, unit in [
-        (crossover.pull_off_stress, F / L**2),
-        (crossover.depth_at_pull_off, L),
-    ]:
-        assert function(b * L, **new, base=base) == pytest.approx(
-            unit * function(b, **old, base=base), rel=1e-12, abs=0
-        )
-    old, new = (
-        Pad(**case, strength=strength, base=base)
-        for case, strength in ((old, 7.0), (new, 7.0 * F / L**2))
-    )
-    found = punch.limits(b * L, new, modulus_ratio=0.1)
-    expected = punch.limits(b, old, modulus_ratio=0.1)
-    np.testing.assert_allclose(found, F / L**2 * np.array(expected), rtol=1e-12)
-    found = punch.regime_thicknesses(new, modulus_ratio=0.1)
-    expected = punch.regime_thicknesses(old, modulus_ratio=0.1)
-    np.testing.assert_allclose(found, L * np.array(expected), rtol=1e-12)
 
 
 # Verified values ------------------------------------------------------------------------------

@@ -10,15 +10,12 @@ from viscotack import (
     AtRadius,
     Bonded,
     Cone,
-    Groups,
     Layer,
     MeasuredProfile,
     PowerLawProfile,
     Sphere,
     WavySphere,
 )
-from viscotack.model.materials import StandardSolid
-from viscotack.prediction.closed_forms import closed_forms
 from viscotack.theory import jkr, profiles, wavy
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import (
@@ -49,7 +46,7 @@ SHAPES = [Sphere(5e-3), PowerLawProfile(exponent=2.0, coefficient=100.0), Parabo
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("radius", [2.2e-4, 3e-4, 2e-3])
+@pytest.mark.parametrize("radius", [2.2e-4, 2e-3])
 def test_a_start_by_depth_force_or_radius_is_one_contact_for_every_form_of_a_shape(shape, radius):
     d, P = jkr.depth(radius, **SPHERE), jkr.force(radius, **SPHERE)
     for start in (AtDepth(d), AtForce(P), AtRadius(radius)):
@@ -89,16 +86,6 @@ def test_a_power_law_starts_on_its_closed_form(shape):
         found = contact(start, shape=shape, **LENS)
         assert profiles.depth(found.contact_radius, **of) == pytest.approx(found.depth, rel=1e-9)
         assert profiles.force(found.contact_radius, **of) == pytest.approx(found.force, rel=1e-9)
-
-
-def test_closed_forms_have_no_start_of_a_radius_that_nothing_holds():
-    solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    for radius, held in ((0.3, False), (0.7, True)):
-        case = Groups(tabor=5.0, material=solid, start=AtRadius(radius), rate=10.0)
-        found = closed_forms(case)
-        assert found.start_radius == (pytest.approx(radius) if held else None)
-        unloading = next(x for x in found.estimates if x.tier == "unloading")
-        assert held or not unloading.applies
 
 
 WORN = MeasuredProfile(((0.0, 0.0), (1e-4, 0.0), (2e-4, 1e-6), (3e-4, 3e-6)))

@@ -34,9 +34,9 @@ def pressed(*moves, rate=20.0, tabor=10.0, k=0.1, speed=20.0, **more):
     )
 
 
-@pytest.mark.parametrize("tabor", [12.0, 1e3, 1e5])
 @pytest.mark.parametrize(
-    ("hold", "stiffness"), [("drive", None), ("depth", None), ("force", None), ("drive", 0.1)]
+    ("tabor", "hold", "stiffness"),
+    [(12.0, "drive", None), (1e5, "depth", None), (1e3, "force", None), (1e5, "drive", 0.1)],
 )
 def test_a_relaxed_contact_rests(tabor, hold, stiffness):
     rest = Groups(
@@ -53,8 +53,7 @@ def test_a_relaxed_contact_rests(tabor, hold, stiffness):
     assert found.force[0] == pytest.approx(2.0, rel=1e-9)
 
 
-@pytest.mark.parametrize("start", [AtForce(6.0), AtForce(-0.7)])
-@pytest.mark.parametrize("stiffness", [None, 0.1])
+@pytest.mark.parametrize(("start", "stiffness"), [(AtForce(6.0), None), (AtForce(-0.7), 0.1)])
 def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
     at_once = Groups(tabor=30.0, material=standard(), start=start, rate=300.0, stiffness=stiffness)
     told = crack_contact(at_once)
@@ -80,7 +79,7 @@ def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
 def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():
     forces = [
         crack_contact(pressed(Dwell(duration), rate=100.0, tabor=20.0)).pull_off_force
-        for duration in (1e-3, 0.1, 1.0, 10.0)
+        for duration in (1e-3, 0.1, 10.0)
     ]
     assert np.all(np.diff(forces) > 0)
 
@@ -88,11 +87,10 @@ def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():
 @pytest.mark.parametrize(
     "moves",
     [
-        (),
         (Dwell(0.1),),
         (Retract(5.0, AtDepth(40.0)), Approach(100.0, AtDepth(100.0))),
     ],
-    ids=["turn", "dwell", "reversal"],
+    ids=["dwell", "reversal"],
 )
 def test_shorter_steps_neither_chatter_nor_tell_another_force(monkeypatch, moves):
     case = pressed(*moves, rate=2.0)

@@ -11,9 +11,9 @@ from viscotack.model.geometry import Frictionless
 from viscotack.model.geometry.half_space import influence
 from viscotack.model.geometry.hats import hat_areas
 from viscotack.model.geometry.layer import layer_influence
-from viscotack.model.materials import Modes, Prony, RetardationPowerLaw
-from viscotack.model.problem import Groups, Problem
-from viscotack.model.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.model.materials import Modes
+from viscotack.model.problem import Groups
+from viscotack.model.protocol import AtDepth, AtForce, AtRadius
 from viscotack.model.traction import Dugdale, LennardJones
 from viscotack.result.observables import (
     contact_radius_at_pull_off,
@@ -104,30 +104,7 @@ def test_energy_audit_closes_with_every_term_at_work():
     assert energy.heat[-1] > 1.0
 
 
-def test_the_answer_does_not_depend_on_the_units():
-    material = RetardationPowerLaw(
-        rubbery_modulus=1.458e6, glassy_modulus=3089e6, exponent=0.2207, tau0=0.01876,
-        poisson_ratio=0.5,
-    )  # fmt: skip
-    problem = Problem(
-        material=material,
-        traction=LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
-        geometry=_sphere(5.19e-3),
-        protocol=Retraction(start=AtForce(1.5e-3), speed=1e-4),
-    )
-    inside = solve(problem, until="pull-off", accuracy=8e-3, estimate_error=False)
-    outside = solve(problem.groups(), until="pull-off", accuracy=8e-3, estimate_error=False)
-    assert pull_off_force(inside) == pytest.approx(pull_off_force(outside), rel=1e-9, abs=0)
-
-
-def _sphere(radius):
-    from viscotack.model.geometry import Sphere
-
-    return Sphere(radius=radius)
-
-
-@pytest.mark.parametrize("accuracy", [2e-2, DEFAULT, 2e-4])
-@pytest.mark.parametrize("tabor", [0.3, 3.24, 10.0])
+@pytest.mark.parametrize(("tabor", "accuracy"), [(0.3, 2e-2), (10.0, 2e-4)])
 def test_what_hertz_does_to_the_surface_is_held_by_his_pressure_at_the_axis(tabor, accuracy):
     contact = SphereContact(tabor, LennardJones(1.0, 1.0))
     grading = contact.grading(Settings.for_accuracy(accuracy), 100.0)
@@ -141,8 +118,7 @@ def test_what_hertz_does_to_the_surface_is_held_by_his_pressure_at_the_axis(tabo
         assert found[:8] == pytest.approx(exact[:8], rel=0.02, abs=0)
 
 
-@pytest.mark.parametrize("accuracy", [2e-2, DEFAULT, 2e-4])
-@pytest.mark.parametrize("tabor", [3.24, 10.0])
+@pytest.mark.parametrize(("tabor", "accuracy"), [(3.24, 2e-4), (10.0, 2e-2)])
 def test_pressure_at_the_axis_is_that_of_jkr(tabor, accuracy):
     contact = SphereContact(tabor, LennardJones(1.0, 1.0))
     found = contact.relaxed(AtDepth(100.0), Settings.for_accuracy(accuracy))
@@ -158,7 +134,7 @@ def test_pressure_at_the_axis_is_that_of_jkr(tabor, accuracy):
     assert pressure[:8] == pytest.approx(exact / tabor, rel=0.02, abs=0)
 
 
-@pytest.mark.parametrize("exponent", [1.5, 3.0, 4.0])
+@pytest.mark.parametrize("exponent", [1.5, 3.0])
 def test_pressure_of_a_power_law_tip_at_the_axis_continues_that_around_it(exponent):
     contact = ProfileContact(3.24, LennardJones(1.0, 1.0), exponent)
     found = contact.relaxed(AtDepth(100.0), Settings.for_accuracy(DEFAULT))
@@ -255,23 +231,6 @@ def test_fast_retraction_tends_to_the_glassy_contact():
 
 
 @pytest.mark.march
-def test_one_prony_branch_is_a_standard_solid():
-    solid = standard(0.1)
-    prony = Prony(rubbery_modulus=1.0, branches=((9.0, solid.relaxation_time),), poisson_ratio=0.0)
-    forces = [
-        pull_off_force(
-            solve(
-                Groups(tabor=1.0, material=m, start=AtDepth(5.0), rate=10.0),
-                until="pull-off",
-                estimate_error=False,
-            )  # fmt: skip
-        )
-        for m in (solid, prony)
-    ]
-    assert forces[0] == pytest.approx(forces[1], rel=1e-6, abs=0)
-
-
-@pytest.mark.march
 def test_three_ways_to_start_find_the_same_contact():
     base = Groups(tabor=3.24, material=standard(0.1), start=AtDepth(30.0), rate=100.0)
     by_depth = solve(base, until="pull-off", estimate_error=False)
@@ -304,15 +263,14 @@ def test_simulation_is_second_order_in_time():
     groups = Groups(tabor=0.3, material=standard(0.1), start=AtForce(0.0), rate=3.0)
     base = _with(Settings.for_accuracy(5e-3), **STEPS_BY_TRAVEL)
     travels = np.array([0.02, 0.01, 0.005])
-    runs = [_run(groups, _with(base, travel=t, first_travel=t)) for t in (*travels, 0.000625)]
-    forces = np.array([pull_off_force(run) for run in runs])
-    errors = forces[:-1] - forces[-1]
-    assert slope(travels, errors) == pytest.approx(2.0, abs=0.1), errors
+    runs = [_run(groups, _with(base, travel=t, first_travel=t)) for t in (*travels, 0.0025)]
+    changes = -np.diff([pull_off_force(run) for run in runs])
+    assert slope(travels, changes) == pytest.approx(2.0, abs=0.1), changes
 
 
 def test_simulation_is_second_order_in_the_mesh():
     groups = Groups(tabor=1.0, material=standard(0.1), start=AtDepth(5.0), rate=1e3)
-    base = _with(Settings.for_accuracy(1e-3), fine_zones=20.0)
+    base = _with(Settings.for_accuracy(4e-3), fine_zones=20.0)
     sizes, forces = np.array([2.0, 1.0, 0.5]), []
     for size in (*sizes, 0.25):
         settings = _with(
@@ -406,9 +364,7 @@ def test_fast_solver_equals_plain_solver(tabor, modulus_ratio, exponent, depth, 
 @pytest.mark.parametrize(
     ("rate", "force", "depth", "speed"),
     [
-        (1.0, 2.0169, -4.610, 0.115),
         (10.0, 4.1019, 0.120, 0.906),
-        (100.0, 8.9335, 57.251, 23.3),
         (1000.0, 10.1644, 63.000, 681.0),
     ],
     ids=str,
@@ -427,11 +383,9 @@ def test_standard_solid_pulls_off_as_in_the_published_algorithm_refined(rate, fo
     ("tabor", "exponent", "modulus_ratio", "depth", "rate", "force"),
     [
         (3.24, 0.8, 0.1, 73.0, 10**2.5, 7.3298),
-        (3.24, 0.8, 0.1, 16.7, 10**0.5, 2.1074),
         (1.0, 0.4, 0.01, 20.0, 1e3, 8.3126),
-        (0.3, 0.6, 0.1, 10.0, 1e4, 6.6754),
     ],
-    ids="ABCD",
+    ids="AC",
 )
 def test_power_law_pulls_off_as_in_slow_refined_runs(
     tabor, exponent, modulus_ratio, depth, rate, force

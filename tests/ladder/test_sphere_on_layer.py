@@ -6,11 +6,11 @@ from scipy.optimize import minimize_scalar
 
 import viscotack as vt
 from viscotack.model.geometry import Bonded, Cone, Frictionless, Layer, Sphere
-from viscotack.theory.elastic import indenter, jkr, on_body, on_layer
+from viscotack.theory.elastic import indenter, on_body, on_layer
 
 pytestmark = pytest.mark.march
 
-BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5))]
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.5))]
 SQUEEZED = Bonded(poisson_ratio=0.5)
 UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
@@ -68,37 +68,6 @@ def test_the_gap_around_a_contact_is_that_of_the_influence_matrix(base):
     depth = float(indenter.depth(1.2, shape=Sphere(1.0), body=layer, **UNITS))
     found = on_layer.gap(r, 1.2, depth, Sphere(1.0), layer)
     assert found == pytest.approx(on_body.gap(r, 1.2, depth, Sphere(1.0), layer), abs=2e-4)
-
-
-@pytest.mark.parametrize("base", BASES, ids=repr)
-def test_the_stiffness_of_a_disc_grows_by_the_energy_that_its_edge_releases(base):
-    # a wider disc: E* K'/2 delta^2 = 2 pi a G
-    a, layer = np.array([0.02, 0.3, 4.0]), Layer(0.2, base)
-    step = 1e-3 * a
-    slope = (on_layer.stiffness(a + step, layer) - on_layer.stiffness(a - step, layer)) / (2 * step)
-    drawn = np.asarray(indenter.drawn(a, shape=Sphere(1.0), body=layer, **UNITS))
-    assert slope == pytest.approx(4 * np.pi * a / drawn**2, rel=1e-4)
-
-
-@pytest.mark.parametrize("base", BASES, ids=repr)
-def test_a_thick_layer_is_a_half_space(base):
-    layer, a = Layer(300.0, base), np.linspace(0.5, 2.0, 4)
-    force = np.asarray(jkr.force(a, radius=1.0, **UNITS))
-    found = np.asarray(indenter.force(a, shape=Sphere(1.0), body=layer, **UNITS))
-    assert np.max(np.abs(found - force)) < 1e-4 * np.max(np.abs(force))
-    assert pull_off(layer) == pytest.approx(1.5, rel=1e-4)
-
-
-@pytest.mark.parametrize(
-    ("base", "limit"), [(BASES[0], 2.0), (BASES[1], 2.0), (BASES[2], 2.0), (SQUEEZED, 3.0)]
-)
-def test_a_thin_layer_holds_what_springs_or_a_squeezed_film_hold(base, limit):
-    found = [pull_off(Layer(b, base)) for b in (0.02, 0.01, 0.005)]
-    # off by the radius over the thickness
-    away = np.abs(np.array(found) - limit)
-    assert np.all(np.diff(away) < 0)
-    assert 2 * found[2] - found[1] == pytest.approx(limit, rel=0.03)
-    assert found[2] == pytest.approx(limit, rel=0.01 if limit == 2 else 0.04)
 
 
 # --- simulations ----------------------------------------------------------------------------------

@@ -53,7 +53,7 @@ def test_an_elastic_crack_takes_the_work_of_adhesion(law):
     assert found.amplification == pytest.approx(1, abs=1e-4)
 
 
-@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("law", [REDUCED, TABLE], ids=["lennard-jones", "table"])
 def test_what_the_crack_takes_is_the_work_of_adhesion_and_the_heat(law):
     crack = SteadyCrack(standard(), law)
     fastest = 1e4 if law is REDUCED else 100.0
@@ -185,10 +185,11 @@ def test_a_power_law_is_found_at_all_speeds_with_a_stated_error():
         rubbery_modulus=1e6, glassy_modulus=1e8, exponent=0.6, tau0=1.0, poisson_ratio=0.5
     )
     crack = SteadyCrack(solid, REDUCED)
-    gamma = crack.amplification(np.geomspace(1e-3, 1e9, 50))
+    speed = np.geomspace(1e-3, 1e9, 25)
+    gamma = crack.amplification(speed)
     assert np.all(np.diff(gamma) > 0)
     assert gamma[-1] > 90
-    assert np.all(crack.error(np.geomspace(1e-3, 1e9, 50)) < 2e-3)
+    assert np.all(crack.error(speed) < 2e-3)
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from viscotack.model.materials import RetardationPowerLaw, StandardSolid
@@ -79,20 +77,6 @@ def test_bounds_contain_the_exact_value_where_the_table_begins_late(first):
     # the error between the rows, at 64 a decade
     assert np.all(low < exact * (1 + 2e-4)) and np.all(high > exact * (1 - 2e-4))
     assert np.all(high > low)
-
-
-@given(st.floats(-6, 6), st.floats(-6, 6), st.floats(0.02, 30.0))
-def test_the_amplification_does_not_depend_on_the_units(time, load, speed):
-    T, M = 10**time, 10**load
-    old = tabulated_modulus.amplification(speed, modulus=TabulatedModulus(**GOOD))
-    scaled = dict(
-        rubbery_modulus=M * 1e6,
-        frequencies=tuple(T * w for w in GOOD["frequencies"]),
-        storage=tuple(M * e for e in GOOD["storage"]),
-        loss=tuple(M * e for e in GOOD["loss"]),
-    )
-    new = tabulated_modulus.amplification(T * speed, modulus=TabulatedModulus(**scaled))
-    assert new == pytest.approx(old, rel=1e-9, abs=0)
 
 
 def test_a_speed_whose_cut_off_leaves_the_table_is_refused():
