@@ -183,6 +183,7 @@ def _known(value: float) -> float | None:
 def _cycle(result: Result, span: Span, found: PullOff | None, error: float) -> Cycle:
     depth, tension = _snap_in(result, span)
     none, loop = float("nan"), loop_of(result, span)
+    energy = result.problem.outputs.energy_factor(result.groups)
     return Cycle(
         begin=float(result.time[span.first]),
         end=float(result.time[span.last]),
@@ -192,9 +193,11 @@ def _cycle(result: Result, span: Span, found: PullOff | None, error: float) -> C
         pull_off_force=none if found is None else found.force,
         depth_at_pull_off=none if found is None else found.depth,
         work_to_pull_off=(
-            none if found is None else tension_work(result, span, found, until=-found.depth)
+            none
+            if found is None
+            else energy * tension_work(result, span, found, until=-found.depth)
         ),
-        hysteresis=lost_in(result, span, loop),
+        hysteresis=energy * lost_in(result, span, loop),
         hysteresis_error=error,
         loop=loop,
         time_to_detachment=_time_held(result, span),

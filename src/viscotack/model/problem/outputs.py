@@ -124,7 +124,7 @@ _SPEED = Unit(
 _WORK = Unit("1.5 pi R dg0 h0", r"$1.5\,\pi R\,\Delta\gamma_0 h_0$", "work", "J")
 
 
-def _cycles(force: str, unit: Unit, work: Unit, factor: Factor = _as_it_is) -> dict[str, Series]:
+def _cycles(force: str, unit: Unit, work: Unit) -> dict[str, Series]:
     """Return the columns of a table of cycles, see :class:`viscotack.result.cycles.Cycle`."""
     return {
         "begin": Series("begin", "begin", _TIME),
@@ -134,8 +134,8 @@ def _cycles(force: str, unit: Unit, work: Unit, factor: Factor = _as_it_is) -> d
         f"peak_{force}": Series("peak_force", "peak", unit),
         f"pull_off_{force}": Series("pull_off_force", "pull-off", unit),
         "depth_at_pull_off": Series("depth_at_pull_off", "at depth", _LENGTH),
-        "work_to_pull_off": Series("work_to_pull_off", "work", work, factor),
-        "hysteresis": Series("hysteresis", "hysteresis", work, factor),
+        "work_to_pull_off": Series("work_to_pull_off", "work", work),
+        "hysteresis": Series("hysteresis", "hysteresis", work),
         "hysteresis_error": Series("hysteresis_error", "its error", _PURE),
         "time_to_detachment": Series("time_to_detachment", "time to detachment", _TIME),
     }
@@ -234,7 +234,7 @@ PLANE = Kind(
         "work_to_other_peak": Output("work to other peak", _ENERGY),
         "time_to_detachment": Output("time to detachment", _TIME),
     },
-    cycles=_cycles("stress", _STRESS, _ENERGY, _per_work_of_adhesion),
+    cycles=_cycles("stress", _STRESS, _ENERGY),
     units={
         "force": _STRESS,
         "depth": _LENGTH,
