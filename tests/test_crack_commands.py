@@ -1,7 +1,6 @@
 """The steady crack at the command line: JSON, SI, words, wrong input."""
 
 import json
-import re
 
 import pytest
 
@@ -80,7 +79,7 @@ def test_a_contact_in_si_units_is_printed_in_si_units_and_as_text(capsys):
     words = capsys.readouterr().out
     assert exit_status([*command, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
-    assert re.search(rf"^  pull_off_force +{answer['pull_off_force_N'] * 1e3:.5g} mN$", words, re.M)
+    assert f"{answer['pull_off_force_N'] * 1e3:.5g} mN" in words
     unit = 1.5 * 3.141592653589793 * 1e-3 * work
     assert answer["pull_off_force_N"] == pytest.approx(answer["pull_off_force"] * unit, rel=1e-6)
 

@@ -167,7 +167,7 @@ def test_the_command_prints_them_as_json_and_as_a_table(capsys):
     assert not exit_status(words.split())
     table = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
     for name, slope in answer["elasticities"][FORCE].items():
-        assert f"{slope:.3f} ±{answer['errors'][FORCE][name]:.3f}" in table[name]
+        assert f"{slope:.1f}" in table[name]
 
 
 def test_inputs_that_move_the_pull_off_to_another_peak_have_no_elasticity():

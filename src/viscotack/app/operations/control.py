@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
-from viscotack.units import readable
 
 from .flags import INDENTERS
+from .parts.record_words import read, rows_of
 from .request import (
     Answer,
     Caller,
@@ -149,11 +149,11 @@ class Control(Request):
             "csv": rows_as_csv(_rows(table)),
         }
         if released is not None:
-            files["ticks"] = rows_as_csv(_ticks(released))
+            names = ("time_s", "drive_m", "depth_m", "force_N", "drive_speed_m_per_s")
+            files["ticks"] = rows_as_csv(rows_of(read(released, *names)))
         return Answer(
             table if released is None else (table, released),
             record=lambda: _record(table, released, speed),
-            words=lambda: _words(table, released, speed),
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
             notes=stated.notes,
@@ -163,28 +163,10 @@ class Control(Request):
 def _rows(table: "ForceTable") -> list[dict[str, float]]:
     """Return a row for each speed."""
     names = ("travel_to_pull_off_m", "travel_to_half_m", "travel_to_end_m")
-    return [
-        {"speed_m_per_s": v, "pull_off_force_N": P} | dict(zip(names, travel, strict=True))
-        for v, P, travel in zip(
-            table.speed.tolist(),
-            table.pull_off_force.tolist(),
-            table.travel.tolist(),
-            strict=True,
-        )
-    ]
-
-
-def _ticks(released: "Released") -> list[dict[str, float]]:
-    """Return a row for each tick."""
-    columns = {
-        "time_s": released.time,
-        "drive_m": released.drive,
-        "depth_m": released.depth,
-        "force_N": released.force,
-        "drive_speed_m_per_s": released.drive_speed,
-    }
-    values = zip(*(x.tolist() for x in columns.values()), strict=True)
-    return [dict(zip(columns, row, strict=True)) for row in values]
+    travels = dict(zip(names, table.travel.T, strict=True))
+    return rows_of(
+        {"speed_m_per_s": table.speed, "pull_off_force_N": table.pull_off_force} | travels
+    )
 
 
 def _record(
@@ -206,21 +188,3 @@ def _record(
             "time_s": float(released.time[-1]),
         }
     return found
-
-
-def _words(table: "ForceTable", released: "Released | None", speed: float | None) -> str:
-    """Return the answer as lines."""
-    v, P = table.speed, table.pull_off_force
-    lines = [
-        f"force table of {len(v)} speeds from {readable(float(v[0]), 'm/s')} to "
-        f"{readable(float(v[-1]), 'm/s')}, within {100 * table.error:.2g} % of the pull-off force",
-        f"pull-off force {readable(float(P.min()), 'N')} to {readable(float(P.max()), 'N')}",
-    ]
-    if released is not None and speed is not None:
-        lines += [
-            f"release at {readable(released.wanted, 'N')}: the contact keeps "
-            f"{readable(speed, 'm/s')}",
-            f"simulated rig: detaches at {readable(released.pull_off_force, 'N')}, "
-            f"{released.miss:+.2%}, after {readable(float(released.time[-1]), 's')}",
-        ]
-    return "\n".join(lines)

@@ -1,7 +1,6 @@
 """The operation ``design``: what to build for wanted forces."""
 
 from dataclasses import replace
-from math import exp
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -81,7 +80,7 @@ class OfDesign(Request):
         return Answer(
             found,
             record=lambda: _record(found, rows, front) | {"cautions": warned},
-            words=lambda: _words(found, warned),
+            words=lambda: _shown(found, rows, warned),
             files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
             pictures={
                 "plot": lambda: draw_design(found, stated),
@@ -191,66 +190,21 @@ _VERDICTS = {
 }
 
 
-def _words(found: Any, warned: list[list[str]]) -> str:
-    """Return the answer as lines."""
-    lines = [_VERDICTS[found.meets]]
-    both = zip(found.candidates, found.simulated, found.yields, strict=True)
-    for number, (one, run, part) in enumerate(both, 1):
-        lines += [f"design {number}: {_choice_words(one.choice)}", *_force_words(one, run)]
-        if part is not None:
-            wanted = found.judge.conditions.share
-            lines.append(f"  yield {part:.1%}, wanted {wanted:.1%}")
-        lines += [f"  {words}" for words in warned[number - 1]]
-    lines.append(f"binding: {', '.join(found.binding)}")
-    for name, slopes in found.elasticities.items():
-        known = ", ".join(f"{x} {s:+.2f}" for x, s in slopes.items() if s is not None)
-        words = {"work": "work", "dead_load": "dead load"}.get(name, f"force to {name}")
-        lines.append(f"d ln P/d ln x of the {words}: {known}")
-    if found.front:
-        lines.append(
-            f"the output front has {len(found.front)} designs, none better in every target"
+def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> dict[str, Any]:
+    """Return what the text says of a record: the front has a table of its own."""
+    words = [_VERDICTS[found.meets], *(_limit_words(each) for each in found.excluded)]
+    if found.meets is False and not found.excluded and found.simulated[0] is None:
+        words.append(
+            "each target alone is within reach, but no design between the bounds meets all"
         )
-    lines += [*(_limit_words(each) for each in found.excluded), *_apart(found)]
-    return "\n".join([*lines, OF_METHOD])
-
-
-def _choice_words(choice: Any) -> str:
-    parts = [
-        f"{choice.pads} pad{'s' if choice.pads > 1 else ''} of {choice.material}",
-        f"R = {readable(choice.radius, 'm')}",
-        f"preload {readable(choice.preload, 'N')}",
-    ]
-    for name, unit, words in (
-        ("hold_speed", "m/s", "hold at"),
-        ("release_speed", "m/s", "release at"),
-        ("modulus", "Pa", "E0 ="),
-        ("thickness", "m", "thickness"),
-        ("exponent", "1", "exponent"),
-        ("backing", "N/m", "backing"),
-    ):
-        if (value := getattr(choice, name)) is not None:
-            parts.append(f"{words} {readable(value, unit)}")
-    return ", ".join(parts)
-
-
-def _force_words(one: Any, run: Any) -> list[str]:
-    """Return the forces and margins of a design as lines."""
-    lines = []
-    for name, force in one.forces.items():
-        unit = _FORCES[name]
-        line = (
-            f"  {name.replace('_', ' ')}: {readable(force.value, unit)} "
-            f"({readable(force.low, unit, to=force.high)}, {force.method})"
-        )
-        value = None if run is None else run.forces.get(name)
-        if run is not None and value is not None:
-            line += f"; {run.method} {readable(value, unit)} within {run.errors[name]:.1g}"
-        lines.append(line)
-    margin = one.margin if run is None or run.margin is None else run.margin
-    by = "the fast tier" if margin is one.margin else "simulation"
-    met = "met" if margin >= 0 else "not met"
-    lines.append(f"  worst target: {met}, {exp(margin) - 1:+.1%} by {by}")
-    return lines + ([f"  not simulated: {run.why}"] if run is not None and run.why else [])
+    return {
+        "words": words,
+        "designs": rows,
+        "binding": list(found.binding),
+        "designs_of_the_front": len(found.front) or None,
+        "d ln P/d ln x": {f"of {name}": dict(each) for name, each in found.elasticities.items()},
+        "cautions": [*warned, OF_METHOD],
+    }
 
 
 def _limit_words(limit: Any) -> str:
@@ -265,10 +219,3 @@ def _limit_words(limit: Any) -> str:
         f"out of reach: {target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
         f"{limit.why}"
     )
-
-
-def _apart(found: Any) -> list[str]:
-    """Return a line if each target alone is in reach, but not all together."""
-    if found.meets is not False or found.excluded or found.simulated[0] is not None:
-        return []
-    return ["each target alone is within reach, but no design between the bounds meets all"]

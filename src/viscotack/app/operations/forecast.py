@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.units import parse, readable
+from viscotack.units import parse
 
 from .identify import IdentifyRates
 from .parts.records import forecast_rows
@@ -128,7 +128,6 @@ class Forecast(Wish):
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, rows),
-            words=lambda: _words(found.fit, forecast, rows),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
             notes=refusals(found.survey),
@@ -165,7 +164,7 @@ class Report(Wish):
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
-            words=lambda: "\n".join([*found.fit.words, *forecast.words]),
+            words=lambda: {"words": [*found.fit.words, *forecast.words]},
             files={"output": as_text(lambda: page(found, forecast))},
             notes=refusals(found.survey),
         )
@@ -205,15 +204,3 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
         "forecast": rows,
         "words": [*fit.words, *forecast.words],
     }
-
-
-def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
-    first = [fit.misfit] if fit.misfit else []
-    lines = []
-    for v, force, *ends in (row.values() for row in rows):
-        pairs = zip(ends[::2], ends[1::2], strict=True)
-        bands = "; ".join(f"{readable(low, 'N', to=high)}" for low, high in pairs)
-        lines.append(f"  {readable(v, 'm/s')}: {readable(force, 'N')} ({bands})")
-    single = "" if forecast.low_of_one is None else ", and of a single test"
-    head = f"Pull-off forces, {forecast.level:.0%} band of their mean{single}"
-    return "\n".join([*first, head, *lines, *fit.words[len(first) :], *forecast.words])

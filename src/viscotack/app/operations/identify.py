@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 from pydantic import Field
 
 from viscotack.errors import InputError
-from viscotack.units import readable
 
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.rig import Rig, refusals
@@ -103,7 +102,7 @@ class IdentifySlow(Rig):
         return Answer(
             fit,
             record=lambda: slow_record(fit),
-            words=lambda: _slow_words(fit),
+            words=lambda: _slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
             drawn=lambda: {
                 "measured": {"at": drawn(test.at), "force": drawn(test.force)},
@@ -257,7 +256,7 @@ class IdentifyRates(Rig):
         return Answer(
             found,
             record=lambda: rates_record(fit),
-            words=lambda: _rates_words(fit),
+            words=lambda: {n: x for n, x in rates_record(fit).items() if n not in _SAID},
             files={"output": self._written(found.computed, caller)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
@@ -286,24 +285,12 @@ class IdentifyRates(Rig):
         return write
 
 
-def _slow_words(fit: Any) -> str:
-    first, *words = fit.words
-    lines = [first, f"Force against {fit.test.against}, {fit.test.force.size} points"]
-    for one in fit.fits:
-        tabor = "" if one.tabor is None else f", Tabor number {one.tabor:.3g}"
-        lines.append(
-            f"  {one.model:8} {readable(one.work_of_adhesion, 'J/m2')}, "
-            f"E0* {readable(one.contact_modulus, 'Pa')}{tabor}; "
-            f"scatter {readable(one.scatter, 'N', digits=2)}, criterion {one.criterion:.1f}"
-        )
-    return "\n".join([*lines, *words, f"Ranked by: {fit.evidence}"])
+# What the sentences of a fitted series say.
+_SAID = ("work_of_adhesion_J_m2", "equilibrium_gap_m", "intervals", "solutions", "describes_tests")
 
 
-def _rates_words(fit: Any) -> str:
-    rows = [
-        f"  {one.conditions()}: {readable(one.force.value, 'N')} measured, "
-        f"{readable(force, 'N')} fitted"
-        for one, force in zip(fit.series, fit.forces, strict=True)
-    ]
-    first, *words = fit.words
-    return "\n".join([first, *rows, *words, f"Tabor number {fit.tabor:.3g}"])
+def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record: the interval is in the sentences."""
+    fits = [{n: x for n, x in fit.items() if n != "intervals"} for fit in record["fits"]]
+    shown = {name: record[name] for name in ("words", "against", "points", "evidence")}
+    return shown | {"fits": fits}

@@ -46,7 +46,6 @@ class IdentifyDwell(Rig):
         return Answer(
             fit,
             record=lambda: _record(fit),
-            words=lambda: "\n".join(fit.words),
             pictures={"plot": lambda: draw_dwells(fit)},
             notes=refusals(found),
         )

@@ -329,8 +329,11 @@ class Answer:
     record : callable
         Returns plain data, numbers in SI with the unit in the name, as printed by ``--json`` and
         returned over HTTP.
-    words : callable
-        Returns text for the terminal.
+    words : callable, optional
+        Returns text for the terminal, or the part of the record that is shown there; default:
+        all of it.
+    units : mapping
+        Units of dimensionless numbers of the record by name, for the text.
     files : mapping
         Name of an output -> function that writes it to a target.
     pictures : mapping
@@ -345,7 +348,8 @@ class Answer:
 
     found: Any
     record: Callable[[], Any]
-    words: Callable[[], str]
+    words: Callable[[], Any] | None = None
+    units: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, Callable[["Target"], None]] = field(default_factory=dict)
     pictures: Mapping[str, Callable[[], Any]] = field(default_factory=dict)
     drawn: Callable[[], dict[str, Any]] | None = None
@@ -353,8 +357,11 @@ class Answer:
     status: int = 0
 
     def __str__(self) -> str:
-        """Return the text."""
-        return self.words()
+        """Return the text for the terminal."""
+        from .parts.record_words import record_words
+
+        shown = self.record() if self.words is None else self.words()
+        return shown if isinstance(shown, str) else record_words(shown, self.units)
 
 
 def harmless_name(name: str) -> str:

@@ -8,7 +8,6 @@ from pydantic import Field
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
-from viscotack.units import readable
 
 from .request import Answer, Caller, File, Option, Output, Request, csv_file, number_of, picture
 from .simulate import Accuracy
@@ -120,7 +119,7 @@ class OfRough(Request):
         return Answer(
             found,
             record=lambda: found.summary | about,
-            words=lambda: _words(found, about),
+            words=lambda: _shown(found, about),
             files={
                 "csv": rows_as_csv(found.rows()),
                 "maps": found.save_maps,
@@ -157,55 +156,16 @@ class OfRough(Request):
         return Answer(
             found,
             record=lambda: found.summary,
-            words=lambda: (
-                f"superposition of {len(found.asperities.radii)} asperities, {found.touching} of "
-                f"them in contact, by {found.method}\n"
-                f"pull-off force: {readable(found.pull_off_force, 'N')}"
-                + (f" +- {100 * found.band:.2g} %" if found.inside else "")
-                + f", a stress of {readable(found.pull_off_stress, 'Pa')}\n"
-                f"work of separation: {readable(found.work_of_separation, 'J')}\n"
-                f"share of the surface around contacts: {found.share:.2g}"
-            ),
             files={"csv": rows_as_csv(found.rows())},
             pictures={"plot": lambda: draw_superposition(problem, found)},
             notes=(*problem.surface.notes, *((found.why,) if found.why else ())),
         )
 
 
-def _words(found: Any, about: dict[str, Any]) -> str:
-    """Return the answer as lines."""
-    errors = found.error_estimate or {}
-
-    def within(name: str) -> str:
-        return f" +- {100 * errors[name]:.2g} %" if name in errors else ""
-
+def _shown(found: Any, about: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record; its warnings are notes."""
     from viscotack.simulate.rough import LONGEST_RANGE
 
-    at, bearing = found.at_pull_off, about["bearing_area_stress_Pa"]
-    share = 100 * found.area[at] / found.nominal_area
-    lines = [
-        f"surface: rms height {readable(about['rms_height_m'], 'm')}, rms slope "
-        f"{about['rms_slope']:.3g}, {about['pixels_per_zone']:.2g} pixels in a zone at an edge",
-        f"energy of full contact over the work of adhesion: "
-        f"{about['full_contact_energy_over_work']:.3g} slow, "
-        f"{about['full_contact_energy_over_work_fast']:.3g} fast; Fuller-Tabor parameter "
-        f"{about['fuller_tabor']:.3g}; Pastewka-Robbins ratio {about['pastewka_robbins']:.3g}"
-        + (
-            "" if (about["range_over_gap_at_patches"] or 0) < LONGEST_RANGE else " (range too long)"
-        ),
-        f"pull-off force: {readable(found.pull_off_force, 'N')}{within('force')}, a stress of "
-        f"{readable(found.pull_off_stress, 'Pa')}"
-        + (f" ({readable(bearing, 'Pa')} by the bearing area)" if bearing is not None else ""),
-        f"there: depth {readable(float(found.depth[at]), 'm')}, {share:.3g} % of the map in "
-        f"contact in {int(found.patches[at])} patches",
-    ]
-    if found.has_separated:
-        lines.append(
-            f"work of separation: {readable(found.work_of_separation, 'J')}{within('work')}"
-        )
-    lines += [
-        f"lost: {readable(float(found.heat[-1]), 'J')} as heat in the solid, "
-        f"{readable(float(found.jumps[-1]), 'J')} in {len(found.events)} jumps",
-        f"energy balance: {found.energy_residual:.1g}; {found.status}",
-    ]
-    return "\n".join(lines)
+    cautions = ["the range is too long for the ratio of Pastewka and Robbins"]
+    short = (about["range_over_gap_at_patches"] or 0) < LONGEST_RANGE
+    return found.summary | about | {"warnings": [], "cautions": [] if short else cautions}

@@ -8,7 +8,6 @@ from viscotack.errors import InputError
 
 from .parts.closed_form import closed_form
 from .parts.layer import BONDED, THICKNESS, body_of
-from .parts.record_words import record_words
 from .parts.tables import as_text
 from .request import Answer, Caller, Contact, Number, Request, csv_file, picture, quoted
 
@@ -268,7 +267,6 @@ class OfCrack(Request):
         return Answer(
             found,
             record=lambda: record,
-            words=lambda: record_words(record),
             files={"curve": as_text(lambda: _table(found))},
             pictures={"plot": lambda: _drawn(found)},
             notes=stated.notes,

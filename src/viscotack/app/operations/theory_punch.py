@@ -10,7 +10,6 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .flags import FLAGS
-from .parts.record_words import record_words
 from .parts.solid import Reduced, passport_of
 from .request import Answer, Caller, File, Named, Number, Option, picture, quoted
 
@@ -130,7 +129,7 @@ class OfPad(Reduced):
         return Answer(
             record,
             record=lambda: record,
-            words=lambda: record_words(numbers),
+            words=lambda: numbers,
             pictures={"plot": lambda: draw_regimes(regimes or _map(pad, crack))},
         )
 

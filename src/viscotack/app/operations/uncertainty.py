@@ -170,7 +170,7 @@ class OfUncertainty(Request):
         return Answer(
             found,
             record=lambda: _record(found, rows, unit),
-            words=lambda: _words(found, rows, force.words, unit),
+            words=lambda: _shown(found, rows, force.words, unit),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_uncertainty(found)},
         )
@@ -247,18 +247,17 @@ def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict
     }
 
 
-def _words(found: "Uncertainty", rows: list[dict[str, Any]], force: str, unit: str) -> str:
-    """Return the answer as lines."""
+def _shown(
+    found: "Uncertainty", rows: list[dict[str, Any]], force: str, unit: str
+) -> dict[str, Any]:
+    """Return what the text says of a record."""
     low, high = found.interval
-    tiers = ", ".join(f"{name} ({count})" for name, count in found.methods.items())
-    lines = [
-        f"{force} {readable(found.pull_off_force, unit)}, in {found.confidence:.0%} of the cases "
-        f"{readable(low, unit, to=high)}",
-        f"by {tiers}",
-        "share of the variance of ln(force), alone and with the other inputs:",
-    ]
-    width = max(len(row["input"]) for row in rows)
-    for row in sorted(rows, key=lambda x: -x["total"]):
-        by = "" if row["deviation"] is None else f"  (deviation {row['deviation']:.3g})"
-        lines.append(f"  {row['input']:{width}s}  {row['first']:6.1%}  {row['total']:6.1%}{by}")
-    return "\n".join(lines)
+    return {
+        "words": [
+            f"{force} {readable(found.pull_off_force, unit)}, in {found.confidence:.0%} of the "
+            f"cases {readable(low, unit, to=high)}",
+            "shares of the variance of ln(force), first: alone, total: with the other inputs",
+        ],
+        "inputs": sorted(rows, key=lambda x: -x["total"]),
+        "methods": dict(found.methods),
+    }

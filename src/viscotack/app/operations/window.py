@@ -71,20 +71,19 @@ class OfWindow(Request):
                 )
             )
             chances.append(_chances(each, maps[-1]))
-        cells, critical, parts = [], [], []
+        cells: list[dict[str, Any]] = []
+        critical: list[dict[str, Any]] = []
         for place, found, known in zip(files, maps, chances, strict=True):
             at = _place(*place)
             rows = [_cell(cell) | _yields(known, i) for i, cell in enumerate(found.cells)]
             cells += [at | row for row in rows]
             critical += [at | _critical(each) for each in found.critical_speeds]
-            head = _title(*place)
-            parts.append((head and f"{head}\n") + _words(found) + _yield_words(found, known))
         first = _place(*files[0])
         columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
         return Answer(
             tuple(maps) if stated.variants else maps[0],
             record=lambda: {"cells": cells, "critical_speeds": critical},
-            words=lambda: "\n\n".join(parts),
+            words=lambda: _shown(cells, critical),
             files={
                 "csv": rows_as_csv(cells, columns),
                 "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
@@ -129,22 +128,6 @@ def _yields(chances: tuple[Any, ...], number: int) -> dict[str, Any]:
     (low, high), (least, most) = one.pick_interval or _NONE, one.print_interval or _NONE
     values = one.pick, low, high, one.print, least, most, one.transfer
     return dict(zip(_YIELD, values, strict=True))
-
-
-def _yield_words(found: Any, chances: tuple[Any, ...]) -> str:
-    """Return the best yield of each preload in words."""
-    lines = []
-    for j, load in enumerate(found.preloads):
-        row = chances[j * len(found.speeds) : (j + 1) * len(found.speeds)]
-        for name in ("pick", "print", "transfer"):
-            known = [each for each in row if getattr(each, name) is not None]
-            if known:
-                best = max(known, key=lambda each: getattr(each, name))
-                lines.append(
-                    f"best {name} at {readable(load, 'N', digits=3)}: "
-                    f"{getattr(best, name):.1%} at {readable(best.speed, 'm/s', digits=3)}"
-                )
-    return "".join(f"\n{line}" for line in lines)
 
 
 _NONE = (None, None)
@@ -197,25 +180,24 @@ def _critical(one: Any) -> dict[str, Any]:
     return dict(zip(_CRITICAL, values, strict=True))
 
 
-def _words(found: Any) -> str:
-    """Return the map as rows of words, and the critical speeds."""
-    width = max(len(cell.word) for cell in found.cells) + 2
-    speeds = [readable(v, "m/s", digits=3) for v in found.speeds]
-    width = max(width, *(len(each) + 2 for each in speeds))
-    loads = [readable(F, "N", digits=3) for F in found.preloads]
-    first = max(len("preload"), *map(len, loads))
-    lines = [f"{'preload':>{first}}" + "".join(f"{each:>{width}}" for each in speeds)]
-    for j, load in enumerate(loads):
-        words = (found.at(i, j).word for i in range(len(speeds)))
-        lines.append(f"{load:>{first}}" + "".join(f"{word:>{width}}" for word in words))
-    for one in found.critical_speeds:
-        low, high = (
-            None if end is None else readable(end, "m/s", digits=3) for end in one.interval
-        )
-        between = f"{low or 'below the map'} to {high or 'above the map'}"
-        lines.append(
-            f"{one.base} at {readable(one.preload, 'N', digits=3)}: the {one.below} opens below "
-            f"{readable(one.speed, 'm/s', digits=3)} ({between}), the {one.above} above"
-        )
-    reasons = dict.fromkeys(cell.why for cell in found.cells if cell.word == "undecided")
-    return "\n".join([*lines, *(f"undecided: {why}" for why in reasons)])
+def _shown(cells: list[dict[str, Any]], critical: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return what the text says: the map of words, best yields, and critical speeds."""
+    maps: dict[Any, dict[str, Any]] = {}
+    best: dict[Any, dict[str, Any]] = {}
+    for cell in cells:
+        at = {name: cell.get(name) for name in ("temperature_K", "dwell_s", "preload_N")}
+        place, speed = tuple(at.values()), cell["speed_m_per_s"]
+        maps.setdefault(place, at)[readable(speed, "m/s", digits=3)] = cell["word"]
+        for name in ("pick", "print", "transfer"):
+            chance = cell.get(f"{name}_probability")
+            known = best.get((*place, name), {"probability": -1.0})
+            if chance is not None and chance > known["probability"]:
+                row = {"of": name, "probability": chance, "speed_m_per_s": speed}
+                best[(*place, name)] = at | row
+    undecided = {cell["why"]: None for cell in cells if cell["word"] == "undecided"}
+    return {
+        "map": list(maps.values()),
+        "best": list(best.values()),
+        "critical_speeds": critical,
+        "undecided": list(undecided),
+    }

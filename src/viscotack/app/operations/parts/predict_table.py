@@ -96,7 +96,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
         }
 
     files: dict[str, Writer] = {"csv": answered, "xlsx": in_workbook}
-    return Answer(methods, record=record, words=lambda: _words(record()), files=files)
+    return Answer(methods, record=record, files=files)
 
 
 def refuse_answered(where: Any, headings: Iterable[str], answers: Iterable[str]) -> None:
@@ -118,15 +118,6 @@ def in_sheet(value: Any) -> Any:
 
 def _rows_told(tell: Callable[[Told], None], before: int, done: int, count: int) -> None:
     tell({"words": f"{before + done} of {before + count} rows answered"})
-
-
-def _words(answer: Mapping[str, Any]) -> str:
-    lines = [f"{answer['rows']} rows, {answer['inside']} inside what was learned from"]
-    for method, count in answer["methods"].items():
-        lines.append(f"  {method:<14}{count:>8}")
-    if answer["unanswered"]:
-        lines.append(f"  {'no answer':<14}{answer['unanswered']:>8}  reasons in the column why")
-    return "\n".join(lines)
 
 
 def _answers(
