@@ -167,7 +167,8 @@ def test_the_command_prints_them_as_json_and_as_a_table(capsys):
     assert not exit_status(words.split())
     table = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
     for name, slope in answer["elasticities"][FORCE].items():
-        assert f"{slope:.1f}" in table[name]
+        error = answer["errors"][FORCE][name]
+        assert float(table[name].split()[1]) == pytest.approx(slope, abs=error)
 
 
 def test_inputs_that_move_the_pull_off_to_another_peak_have_no_elasticity():

@@ -39,7 +39,7 @@ class OfArray(Request):
         ),
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""

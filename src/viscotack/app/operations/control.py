@@ -66,44 +66,27 @@ class Control(Request):
             spelling="case",
         ),
     ]
-    slowest: Annotated[
-        float, Number("Slowest speed of the contact.", unit="m/s", above=0, metavar="SPEED")
-    ]
-    fastest: Annotated[
-        float, Number("Fastest speed of the contact.", unit="m/s", above=0, metavar="SPEED")
-    ]
+    slowest: Annotated[float, Number("Slowest speed of the contact.", unit="m/s", above=0)]
+    fastest: Annotated[float, Number("Fastest speed of the contact.", unit="m/s", above=0)]
     tolerance: Annotated[
         float,
-        Number(
-            "Largest miss of the interpolation, over the pull-off force.",
-            above=0,
-            most=0.2,
-            metavar="PART",
-        ),
+        Number("Largest miss of the interpolation, over the pull-off force.", above=0, most=0.2),
     ] = 0.01
-    name: Annotated[
-        str, Option("Name of the model, and prefix of the functions in C.", metavar="NAME")
-    ] = "contact"
-    wanted: Annotated[
-        float | None,
-        Number("Pull-off force of the release.", unit="N", above=0, metavar="FORCE"),
-    ] = None
+    name: Annotated[str, Option("Name of the model, and prefix of the functions in C.")] = "contact"
+    wanted: Annotated[float | None, Number("Pull-off force of the release.", unit="N", above=0)] = (
+        None
+    )
     stiffness: Annotated[
-        float | None,
-        Number(
-            "Stiffness of the rig; rigid if left out.", unit="N/m", above=0, metavar="STIFFNESS"
-        ),
+        float | None, Number("Stiffness of the rig; rigid if left out.", unit="N/m", above=0)
     ] = None
     period: Annotated[
-        float,
-        Number("Time between two ticks of the controller.", unit="s", above=0, metavar="TIME"),
+        float, Number("Time between two ticks of the controller.", unit="s", above=0)
     ] = 1e-3
     drive_limit: Annotated[
-        float | None,
-        Number("Largest speed of the drive.", unit="m/s", above=0, metavar="SPEED"),
+        float | None, Number("Largest speed of the drive.", unit="m/s", above=0)
     ] = None
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 120.0
 
     def check(self) -> None:
         """Refuse options that exclude each other."""

@@ -48,7 +48,7 @@ class OfDesign(Request):
     confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
     seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Search and simulate, telling ``share``."""

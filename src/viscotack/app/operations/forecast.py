@@ -55,17 +55,15 @@ class Wish(Request):
             to=speeds_of,
         ),
     ] = ()
-    preload: Annotated[
-        float | None,
-        Number("Preload; default: that of the series.", unit="N", metavar="FORCE"),
-    ] = None
+    preload: Annotated[float | None, Number("Preload; default: that of the series.", unit="N")] = (
+        None
+    )
     temperature: Annotated[
         float | None,
         Number(
             'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
             "of the times.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     dwell: Annotated[
@@ -73,11 +71,10 @@ class Wish(Request):
         Number(
             "Dwell time under the preload; default: full relaxation. Needs --approach-speed.",
             unit="s",
-            metavar="TIME",
         ),
     ] = None
     approach_speed: Annotated[
-        float | None, Number("Approach speed; needs --dwell.", unit="m/s", metavar="SPEED")
+        float | None, Number("Approach speed; needs --dwell.", unit="m/s")
     ] = None
 
     def of_fit(self, fit: Any) -> Any:

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from viscotack.identify.study import Study
 
 Model = Literal["jkr", "dmt", "maugis", "carpick"]
-Radius = Annotated[
-    float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
-]
+Radius = Annotated[float, Number('Sphere radius, "5.19 mm".', unit="m", example='"5.19 mm"')]
 Level = Annotated[float, Number("Confidence level of the intervals.")]
 
 
@@ -46,14 +44,12 @@ class IdentifySlow(Rig):
 
     radius: Radius
     cycle: Annotated[
-        int, Option("Number of the cycle in the files, from 1.", metavar="N"), Field(ge=1, le=10**6)
+        int, Option("Number of the cycle in the files, from 1."), Field(ge=1, le=10**6)
     ] = 1
     model: Annotated[tuple[Model, ...], Option("Models to compare; default: all four.")] = ()
     against: Annotated[
         Literal["radius", "depth"] | None,
-        Option(
-            "Abscissa: contact radius or depth; default: the radius if the file contains it.",
-        ),
+        Option("Abscissa: contact radius or depth; default: the radius if the file contains it."),
     ] = None
     contact_modulus: Annotated[
         float | None,
@@ -61,12 +57,10 @@ class IdentifySlow(Rig):
             'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
             "uncertainty is known, else fitted.",
             unit="Pa",
-            metavar="PRESSURE",
         ),
     ] = None
     contact_modulus_uncertainty: Annotated[
-        float | None,
-        Number("Its standard uncertainty; needed with it.", unit="Pa", metavar="PRESSURE"),
+        float | None, Number("Its standard uncertainty; needed with it.", unit="Pa")
     ] = None
     material: Annotated[
         Any,
@@ -150,20 +144,16 @@ class IdentifyRates(Rig):
             'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of '
             "retraction.",
             unit="N",
-            metavar="FORCE",
         ),
     ] = None
     work_of_adhesion: Annotated[
         float | None,
         Number(
-            'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
-            unit="J/m^2",
-            metavar="ENERGY/AREA",
+            'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.', unit="J/m^2"
         ),
     ] = None
     work_of_adhesion_uncertainty: Annotated[
-        float | None,
-        Number("Its standard uncertainty; needed with it.", unit="J/m^2", metavar="ENERGY/AREA"),
+        float | None, Number("Its standard uncertainty; needed with it.", unit="J/m^2")
     ] = None
     temperature: Annotated[
         float | None,
@@ -171,7 +161,6 @@ class IdentifyRates(Rig):
             'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
             "passport.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     temperature_uncertainty: Annotated[
@@ -180,7 +169,6 @@ class IdentifyRates(Rig):
             'Standard uncertainty of this temperature, "0.5 K"; default: 2 K. It changes the times '
             "of the material by the shift of the passport.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     curves: Annotated[
@@ -204,14 +192,13 @@ class IdentifyRates(Rig):
     scatter: Annotated[
         float,
         Number(
-            'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
-            metavar="PART",
+            'Relative scatter of the force between tests, "3 %", if there are no repeated tests.'
         ),
     ] = 0.0
     level: Level = 0.9
     time_limit: HowLong = None
-    title: Annotated[str, Option("Title of the report.", metavar="WORDS")] = ""
-    notes: Annotated[str, Option("Notes for the report.", metavar="WORDS")] = ""
+    title: Annotated[str, Option("Title of the report.")] = ""
+    notes: Annotated[str, Option("Notes for the report.")] = ""
 
     def check(self) -> None:
         """Refuse options that exclude each other."""

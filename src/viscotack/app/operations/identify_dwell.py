@@ -23,9 +23,7 @@ class IdentifyDwell(Rig):
     outputs: ClassVar = (picture("Draw force by contact time to a .png, .pdf or .svg file."),)
 
     material: Solid
-    radius: Annotated[
-        float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
-    ]
+    radius: Annotated[float, Number('Sphere radius, "5.19 mm".', unit="m", example='"5.19 mm"')]
     level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
 
     def answer(self, caller: Caller) -> Answer:

@@ -15,12 +15,7 @@ from .simulate import HowLong
 
 Loads = Annotated[
     tuple[float, ...],
-    Number(
-        "Preload of a test; can be repeated. Default: that of the series.",
-        unit="N",
-        above=0,
-        metavar="FORCE",
-    ),
+    Number("Preload of a test; can be repeated. Default: that of the series.", unit="N", above=0),
 ]
 Radii = Annotated[
     tuple[float, ...],
@@ -28,7 +23,6 @@ Radii = Annotated[
         "Radius of the sphere of a test; can be repeated. Default: that of the series.",
         unit="m",
         above=0,
-        metavar="LENGTH",
     ),
 ]
 
@@ -68,12 +62,10 @@ class NextTest(Request):
             "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
             "--approach-speed.",
             unit="s",
-            metavar="TIME",
         ),
     ] = ()
     approach_speed: Annotated[
-        float | None,
-        Number("Approach speed; needs --dwell.", unit="m/s", above=0, metavar="SPEED"),
+        float | None, Number("Approach speed; needs --dwell.", unit="m/s", above=0)
     ] = None
     forecast_speed: Annotated[
         tuple[Any, ...],
@@ -85,12 +77,10 @@ class NextTest(Request):
         ),
     ] = ()
     forecast_preload: Annotated[
-        float | None,
-        Number("Preload of the wanted forecast.", unit="N", above=0, metavar="FORCE"),
+        float | None, Number("Preload of the wanted forecast.", unit="N", above=0)
     ] = None
     forecast_radius: Annotated[
-        float | None,
-        Number("Sphere radius of the wanted forecast.", unit="m", above=0, metavar="LENGTH"),
+        float | None, Number("Sphere radius of the wanted forecast.", unit="m", above=0)
     ] = None
     noise: Annotated[
         float | None,
@@ -98,7 +88,6 @@ class NextTest(Request):
             'Relative standard deviation of the force of one test, "3 %"; default: that of the '
             "series.",
             above=0,
-            metavar="PART",
         ),
     ] = None
     repeats: Annotated[int, Option("Repetitions of each test."), Field(ge=1, le=1000)] = 1

@@ -101,11 +101,7 @@ class Predict(Request):
         ),
     ] = None
     confidence: Annotated[
-        float,
-        Number(
-            "Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.",
-            metavar="PART",
-        ),
+        float, Number("Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.")
     ] = 0.9
     budget: Annotated[
         float | None,
@@ -116,7 +112,6 @@ class Predict(Request):
             unit="s",
             above=0,
             bare=True,
-            metavar="SECONDS",
         ),
     ] = None
     exact: Annotated[
@@ -236,8 +231,7 @@ class Advise(Request):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Any,
-        Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc")),
+        Any, Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc"))
     ]
 
     def answer(self, caller: Caller) -> Answer:

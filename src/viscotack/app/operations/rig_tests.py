@@ -50,7 +50,6 @@ class ReadTests(Rig, ShiftLaw):
             'Sphere radius, "5.19 mm"; adds the work of adhesion of an elastic JKR sphere, '
             "2F/(3 pi R).",
             unit="m",
-            metavar="LENGTH",
         ),
     ] = None
 

@@ -56,15 +56,13 @@ class OfRough(Request):
     accuracy: Accuracy = DEFAULT_ACCURACY
     theory: Annotated[
         Literal["superposition"] | None,
-        Option(
-            "Answer by a theory instead of a simulation: the asperities by themselves.",
-        ),
+        Option("Answer by a theory instead of a simulation: the asperities by themselves."),
     ] = None
     moments: Annotated[
         int | None,
         Option(
             "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
-            "the largest tension.",
+            "the largest tension."
         ),
         Field(ge=2, le=1000),
     ] = None
@@ -75,7 +73,7 @@ class OfRough(Request):
             "are neighbours."
         ),
     ] = False
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 600.0
+    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 600.0
     checkpoint: Annotated[
         Path | None,
         File(

@@ -30,20 +30,15 @@ if TYPE_CHECKING:
 # How far to pull, and the accuracy of a simulation.
 Until = Annotated[
     Literal["pull-off", "detached"],
-    Option(
-        "Stop past the largest tension, or when the surfaces are apart.",
-    ),
+    Option("Stop past the largest tension, or when the surfaces are apart."),
 ]
-Accuracy = Annotated[float, number_of(card_of(AccuracyCard), metavar="RELATIVE")]
-HowLong = Annotated[
-    float | None,
-    number_of(card_of(TimeLimit), metavar="TIME"),
-]
+Accuracy = Annotated[float, number_of(card_of(AccuracyCard))]
+HowLong = Annotated[float | None, number_of(card_of(TimeLimit))]
 PlotKind = Annotated[
     Literal["force", "radius", "overview", "energy", "sensitivities"],
     Option(
         "force: against depth; radius: force against contact radius; overview: four pictures; "
-        "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed.",
+        "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed."
     ),
 ]
 _FILES = (
@@ -127,9 +122,7 @@ class Simulate(Request):
     problem: Annotated[
         Any,
         Contact(
-            "The contact and the moves of the machine.",
-            indenters=INDENTERS,
-            spelling="commands",
+            "The contact and the moves of the machine.", indenters=INDENTERS, spelling="commands"
         ),
     ]
     until: Until = "detached"

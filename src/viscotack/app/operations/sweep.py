@@ -59,7 +59,7 @@ class Sweep(Request):
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
     until: Until = "pull-off"
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 120.0
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share`` and the new ``rows``."""

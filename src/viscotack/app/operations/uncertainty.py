@@ -71,8 +71,7 @@ class OfUncertainty(Request):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Any,
-        Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case"),
+        Any, Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case")
     ]
     scatter: Annotated[
         tuple[str, ...],
@@ -91,8 +90,7 @@ class OfUncertainty(Request):
         ),
     ] = None
     temperature: Annotated[
-        float | None,
-        Number('Temperature, "25 degC"; default: that of the passport.', unit="K", metavar="T"),
+        float | None, Number('Temperature, "25 degC"; default: that of the passport.', unit="K")
     ] = None
     temperature_uncertainty: Annotated[
         float | None,
@@ -101,7 +99,6 @@ class OfUncertainty(Request):
             "material by the shift of the passport.",
             unit="K",
             above=0,
-            metavar="T",
         ),
     ] = None
     study: Annotated[
@@ -112,9 +109,7 @@ class OfUncertainty(Request):
             metavar="STUDY",
         ),
     ] = None
-    confidence: Annotated[
-        float, Number("Fraction inside the band.", above=0, most=0.999, metavar="PART")
-    ] = 0.9
+    confidence: Annotated[float, Number("Fraction inside the band.", above=0, most=0.999)] = 0.9
     samples: Annotated[int, Option("Number of predictions."), Field(ge=6, le=10_000)] = 256
     seed: Annotated[int, Option("Seed of the drawn problems."), Field(ge=0, lt=2**32)] = 0
     budget: Annotated[
@@ -124,7 +119,6 @@ class OfUncertainty(Request):
             unit="s",
             above=0,
             bare=True,
-            metavar="SECONDS",
         ),
     ] = 1.0
 

@@ -43,7 +43,7 @@ class OfWindow(Request):
         Option("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
     ] = False
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every speed and preload of each map, telling ``share``."""
