@@ -133,14 +133,12 @@ class Predict(Request):
         if self.cases is not None:
             return self._of_table(caller)
         from viscotack.clock import limited
-        from viscotack.plot.prediction import draw_prediction
         from viscotack.prediction import predict
         from viscotack.prediction.prediction import prediction_summary
         from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome
-        from viscotack.simulate import solve
 
-        from .parts.predict_table import write_table
+        from .parts.tables import write_table
 
         stated = self.stated(caller)
         if table := sorted(caller.wants & {"csv", "xlsx"}):
@@ -163,6 +161,8 @@ class Predict(Request):
                 )
             result = None
             if self.compare:
+                from viscotack.simulate import solve
+
                 result = solve(stated.problem, until="pull-off", throw=False)
         record = prediction_summary(found)
         if result is not None:
@@ -173,7 +173,7 @@ class Predict(Request):
             words=lambda: _shown(found, record, self.why),
             units=units_of(found.problem.groups().outputs),
             files={"curve": lambda target: write_table(_curve(found), target)},
-            pictures={"plot": lambda: draw_prediction(found, result)},
+            pictures={"plot": lambda: _drawn(found, result)},
             notes=stated.improbable,
             status=int(result is not None and result.outcome is Outcome.STOPPED),
         )
@@ -349,3 +349,9 @@ def _shown(found: "Prediction", record: Mapping[str, Any], why: bool) -> dict[st
         shown["difference"] = {n: f"{x:+.2%}" for n, x in parts.items()}
     words = [by, found.why] if why else [by]
     return {"words": words} | shown | {"cautions": [OF_METHOD, *record["cautions"]]}
+
+
+def _drawn(found: "Prediction", result: "Result | None") -> Any:
+    from viscotack.plot.prediction import draw_prediction
+
+    return draw_prediction(found, result)

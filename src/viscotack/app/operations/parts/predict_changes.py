@@ -16,8 +16,9 @@ from viscotack.prediction.table import METHOD, WORK, with_interval
 
 from ..request import Answer, Told
 from ..statement import Statement
-from .predict_table import in_sheet, refuse_answered, write_table
+from .predict_table import in_sheet, refuse_answered
 from .record_words import units_of
+from .tables import write_table
 from .workbook import write_workbook
 
 if TYPE_CHECKING:

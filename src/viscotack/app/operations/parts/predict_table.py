@@ -1,7 +1,5 @@
 """Tables of cases without dimensions from files, and back into files with their predictions."""
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
@@ -14,13 +12,12 @@ import numpy.typing as npt
 
 from viscotack.campaign.listed import EMPTY, plain_heading, read_words
 from viscotack.errors import InputError
-from viscotack.files.text import cell
-from viscotack.files.whole import Target, write_whole, writing_whole
+from viscotack.files.whole import Target, writing_whole
 from viscotack.prediction.table import answers_of, kind_of, predict_table
 from viscotack.units import is_number
 
 from ..request import Answer, Told
-from .tables import Writer
+from .tables import Writer, columns_text
 from .workbook import write_workbook
 
 # Rows in memory at a time.
@@ -75,7 +72,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     def answered(file: Target) -> None:
         with writing_whole(file) as stream:
             for number, table in enumerate(blocks()):
-                stream.write(_text(table, header=not number))
+                stream.write(columns_text(table, header=not number))
 
     def in_workbook(file: Target) -> None:
         columns: dict[str, list[Any]] = {}
@@ -138,28 +135,6 @@ def _answers(
         if wrong:
             found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
     return found
-
-
-def write_table(table: Mapping[str, Any], path: Target) -> None:
-    """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
-    write_whole(path, _text(table, header=True))
-
-
-def _text(table: Mapping[str, Any], *, header: bool) -> bytes:
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    if header:
-        rows.writerow(map(cell, table))
-    rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
-    return text.getvalue().encode()
-
-
-def _cells(values: Any) -> list[Any]:
-    if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
-        return [cell(value) if isinstance(value, str) else value for value in values]
-    if values.dtype.kind == "b":
-        return ["true" if value else "false" for value in values.tolist()]
-    return ["" if value != value else value for value in values.tolist()]
 
 
 def _numbers(words: list[str]) -> npt.NDArray[np.float64]:
