@@ -72,6 +72,7 @@ class ReadTests(Rig, ShiftLaw):
             curve_rows,
             cycle_row,
             repeat_rows,
+            series_record,
             series_rows,
             tests_record,
         )
@@ -88,7 +89,7 @@ class ReadTests(Rig, ShiftLaw):
         ]
         repeats = repeat_rows(table, self.radius)
         refused = [{"file": path, "reason": why} for path, why in found.reasons]
-        series = [{"quantity": name, "value": value} for name, value in series_rows(table)]
+        series = series_rows(series_record(table))
         sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
         return Answer(
             found,
@@ -137,10 +138,14 @@ def _shown(record: dict[str, Any]) -> dict[str, Any]:
         for test in record["tests"]
         for cycle in test["cycles"]
     ]
+    several = len(record["exponents"]) > 1
+    hidden = ("tests", "unread", *(() if several else ("exponents",)))
+    bad = len(record["unread"]) + sum(len(test["refused"]) for test in record["tests"])
     works = [row.get("jkr_work_of_adhesion_J_m2", 0.0) for row in record["repeats"]]
     beyond = "the JKR work is beyond surface energies: losses of the solid, fibrils or cavities"
     return {
+        "words": [f"{len(cycles)} {'cycle' if len(cycles) == 1 else 'cycles'}, {bad} refused"],
         "cycles": cycles,
-        **{n: x for n, x in record.items() if n not in ("tests", "unread")},
+        **{n: x for n, x in record.items() if n not in hidden},
         "cautions": [beyond] if max(works) > _LARGEST_WORK else [],
     }

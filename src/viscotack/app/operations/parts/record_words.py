@@ -98,7 +98,7 @@ def _lines(record: Mapping[str, Any], units: Mapping[str, str]) -> list[str]:
             (first if name in _FIRST else last).extend(said)
         else:
             plain[name] = value
-    found = {label: text for label, text in _quantities(plain, units).items() if text}
+    found = {label: text for label, text in quantities(plain, units).items() if text}
     width = max(map(len, found), default=0)
     return [*first, *(f"  {n:<{width}}  {text}" for n, text in found.items()), *tables, *last]
 
@@ -119,14 +119,22 @@ def _table(rows: Sequence[Mapping[str, Any]], units: Mapping[str, str]) -> list[
     flat = [_flat(row) for row in rows]
     said = dict.fromkeys(x for row in flat for n in row for x in _sentences(n, row[n]))
     short = [{n: x for n, x in row.items() if not _sentences(n, x)} for row in flat[:_MOST]]
-    cells = [_quantities(row, units) for row in short]
-    names = dict.fromkeys(name for row in cells for name, text in row.items() if text)
-    columns = [[name, *(row.get(name, "") for row in cells)] for name in names]
+    names, cells = cells_of(short, units)
+    columns = [list(column) for column in zip(names, *cells, strict=True)]
     if sum(max(map(len, each)) + 2 for each in columns) > _WIDEST and len(cells) < len(names):
         columns = [list(row) for row in zip(*columns, strict=True)]
     lines = zip(*map(_aligned, columns), strict=True)
     more = [f"  and {len(rows) - _MOST} more"] if len(rows) > _MOST else []
     return [*(f"  {'  '.join(line)}".rstrip() for line in lines), *more, *(f"  {x}" for x in said)]
+
+
+def cells_of(
+    rows: Sequence[Mapping[str, Any]], units: Mapping[str, str] | None = None
+) -> tuple[list[str], list[list[str]]]:
+    """Return the labels of the columns of rows that are known, and the text of each row."""
+    texts = [quantities(row, units or {}) for row in rows]
+    names = list(dict.fromkeys(name for row in texts for name, text in row.items() if text))
+    return names, [[row.get(name, "") for name in names] for row in texts]
 
 
 def _aligned(column: list[str]) -> list[str]:
@@ -144,7 +152,7 @@ def _flat(row: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _quantities(record: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, str]:
+def quantities(record: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, str]:
     """Return label and text of each quantity, with its interval, error and value in SI."""
     groups: dict[str, _Parts] = {}
     for name, value in record.items():
