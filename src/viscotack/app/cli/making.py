@@ -130,7 +130,8 @@ def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Param
     words = typer.Argument(metavar=metavar, help=told, show_default=False)
     yield _parameter("case_", Path if only else Path | None, words, needed=only)
     for name, flag in _flags(option, indenter).items():
-        words = typer.Option(f"--{name}", metavar=flag.metavar, help=flag.words, show_default=False)
+        usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
+        words = typer.Option(f"--{name}", metavar=usual, help=flag.words, show_default=False)
         yield _parameter(
             f"of_{name.replace('-', '_')}", list[str] | None if flag.many else str | None, words
         )

@@ -24,9 +24,9 @@ class OfArray(Request):
 
     word: ClassVar = "array"
     outputs: ClassVar = (
-        csv_file("Write force by travel of the drive; - is standard output."),
-        csv_file("Write a row for each pad; - is standard output.", "pads"),
-        picture("Draw the force and the order of the pads to a .png, .pdf or .svg file."),
+        csv_file("Write force by travel of the drive."),
+        csv_file("Write a row for each pad.", "pads"),
+        picture("Draw the force and the order of the pads."),
     )
     takes_own: ClassVar = True
 

@@ -52,9 +52,9 @@ class Control(Request):
             "binary",
             endings=(".fmu",),
         ),
-        csv_file("Write a row for each speed: pull-off force and travels; - is standard output."),
-        csv_file("Write a row for each tick of the release; - is standard output.", "ticks"),
-        picture("Draw forces by depth and the release to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each speed: pull-off force and travels."),
+        csv_file("Write a row for each tick of the release.", "ticks"),
+        picture("Draw forces by depth and the release."),
     )
     takes_own: ClassVar = True
 

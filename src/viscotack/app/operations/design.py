@@ -10,6 +10,7 @@ from viscotack.cards import card_of
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
+from .parts.record_words import read
 from .predict import OF_METHOD
 from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
 from .simulate import Accuracy
@@ -29,10 +30,10 @@ class OfDesign(Request):
 
     word: ClassVar = "design"
     outputs: ClassVar = (
-        csv_file("Write a row for each design; - is standard output."),
-        csv_file("Write a row for each design of the front; - is standard output.", "front"),
-        picture("Draw forces by speed, and elasticities, to a .png, .pdf or .svg file."),
-        picture("Draw the front of several targets to a .png, .pdf or .svg file.", "trade"),
+        csv_file("Write a row for each design."),
+        csv_file("Write a row for each design of the front.", "front"),
+        picture("Draw forces by speed, and elasticities,."),
+        picture("Draw the front of several targets.", "trade"),
     )
     takes_own: ClassVar = True
 
@@ -93,20 +94,9 @@ class OfDesign(Request):
 _FORCES = {"hold": "N", "release": "N", "work": "J", "dead_load": "N"}
 
 
-def _choice_row(choice: Any) -> dict[str, Any]:
-    """Return the variables of a design as columns."""
-    return {
-        "material": choice.material,
-        "radius_m": choice.radius,
-        "preload_N": choice.preload,
-        "pads": choice.pads,
-        "hold_speed_m_per_s": choice.hold_speed,
-        "release_speed_m_per_s": choice.release_speed,
-        "modulus_Pa": choice.modulus,
-        "thickness_m": choice.thickness,
-        "exponent": choice.exponent,
-        "backing_N_per_m": choice.backing,
-    }
+# Variables of a design as columns.
+_CHOICE = ("material", "radius_m", "preload_N", "pads", "hold_speed_m_per_s")
+_CHOICE += ("release_speed_m_per_s", "modulus_Pa", "thickness_m", "exponent", "backing_N_per_m")
 
 
 def _forces_row(one: Any) -> dict[str, Any]:
@@ -123,7 +113,7 @@ def _forces_row(one: Any) -> dict[str, Any]:
 
 def _row(one: Any, run: Any, part: float | None) -> dict[str, Any]:
     """Return the row of a design."""
-    row = _choice_row(one.choice) | _forces_row(one)
+    row = read(one.choice, *_CHOICE) | _forces_row(one)
     for name, unit in _FORCES.items():
         row[f"simulated_{name}_{unit}"] = None if run is None else run.forces.get(name)
     row["simulated_time_s"] = None if run is None else run.time
@@ -138,7 +128,7 @@ def _front_row(one: Any) -> dict[str, Any]:
     """Return the row of a design of the front, with the margins at both ends of the intervals."""
     low = {f"margin_{name}": x for name, x in one.margins.items()}
     high = {f"best_margin_{name}": x for name, x in one.best_margins.items()}
-    return _choice_row(one.choice) | _forces_row(one) | low | high
+    return read(one.choice, *_CHOICE) | _forces_row(one) | low | high
 
 
 def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
@@ -150,14 +140,7 @@ def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]])
         "binding": list(found.binding),
         "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
         "limits": [
-            {
-                "target": each.target,
-                "wanted": each.wanted,
-                "reach": each.reach,
-                "cause": each.cause,
-                "excludes": each.excludes,
-                "why": each.why,
-            }
+            read(each, "target", "wanted", "reach", "cause", "excludes", "why")
             for each in found.limits
         ],
         "predictions": found.predictions,

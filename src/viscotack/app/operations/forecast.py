@@ -108,7 +108,7 @@ class Forecast(Wish):
 
     word: ClassVar = "forecast"
     outputs: ClassVar = (
-        csv_file("Write a row for each speed; - is standard output."),
+        csv_file("Write a row for each speed."),
         picture(),
     )
 

@@ -20,7 +20,7 @@ class IdentifyDwell(Rig):
     """
 
     word: ClassVar = "identify dwell"
-    outputs: ClassVar = (picture("Draw force by contact time to a .png, .pdf or .svg file."),)
+    outputs: ClassVar = (picture("Draw force by contact time."),)
 
     material: Solid
     radius: Annotated[float, Number('Sphere radius, "5.19 mm".', unit="m", example='"5.19 mm"')]

@@ -41,8 +41,8 @@ class NextTest(Request):
 
     word: ClassVar = "next-test"
     outputs: ClassVar = (
-        csv_file("Write a row for each test; - is standard output."),
-        picture("Draw what each test leaves of the uncertainty to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each test."),
+        picture("Draw what each test leaves of the uncertainty."),
     )
 
     study: StudyFile

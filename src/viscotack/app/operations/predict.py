@@ -61,11 +61,9 @@ class Predict(Request):
 
     word: ClassVar = "predict"
     outputs: ClassVar = (
-        csv_file("Write the predicted unloading curve as a table; - is standard output.", "curve"),
-        picture("Draw that curve to a .png, .pdf or .svg file."),
-        csv_file(
-            "Write the rows of the table of cases with their predictions; - is standard output.",
-        ),
+        csv_file("Write the predicted unloading curve as a table.", "curve"),
+        picture("Draw that curve."),
+        csv_file("Write the rows of the table of cases with their predictions."),
         Output(
             "xlsx",
             "Write the rows of the table of cases with their predictions to a workbook FILE.xlsx.",

@@ -303,13 +303,15 @@ class Output:
         return next((f for f in self.flags if f.startswith("--")), f"--{self.name}")
 
 
-def csv_file(words: str = "Write a table; - is standard output.", name: str = "csv") -> Output:
+def csv_file(words: str = "Write a table.", name: str = "csv") -> Output:
     """Declare a CSV table as output."""
+    words = f"{words.removesuffix('.')}; - is standard output."
     return Output(name, words, endings=(".csv", ".txt", ".dat"))
 
 
-def picture(words: str = "Draw to a .png, .pdf or .svg file.", name: str = "plot") -> Output:
+def picture(words: str = "Draw.", name: str = "plot") -> Output:
     """Declare a figure as output."""
+    words = f"{words.removesuffix('.')} to a .png, .pdf or .svg file."
     return Output(name, words, "picture", done="drew")
 
 

@@ -27,8 +27,8 @@ class ReadTests(Rig, ShiftLaw):
 
     word: ClassVar = "test read"
     outputs: ClassVar = (
-        csv_file("Write a row for each cycle; - is standard output."),
-        csv_file("Write a row for each temperature and speed; - is standard output.", "repeats"),
+        csv_file("Write a row for each cycle."),
+        csv_file("Write a row for each temperature and speed.", "repeats"),
         csv_file(
             "Write depth and force of every retraction as two columns, coldest and slowest first; "
             "- is standard output.",

@@ -28,11 +28,11 @@ class OfRough(Request):
 
     word: ClassVar = "rough"
     outputs: ClassVar = (
-        csv_file("Write force, contact area and energies by time; - is standard output."),
+        csv_file("Write force, contact area and energies by time."),
         Output(
             "maps", "Write maps of gap and pressure to a .npz file.", "binary", endings=(".npz",)
         ),
-        picture("Draw the force curve and the contact to a .png, .pdf or .svg file."),
+        picture("Draw the force curve and the contact."),
         Output(
             "film", "Write the detachment as a film to a .gif file.", "binary", endings=(".gif",)
         ),

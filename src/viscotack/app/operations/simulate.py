@@ -43,7 +43,7 @@ PlotKind = Annotated[
 ]
 _FILES = (
     picture(),
-    csv_file("Write the curve as a table; - is standard output."),
+    csv_file("Write the curve as a table."),
     csv_file(
         "Write a table with a row for each cycle of the test: snap-in, peak, pull-off, work, "
         "hysteresis, time to detachment; - is standard output.",
@@ -260,8 +260,15 @@ def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
             f"force by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, the "
             f"depth by {began['shift']:.1g} h0; curve and time begin there"
         )
-    errors = record["error_estimate"] or {}
-    shown["error_estimate"] = {f"{name}_error": x for name, x in errors.items()}
+    del shown["error_estimate"], shown["wall_time_s"]
+    relative = {"force": f"pull_off_{result.problem.outputs.name_of('force')}"}
+    relative["work"] = "work_to_pull_off"
+    for name, error in (record["error_estimate"] or {}).items():
+        known = relative.get(name)
+        shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
+    if record["error_estimate"] is None:
+        shown["numerical_error"] = "not known: no coarser run to compare with"
+    shown["wall_time_s"] = record["wall_time_s"]
     if (found := result.sensitivities) is not None:
         first = next(iter(found.elasticities.values()), {})
         shown["sensitivities"] = [

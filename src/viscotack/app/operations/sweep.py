@@ -36,7 +36,7 @@ class Sweep(Request):
     """
 
     word: ClassVar = "sweep"
-    outputs: ClassVar = (csv_file("Write a row for each case; - is standard output."),)
+    outputs: ClassVar = (csv_file("Write a row for each case."),)
     takes_own: ClassVar = True
 
     problem: Annotated[

@@ -38,7 +38,7 @@ class OfPad(Reduced):
     """
 
     word: ClassVar = "theory punch"
-    outputs: ClassVar = (picture("Draw that map to a .png, .pdf or .svg file."),)
+    outputs: ClassVar = (picture("Draw that map."),)
 
     case: Annotated[
         Path | None,

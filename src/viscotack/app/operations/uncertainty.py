@@ -65,8 +65,8 @@ class OfUncertainty(Request):
 
     word: ClassVar = "uncertainty"
     outputs: ClassVar = (
-        csv_file("Write a row for each input; - is standard output."),
-        picture("Draw the shares of the variance to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each input."),
+        picture("Draw the shares of the variance."),
     )
     takes_own: ClassVar = True
 
@@ -252,6 +252,9 @@ def _shown(
             f"cases {readable(low, unit, to=high)}",
             "shares of the variance of ln(force), first: alone, total: with the other inputs",
         ],
-        "inputs": sorted(rows, key=lambda x: -x["total"]),
+        "inputs": [
+            row | {name: f"{row[name]:.1%}" for name in ("first", "total")}
+            for row in sorted(rows, key=lambda x: -x["total"])
+        ],
         "methods": dict(found.methods),
     }

@@ -7,6 +7,7 @@ from viscotack.cards import card_of
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.units import readable
 
+from .parts.record_words import read
 from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
 from .simulate import Accuracy
 
@@ -24,9 +25,9 @@ class OfWindow(Request):
 
     word: ClassVar = "window"
     outputs: ClassVar = (
-        csv_file("Write a row for each speed and preload; - is standard output."),
-        csv_file("Write a row for each critical speed; - is standard output.", "critical"),
-        picture("Draw the map of speed and preload to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each speed and preload."),
+        csv_file("Write a row for each critical speed.", "critical"),
+        picture("Draw the map of speed and preload."),
     )
     takes_own: ClassVar = True
 
@@ -131,52 +132,30 @@ def _yields(chances: tuple[Any, ...], number: int) -> dict[str, Any]:
 
 
 _NONE = (None, None)
-_YIELD = (
-    "pick_probability",
-    "pick_low",
-    "pick_high",
-    "print_probability",
-    "print_low",
-    "print_high",
-    "transfer_probability",
-)
+_YIELD = ("pick_probability", "pick_low", "pick_high", "print_probability", "print_low")
+_YIELD += ("print_high", "transfer_probability")
 _OF_BASE = ("opens", "tension_N", "held", "method")
-_CELL = (
-    "speed_m_per_s",
-    "preload_N",
-    "word",
-    *(f"{base}_{name}" for base in ("donor", "receiver") for name in _OF_BASE),
-    "why",
-)
-_CRITICAL = (
-    "base",
-    "preload_N",
-    "critical_speed_m_per_s",
-    "low_m_per_s",
-    "high_m_per_s",
-    "opens_below",
-    "opens_above",
-    "method",
-)
+_CELL = ("speed_m_per_s", "preload_N", "word")
+_CELL += tuple(f"{base}_{name}" for base in ("donor", "receiver") for name in _OF_BASE) + ("why",)
+_CRITICAL = ("base", "preload_N", "critical_speed_m_per_s", "low_m_per_s", "high_m_per_s")
+_CRITICAL += ("opens_below", "opens_above", "method")
 
 
 def _cell(cell: Any) -> dict[str, Any]:
     """Return the row of a speed and a preload."""
-    row = dict.fromkeys(_CELL)
-    row |= {"speed_m_per_s": cell.speed, "preload_N": cell.preload, "word": cell.word}
+    row = dict.fromkeys(_CELL) | read(cell, "speed_m_per_s", "preload_N", "word", "why")
     for base in ("donor", "receiver"):
         one = getattr(cell, base)
         if one is not None:
-            opens = None if one.opened is None else (base, "stamp")[one.opened]
-            values = opens, one.tension, one.held, one.method
-            row |= {f"{base}_{name}": x for name, x in zip(_OF_BASE, values, strict=True)}
-    return row | {"why": cell.why}
+            found = read(one, *_OF_BASE[1:])
+            found["opens"] = None if one.opened is None else (base, "stamp")[one.opened]
+            row |= {f"{base}_{name}": x for name, x in found.items()}
+    return row
 
 
 def _critical(one: Any) -> dict[str, Any]:
     """Return the row of a critical speed."""
-    low, high = one.interval
-    values = one.base, one.preload, one.speed, low, high, one.below, one.above, one.method
+    values = one.base, one.preload, one.speed, *one.interval, one.below, one.above, one.method
     return dict(zip(_CRITICAL, values, strict=True))
 
 
@@ -187,7 +166,7 @@ def _shown(cells: list[dict[str, Any]], critical: list[dict[str, Any]]) -> dict[
     for cell in cells:
         at = {name: cell.get(name) for name in ("temperature_K", "dwell_s", "preload_N")}
         place, speed = tuple(at.values()), cell["speed_m_per_s"]
-        maps.setdefault(place, at)[readable(speed, "m/s", digits=3)] = cell["word"]
+        maps.setdefault(place, dict(at))[readable(speed, "m/s", digits=3)] = cell["word"]
         for name in ("pick", "print", "transfer"):
             chance = cell.get(f"{name}_probability")
             known = best.get((*place, name), {"probability": -1.0})

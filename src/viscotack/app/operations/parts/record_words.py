@@ -48,7 +48,7 @@ _SILENT = ("problem", "versions", "run_id", "sha256", "statistics")
 _FIRST = ("status", "words", "sentences")
 _UNNAMED = (*_FIRST, "cautions", "warnings", "notes")
 _WIDEST, _MOST = 120, 60  # characters and rows of a table
-_LONG = 50  # characters of a text that is a sentence
+_LONG = 50  # characters of a text beside a name
 
 # Value, interval, low, high and errors of a quantity, each by unit.
 _Parts = dict[str, dict[str, Any]]
@@ -66,6 +66,19 @@ def spelled(name: str) -> str:
     for plain, right in _SPELLED.items():
         words = words.replace(plain, right)
     return words
+
+
+def quantity_of(name: str) -> tuple[str, str, str]:
+    """Return quantity, unit and statistic of a column; unit "1" without one.
+
+    Examples
+    --------
+    >>> quantity_of("pull_off_force_N_uncertainty")
+    ('pull_off_force', 'N', 'uncertainty')
+    """
+    found = _NAME.fullmatch(name)
+    unit = UNITS.get(found["unit"] or "", "1") if found else "1"
+    return (found["quantity"], unit, found["more"] or "") if found else (name, unit, "")
 
 
 def record_words(record: Mapping[str, Any], units: Mapping[str, str] | None = None) -> str:
@@ -117,8 +130,10 @@ def _nested(value: Any, units: Mapping[str, str]) -> list[str]:
 def _table(rows: Sequence[Mapping[str, Any]], units: Mapping[str, str]) -> list[str]:
     """Return rows as an aligned table, turned where it would be too wide, and their sentences."""
     flat = [_flat(row) for row in rows]
-    said = dict.fromkeys(x for row in flat for n in row for x in _sentences(n, row[n]))
-    short = [{n: x for n, x in row.items() if not _sentences(n, x)} for row in flat[:_MOST]]
+    said = dict.fromkeys(x for row in flat for n in row for x in _sentences(n, row[n], _WIDEST))
+    short = [
+        {n: x for n, x in row.items() if not _sentences(n, x, _WIDEST)} for row in flat[:_MOST]
+    ]
     names, cells = cells_of(short, units)
     columns = [list(column) for column in zip(names, *cells, strict=True)]
     if sum(max(map(len, each)) + 2 for each in columns) > _WIDEST and len(cells) < len(names):
@@ -197,7 +212,8 @@ def _said(parts: _Parts, pure_unit: str) -> str:
         ends = [parts["low"].get(unit), parts.get("high", {}).get(unit)]
     if ends is not None and ends is not value and (between := _text(list(ends), unit)):
         text = f"{text} ({between})" if text else between
-    if (error := parts.get("error", {}).get("1")) is not None and error is not value:
+    error = parts.get("error", {}).get("1")
+    if text and error is not None and error is not value:
         text += f" +- {100 * error:.2g} %"
     pure = values.get("1") if unit != "1" else None
     return text if pure is None else f"{text}  = {_text(pure, '1')}{product}"
@@ -224,7 +240,7 @@ def _text(value: Any, unit: str, uncertainty: float | None = None) -> str:
     return readable(value, unit, digits=5, uncertainty=uncertainty)
 
 
-def _sentences(name: str, value: Any) -> list[str]:
+def _sentences(name: str, value: Any, longest: int = _LONG) -> list[str]:
     """Return the sentences of an entry, each once; none of another entry."""
     texts = [value] if isinstance(value, str) else value if isinstance(value, list | tuple) else []
     texts = [x for text in texts for x in (text if isinstance(text, list) else [text])]
@@ -232,7 +248,7 @@ def _sentences(name: str, value: Any) -> list[str]:
         return []
     if name in _UNNAMED:
         return list(dict.fromkeys(texts))
-    is_long = any(len(x) > _LONG for x in texts)
+    is_long = any(len(x) > longest for x in texts)
     return [f"{spelled(name)}: {text}" for text in dict.fromkeys(texts)] if is_long else []
 
 
@@ -250,7 +266,8 @@ def units_of(kind: "Kind") -> dict[str, str]:
     """Return the units of the dimensionless numbers of a kind of problem by name."""
     outputs = {**kind.cycles, **kind.observables}
     found = {name: output.unit.text for name, output in outputs.items()}
-    return found | {f"zero_{kind.name_of('force')}_depth": found["depth_at_pull_off"]}
+    depths = f"zero_{kind.name_of('force')}_depth", "error_of_the_depth"
+    return found | dict.fromkeys(depths, found["depth_at_pull_off"])
 
 
 def read(one: Any, *names: str) -> dict[str, Any]:
