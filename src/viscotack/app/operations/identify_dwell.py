@@ -2,6 +2,7 @@
 
 from typing import Annotated, Any, ClassVar
 
+from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
 from .request import Answer, Caller, Number, picture
@@ -51,22 +52,13 @@ class IdentifyDwell(Rig):
 
 def _record(fit: Any) -> dict[str, Any]:
     """Return the numbers of the answer."""
-    names = {
-        "work_of_adhesion": "work_of_adhesion_J_m2",
-        "reference_time": "reference_time_s",
-    }
     low, high = fit.reference_time
-    law = {names.get(name, name): value for name, value in fit.parameters.items()}
+    tails = {"work_of_adhesion": "_J_m2", "reference_time": "_s"}
     return {
-        "times_s": list(fit.times),
-        "forces_N": list(fit.forces),
-        "work_of_adhesion_J_m2": fit.work_of_adhesion,
-        "growth_per_decade": fit.growth_per_decade,
+        **read(fit, "times_s", "forces_N", "work_of_adhesion_J_m2", "growth_per_decade"),
         "growth_interval": list(fit.interval),
-        "level": fit.level,
-        "scatter": fit.scatter,
-        "law": fit.law,
-        "interface": law,
+        **read(fit, "level", "scatter", "law"),
+        "interface": {f"{name}{tails.get(name, '')}": x for name, x in fit.parameters.items()},
         "reference_time_interval_s": [low, high if high < float("inf") else None],
         "words": list(fit.words),
     }

@@ -32,7 +32,8 @@ UNITS = {
 _NAME = re.compile(
     r"(?P<quantity>.*?)(?:(?:^|_)(?P<end>interval|low|high)|_(?P<error>standard_error|error))?"
     rf"(?:_(?P<unit>{'|'.join(UNITS)}))?"
-    r"(?:_(?P<more>uncertainty|mean|weighted_mean|standard_deviation))?"
+    r"(?:_(?P<more>uncertainty|mean|weighted_mean|standard_deviation))?",
+    re.DOTALL,
 )
 _UNIT = re.compile(rf"_({'|'.join(UNITS)})$")
 _SPELLED = {
@@ -77,8 +78,8 @@ def quantity_of(name: str) -> tuple[str, str, str]:
     ('pull_off_force', 'N', 'uncertainty')
     """
     found = _NAME.fullmatch(name)
-    unit = UNITS.get(found["unit"] or "", "1") if found else "1"
-    return (found["quantity"], unit, found["more"] or "") if found else (name, unit, "")
+    assert found is not None, "the expression takes every name"
+    return found["quantity"], UNITS.get(found["unit"] or "", "1"), found["more"] or ""
 
 
 def record_words(record: Mapping[str, Any], units: Mapping[str, str] | None = None) -> str:
@@ -199,24 +200,24 @@ def quantities(record: Mapping[str, Any], units: Mapping[str, str]) -> dict[str,
 
 def _said(parts: _Parts, pure_unit: str) -> str:
     """Return a quantity as text; "" for an unknown one."""
-    values = parts["value"] if "value" in parts else next(iter(parts.values()))
+    values = parts.get("value") or parts.get("low") or next(iter(parts.values()))
     unit = next((u for u in values if u != "1"), "1")
-    value = values[unit] if "low" not in parts or "value" in parts else None
+    if "value" not in parts and "low" not in parts:
+        return _text(values[unit], unit)
     spread = parts.get("uncertainty", parts.get("standard_error", {})).get(unit)
-    text = _text(value, unit, None if spread is value else spread)
+    text = _text(values[unit], unit, spread) if "value" in parts else ""
     product = f" x {pure_unit}" if pure_unit[:1] in ("1", "(") else f" {pure_unit}".rstrip()
-    if text and unit == "1" and _are_numbers(parts.get("value")):
+    if text and unit == "1" and _are_numbers(values):
         text += product
     ends = parts.get("interval", {}).get(unit)
     if "low" in parts:
         ends = [parts["low"].get(unit), parts.get("high", {}).get(unit)]
-    if ends is not None and ends is not value and (between := _text(list(ends), unit)):
+    if ends is not None and (between := _text(list(ends), unit)):
         text = f"{text} ({between})" if text else between
-    error = parts.get("error", {}).get("1")
-    if text and error is not None and error is not value:
+    if text and (error := parts.get("error", {}).get("1")) is not None:
         text += f" +- {100 * error:.2g} %"
     pure = values.get("1") if unit != "1" else None
-    return text if pure is None else f"{text}  = {_text(pure, '1')}{product}"
+    return f"{text}  = {_text(pure, '1')}{product}" if text and pure is not None else text
 
 
 def _text(value: Any, unit: str, uncertainty: float | None = None) -> str:
@@ -265,9 +266,9 @@ def _are_plain(values: list[Any]) -> bool:
 def units_of(kind: "Kind") -> dict[str, str]:
     """Return the units of the dimensionless numbers of a kind of problem by name."""
     outputs = {**kind.cycles, **kind.observables}
-    found = {name: output.unit.text for name, output in outputs.items()}
+    found: dict[str, str] = {name: output.unit.text for name, output in outputs.items()}
     depths = f"zero_{kind.name_of('force')}_depth", "error_of_the_depth"
-    return found | dict.fromkeys(depths, found["depth_at_pull_off"])
+    return found | {name: found["depth_at_pull_off"] for name in depths}
 
 
 def read(one: Any, *names: str) -> dict[str, Any]:

@@ -81,7 +81,7 @@ def headed(rows: Rows) -> dict[str, list[Any]]:
         if unit == "1":
             found[spelled(name)] = values
             continue
-        factor, written = prefixed(_size(columns, quantity), unit)
+        factor, written = prefixed(_size(columns, name.removesuffix(f"_{more}")), unit)
         scaled = [None if value is None else value / factor for value in values]
         found[f"{spelled(f'{quantity} {more}')} [{written}]"] = scaled
     return found
