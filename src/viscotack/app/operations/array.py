@@ -4,12 +4,11 @@ from math import isfinite, isnan
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .request import Answer, Caller, File, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 
 class OfArray(Request):
@@ -39,7 +38,7 @@ class OfArray(Request):
         ),
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 60.0
+    time_limit: Limit = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""

@@ -3,9 +3,8 @@
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
 from viscotack.errors import InputError
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
 from .parts.record_words import read, rows_of
@@ -18,10 +17,9 @@ from .request import (
     Output,
     Request,
     csv_file,
-    number_of,
     picture,
 )
-from .simulate import Accuracy
+from .simulate import Accuracy, Limit
 
 if TYPE_CHECKING:
     from viscotack.design.control import ForceTable, Released
@@ -86,7 +84,7 @@ class Control(Request):
         float | None, Number("Largest speed of the drive.", unit="m/s", above=0)
     ] = None
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 120.0
+    time_limit: Limit = 120.0
 
     def check(self) -> None:
         """Refuse options that exclude each other."""

@@ -6,14 +6,13 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from viscotack.cards import card_of
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .parts.record_words import read
 from .predict import OF_METHOD
-from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 
 class OfDesign(Request):
@@ -49,7 +48,7 @@ class OfDesign(Request):
     confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
     seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 60.0
+    time_limit: Limit = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Search and simulate, telling ``share``."""

@@ -1,11 +1,12 @@
 """The operation ``identify dwell``: growth of the work of adhesion with contact time."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
+from .identify import Level, Radius
 from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, Number, picture
+from .request import Answer, Caller, picture
 
 
 class IdentifyDwell(Rig):
@@ -24,8 +25,8 @@ class IdentifyDwell(Rig):
     outputs: ClassVar = (picture("Draw force by contact time."),)
 
     material: Solid
-    radius: Annotated[float, Number('Sphere radius, "5.19 mm".', unit="m", example='"5.19 mm"')]
-    level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
+    radius: Radius
+    level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the growth to the pull-off forces of all cycles."""

@@ -5,12 +5,11 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from viscotack.cards import card_of
 from viscotack.errors import InputError
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .request import Answer, Caller, File, Option, Output, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Option, Output, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 # Frames of a film, by default.
 _FRAMES = 60
@@ -73,7 +72,7 @@ class OfRough(Request):
             "are neighbours."
         ),
     ] = False
-    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 600.0
+    time_limit: Limit = 600.0
     checkpoint: Annotated[
         Path | None,
         File(

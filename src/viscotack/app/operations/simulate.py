@@ -33,6 +33,7 @@ Until = Annotated[
     Option("Stop past the largest tension, or when the surfaces are apart."),
 ]
 Accuracy = Annotated[float, number_of(card_of(AccuracyCard))]
+Limit = Annotated[float, number_of(card_of(TimeLimit))]
 HowLong = Annotated[float | None, number_of(card_of(TimeLimit))]
 PlotKind = Annotated[
     Literal["force", "radius", "overview", "energy", "sensitivities"],

@@ -5,15 +5,14 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.model.problem import RoughCase
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
 from .parts.record_words import units_of
-from .request import Answer, Caller, Contact, Request, Rows, csv_file, number_of
-from .simulate import Accuracy, Until
+from .request import Answer, Caller, Contact, Request, Rows, csv_file
+from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:
     from viscotack.campaign import CaseSettings
@@ -59,7 +58,7 @@ class Sweep(Request):
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
     until: Until = "pull-off"
-    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 120.0
+    time_limit: Limit = 120.0
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share`` and the new ``rows``."""

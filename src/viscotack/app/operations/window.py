@@ -3,13 +3,12 @@
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
 from .parts.record_words import read
-from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 
 class OfWindow(Request):
@@ -44,7 +43,7 @@ class OfWindow(Request):
         Option("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
     ] = False
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit))] = 60.0
+    time_limit: Limit = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every speed and preload of each map, telling ``share``."""
