@@ -70,7 +70,7 @@ def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
     assert abs(off) < 0.01
     assert call(*words) == 0
     out = capsys.readouterr().out
-    assert f"the prediction is {abs(off):.2%}" in out and "simulated in" in out
+    assert f"{off:+.2%}" in out and "wall time" in out
 
 
 def test_the_curve_is_written_and_drawn(lens, tmp_path, capsys):
@@ -116,7 +116,7 @@ def test_a_table_keeps_its_rows_their_order_and_its_other_columns(tmp_path, caps
     assert written[3]["why"] == "modulus_ratio is 'soft', not a number"
     assert call(cases, "--csv", answers, "--force") == 0
     out = capsys.readouterr().out
-    assert out.startswith("5 rows, 2 inside") and "no answer            2" in out
+    assert "unanswered  2" in out
 
 
 def test_a_workbook_of_cases_becomes_a_workbook_of_answers(tmp_path, capsys):
@@ -199,5 +199,4 @@ def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):
     assert pad["pull_off_stress_Pa"] == pytest.approx(pad["pull_off_stress"] * strength)
     assert list(table(curve)[0])[3:] == ["depth_m", "stress_Pa", "ligament_m"]
     assert call(PAD) == 0
-    words = capsys.readouterr().out
-    assert "pull-off stress" in words and "depth at zero stress" in words
+    assert f"{pad['pull_off_stress_Pa'] / 1e3:.5g} kPa" in capsys.readouterr().out

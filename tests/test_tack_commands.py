@@ -34,12 +34,7 @@ def test_a_test_is_read_and_written_in_every_form(probe, tmp_path, capsys):
     assert float(row["pull_off_force_N"]) == cycle["pull_off_force_N"]
     assert picture.stat().st_size > 10_000
     assert exit_status(["test", "read", *probe]) == 0
-    words = capsys.readouterr().out
-    assert (
-        "pull-off 3.5" in words
-        and " mN, work of separation" in words
-        and "1 cycle, 0 refused" in words
-    )
+    assert f"{cycle['pull_off_force_N'] * 1e3:.4g}" in capsys.readouterr().out
 
 
 def test_compliance_and_signs_are_said_by_flags(probe, capsys):

@@ -136,7 +136,7 @@ def test_the_command_draws_and_tells_the_largest_first(tmp_path):
     files = ["--plot", str(tmp_path / "shares.png"), "--csv", str(tmp_path / "shares.csv")]
     done = CliRunner().invoke(application(), ["uncertainty", str(LENS), *flags, *files])
     assert done.exit_code == 0, done.output
-    lines = [line.split()[0] for line in done.stdout.splitlines() if line.startswith("  ")]
-    assert lines == [WORK, RADIUS, TIER]
+    first = [line.split()[0] for line in done.stdout.splitlines()]
+    assert [name for name in first if name in (WORK, RADIUS, TIER)] == [WORK, RADIUS, TIER]
     assert (tmp_path / "shares.png").stat().st_size > 5000
     assert len((tmp_path / "shares.csv").read_text().splitlines()) == 4

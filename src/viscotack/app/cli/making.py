@@ -32,6 +32,17 @@ from .commands import AsJson, Force, With, wrong_input
 from .running import carry_out, checked
 
 _SETTINGS = {"max_content_width": 100}
+# Placeholders of numbers by unit.
+_OF_UNIT = {
+    "m": "LENGTH",
+    "N": "FORCE",
+    "N/m": "STIFFNESS",
+    "Pa": "PRESSURE",
+    "J/m^2": "ENERGY/AREA",
+    "s": "TIME",
+    "m/s": "SPEED",
+    "K": "TEMPERATURE",
+}
 _CASE = "A problem in SI with units (docs/input.md), instead of the options of the problem."
 
 
@@ -100,7 +111,8 @@ def _of_option(name: str, option: Option, info: FieldInfo) -> inspect.Parameter:
         return _parameter(name, bool | None, words)
     if not needed and default not in (None, (), "", 0):
         told += f" [default: {default}]"
-    usual = "NUMBER" if isinstance(option, Number) or info.annotation is int else "TEXT"
+    usual = "NUMBER" if info.annotation is int else "TEXT"
+    usual = _OF_UNIT.get(option.unit, "NUMBER") if isinstance(option, Number) else usual
     usual = f"[{'|'.join(choices_of(info))}]" if choices_of(info) else usual
     words = typer.Option(*flags, metavar=option.metavar or usual, help=told, show_default=False)
     return _parameter(name, kind if needed else kind | None, words, needed=needed)
@@ -118,7 +130,8 @@ def _of_problem(option: Contact, indenter: str | None) -> Iterator[inspect.Param
     words = typer.Argument(metavar=metavar, help=told, show_default=False)
     yield _parameter("case_", Path if only else Path | None, words, needed=only)
     for name, flag in _flags(option, indenter).items():
-        words = typer.Option(f"--{name}", metavar=flag.metavar, help=flag.words, show_default=False)
+        usual = flag.metavar or ("NUMBER" if flag.pure else "QUANTITY")
+        words = typer.Option(f"--{name}", metavar=usual, help=flag.words, show_default=False)
         yield _parameter(
             f"of_{name.replace('-', '_')}", list[str] | None if flag.many else str | None, words
         )

@@ -75,7 +75,7 @@ def _finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) 
             write(output.done, file, answer.files[output.name])
     for note in answer.notes:
         typer.echo(harmless(note), err=True)
-    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else answer.words()
+    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else str(answer)
     if text:
         write.answer(text)
     write.end()

@@ -98,7 +98,7 @@ def _beside(kind: type[Request], answer: Answer, wanted: frozenset[str]) -> dict
         )
     beside: dict[str, Any] = {"files": files} if files else {}
     if WORDS in wanted:
-        beside |= {"words": answer.words(), "notes": list(answer.notes)}
+        beside |= {"words": str(answer), "notes": list(answer.notes)}
     if DRAWN in wanted and answer.drawn is not None:
         beside["drawn"] = plain(answer.drawn())
     return {"beside": beside} if beside else {}

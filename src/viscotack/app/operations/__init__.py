@@ -191,7 +191,7 @@ def ask(word: str, /, **given: Any) -> "Answer":
     Returns
     -------
     Answer
-        `found` contains the objects, `record()` returns plain data, `words()` returns text.
+        `found` contains the objects, `record()` returns plain data, `str()` is its text.
 
     Raises
     ------

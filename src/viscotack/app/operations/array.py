@@ -4,12 +4,11 @@ from math import isfinite, isnan
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .request import Answer, Caller, File, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 
 class OfArray(Request):
@@ -24,9 +23,9 @@ class OfArray(Request):
 
     word: ClassVar = "array"
     outputs: ClassVar = (
-        csv_file("Write force by travel of the drive; - is standard output."),
-        csv_file("Write a row for each pad; - is standard output.", "pads"),
-        picture("Draw the force and the order of the pads to a .png, .pdf or .svg file."),
+        csv_file("Write force by travel of the drive."),
+        csv_file("Write a row for each pad.", "pads"),
+        picture("Draw the force and the order of the pads."),
     )
     takes_own: ClassVar = True
 
@@ -39,7 +38,7 @@ class OfArray(Request):
         ),
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+    time_limit: Limit = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""
@@ -81,14 +80,12 @@ class OfArray(Request):
             {"travel_m": -x, "force_N": F} for x, F in zip(found.drive, found.force, strict=True)
         ]
         pads = _pads(array, found)
+        record = _record(array, found, held, part)
+        record |= {} if left is None else {"preload_after_hold_N": left}
         return Answer(
             found,
-            record=lambda: (
-                _record(array, found, held, part)
-                | ({} if left is None else {"preload_after_hold_N": left})
-                | {"pads": pads}
-            ),
-            words=lambda: _words(array, found, held, part) + _left_words(stated, left),
+            record=lambda: record | {"pads": pads},
+            words=lambda: _shown(found, held, record),
             files={"csv": rows_as_csv(curve), "pads": rows_as_csv(pads)},
             pictures={"plot": lambda: draw_array(array, found, load=load)},
         )
@@ -140,51 +137,22 @@ def _record(array: Any, found: Any, held: Any, part: Any) -> dict[str, Any]:
     return record
 
 
-def _left_words(stated: Any, left: float | None) -> str:
-    """Return the force that is left of the preload as a line."""
-    if left is None:
-        return ""
-    return (
-        f"\npreload of {readable(stated.preload, 'N')}: {readable(left, 'N')} are left after "
-        f"{readable(stated.hold_time, 's')} in place (one pad under the mean force)"
-    )
-
-
-def _words(array: Any, found: Any, held: Any, part: Any) -> str:
-    """Return the answer as lines."""
-    low, high = found.interval
-    count, touched = len(array.positions), len(found.order)
-    lines = [
-        f"pull-off force of {count} pads: {readable(found.pull_off_force, 'N')} "
-        f"({readable(low, 'N', to=high)})",
-        f"load sharing: {found.load_sharing:.3f} of {count} times one pad",
-        f"work of separation: {readable(found.work, 'J')}, of which "
-        f"{readable(found.lost, 'J')} are lost in jumps",
-        f"first pad off after {readable(found.jumps[0][0], 'm')}, last after "
-        f"{readable(found.jumps[-1][0], 'm')}; at most {found.largest_jump} at one instant",
-    ]
-    if touched < count:
-        lines.append(f"{count - touched} of {count} pads do not touch")
+def _shown(found: Any, held: Any, record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record."""
+    words = []
     if held is not None:
         word = {True: "holds", False: "does not hold", None: "may hold, within the interval"}
-        lines.append(
-            f"load of {readable(held.force, 'N')} with acceleration and safety factor: the array "
-            f"{word[held.holds]}"
-        )
-        lines.append(f"payload at the pull speed: {held.payload * 1e3:.4g} g")
-        if held.lasting is not None:
-            lines.append(
-                f"payload that lasts at rest: {held.lasting * 1e3:.4g} g, by the pull-off "
-                "force of the relaxed pads"
-            )
         after = f"after {readable(held.time, 's')}" if isfinite(held.time) else "not within a day"
         after = "after an unknown time" if isnan(held.time) else after
-        lines.append(f"at rest under its weight the load detaches {after} ({held.why})")
-        lines.append(f"release takes {readable(held.release_time, 's')} at this speed")
-    if part is not None:
-        low, high = part.interval
-        lines.append(
-            f"yield: {part.share:.1%} of {part.forces.size} drawn arrays reach the load "
-            f"({low:.1%} to {high:.1%}); 90 % of them reach {readable(part.reached_by(0.9), 'N')}"
-        )
-    return "\n".join([*lines, f"interval: {found.why}"])
+        words = [
+            f"the array {word[held.holds]}: load of {readable(held.force, 'N')} with acceleration "
+            f"and safety factor",
+            f"at rest under its weight the load detaches {after} ({held.why})",
+        ]
+    if (apart := record["count"] - len(found.order)) > 0:
+        words.append(f"{apart} of {record['count']} pads do not touch")
+    return {"words": words} | {n: x for n, x in record.items() if n not in _SAID}
+
+
+# What the sentences say.
+_SAID = ("holds", "load_N", "time_to_detachment_s", "why_time")

@@ -3,12 +3,11 @@
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
 from viscotack.errors import InputError
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
-from viscotack.units import readable
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
+from .parts.record_words import read, rows_of
 from .request import (
     Answer,
     Caller,
@@ -18,10 +17,9 @@ from .request import (
     Output,
     Request,
     csv_file,
-    number_of,
     picture,
 )
-from .simulate import Accuracy
+from .simulate import Accuracy, Limit
 
 if TYPE_CHECKING:
     from viscotack.design.control import ForceTable, Released
@@ -52,9 +50,9 @@ class Control(Request):
             "binary",
             endings=(".fmu",),
         ),
-        csv_file("Write a row for each speed: pull-off force and travels; - is standard output."),
-        csv_file("Write a row for each tick of the release; - is standard output.", "ticks"),
-        picture("Draw forces by depth and the release to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each speed: pull-off force and travels."),
+        csv_file("Write a row for each tick of the release.", "ticks"),
+        picture("Draw forces by depth and the release."),
     )
     takes_own: ClassVar = True
 
@@ -66,44 +64,27 @@ class Control(Request):
             spelling="case",
         ),
     ]
-    slowest: Annotated[
-        float, Number("Slowest speed of the contact.", unit="m/s", above=0, metavar="SPEED")
-    ]
-    fastest: Annotated[
-        float, Number("Fastest speed of the contact.", unit="m/s", above=0, metavar="SPEED")
-    ]
+    slowest: Annotated[float, Number("Slowest speed of the contact.", unit="m/s", above=0)]
+    fastest: Annotated[float, Number("Fastest speed of the contact.", unit="m/s", above=0)]
     tolerance: Annotated[
         float,
-        Number(
-            "Largest miss of the interpolation, over the pull-off force.",
-            above=0,
-            most=0.2,
-            metavar="PART",
-        ),
+        Number("Largest miss of the interpolation, over the pull-off force.", above=0, most=0.2),
     ] = 0.01
-    name: Annotated[
-        str, Option("Name of the model, and prefix of the functions in C.", metavar="NAME")
-    ] = "contact"
-    wanted: Annotated[
-        float | None,
-        Number("Pull-off force of the release.", unit="N", above=0, metavar="FORCE"),
-    ] = None
+    name: Annotated[str, Option("Name of the model, and prefix of the functions in C.")] = "contact"
+    wanted: Annotated[float | None, Number("Pull-off force of the release.", unit="N", above=0)] = (
+        None
+    )
     stiffness: Annotated[
-        float | None,
-        Number(
-            "Stiffness of the rig; rigid if left out.", unit="N/m", above=0, metavar="STIFFNESS"
-        ),
+        float | None, Number("Stiffness of the rig; rigid if left out.", unit="N/m", above=0)
     ] = None
     period: Annotated[
-        float,
-        Number("Time between two ticks of the controller.", unit="s", above=0, metavar="TIME"),
+        float, Number("Time between two ticks of the controller.", unit="s", above=0)
     ] = 1e-3
     drive_limit: Annotated[
-        float | None,
-        Number("Largest speed of the drive.", unit="m/s", above=0, metavar="SPEED"),
+        float | None, Number("Largest speed of the drive.", unit="m/s", above=0)
     ] = None
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+    time_limit: Limit = 120.0
 
     def check(self) -> None:
         """Refuse options that exclude each other."""
@@ -149,11 +130,11 @@ class Control(Request):
             "csv": rows_as_csv(_rows(table)),
         }
         if released is not None:
-            files["ticks"] = rows_as_csv(_ticks(released))
+            names = ("time_s", "drive_m", "depth_m", "force_N", "drive_speed_m_per_s")
+            files["ticks"] = rows_as_csv(rows_of(read(released, *names)))
         return Answer(
             table if released is None else (table, released),
             record=lambda: _record(table, released, speed),
-            words=lambda: _words(table, released, speed),
             files=files,
             pictures={"plot": lambda: draw_control(table, released)},
             notes=stated.notes,
@@ -163,28 +144,10 @@ class Control(Request):
 def _rows(table: "ForceTable") -> list[dict[str, float]]:
     """Return a row for each speed."""
     names = ("travel_to_pull_off_m", "travel_to_half_m", "travel_to_end_m")
-    return [
-        {"speed_m_per_s": v, "pull_off_force_N": P} | dict(zip(names, travel, strict=True))
-        for v, P, travel in zip(
-            table.speed.tolist(),
-            table.pull_off_force.tolist(),
-            table.travel.tolist(),
-            strict=True,
-        )
-    ]
-
-
-def _ticks(released: "Released") -> list[dict[str, float]]:
-    """Return a row for each tick."""
-    columns = {
-        "time_s": released.time,
-        "drive_m": released.drive,
-        "depth_m": released.depth,
-        "force_N": released.force,
-        "drive_speed_m_per_s": released.drive_speed,
-    }
-    values = zip(*(x.tolist() for x in columns.values()), strict=True)
-    return [dict(zip(columns, row, strict=True)) for row in values]
+    travels = dict(zip(names, table.travel.T, strict=True))
+    return rows_of(
+        {"speed_m_per_s": table.speed, "pull_off_force_N": table.pull_off_force} | travels
+    )
 
 
 def _record(
@@ -206,21 +169,3 @@ def _record(
             "time_s": float(released.time[-1]),
         }
     return found
-
-
-def _words(table: "ForceTable", released: "Released | None", speed: float | None) -> str:
-    """Return the answer as lines."""
-    v, P = table.speed, table.pull_off_force
-    lines = [
-        f"force table of {len(v)} speeds from {readable(float(v[0]), 'm/s')} to "
-        f"{readable(float(v[-1]), 'm/s')}, within {100 * table.error:.2g} % of the pull-off force",
-        f"pull-off force {readable(float(P.min()), 'N')} to {readable(float(P.max()), 'N')}",
-    ]
-    if released is not None and speed is not None:
-        lines += [
-            f"release at {readable(released.wanted, 'N')}: the contact keeps "
-            f"{readable(speed, 'm/s')}",
-            f"simulated rig: detaches at {readable(released.pull_off_force, 'N')}, "
-            f"{released.miss:+.2%}, after {readable(float(released.time[-1]), 's')}",
-        ]
-    return "\n".join(lines)

@@ -1,19 +1,18 @@
 """The operation ``design``: what to build for wanted forces."""
 
 from dataclasses import replace
-from math import exp
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from viscotack.cards import card_of
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
+from .parts.record_words import read
 from .predict import OF_METHOD
-from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 
 class OfDesign(Request):
@@ -30,10 +29,10 @@ class OfDesign(Request):
 
     word: ClassVar = "design"
     outputs: ClassVar = (
-        csv_file("Write a row for each design; - is standard output."),
-        csv_file("Write a row for each design of the front; - is standard output.", "front"),
-        picture("Draw forces by speed, and elasticities, to a .png, .pdf or .svg file."),
-        picture("Draw the front of several targets to a .png, .pdf or .svg file.", "trade"),
+        csv_file("Write a row for each design."),
+        csv_file("Write a row for each design of the front.", "front"),
+        picture("Draw forces by speed, and elasticities,."),
+        picture("Draw the front of several targets.", "trade"),
     )
     takes_own: ClassVar = True
 
@@ -49,7 +48,7 @@ class OfDesign(Request):
     confirm: Annotated[int, Option("Number of designs that are simulated."), Field(ge=0, le=3)] = 3
     seed: Annotated[int, Option("Seed of the search."), Field(ge=0, lt=2**32)] = 0
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+    time_limit: Limit = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Search and simulate, telling ``share``."""
@@ -81,7 +80,7 @@ class OfDesign(Request):
         return Answer(
             found,
             record=lambda: _record(found, rows, front) | {"cautions": warned},
-            words=lambda: _words(found, warned),
+            words=lambda: _shown(found, rows, warned),
             files={"csv": rows_as_csv(rows), "front": rows_as_csv(front)},
             pictures={
                 "plot": lambda: draw_design(found, stated),
@@ -94,20 +93,9 @@ class OfDesign(Request):
 _FORCES = {"hold": "N", "release": "N", "work": "J", "dead_load": "N"}
 
 
-def _choice_row(choice: Any) -> dict[str, Any]:
-    """Return the variables of a design as columns."""
-    return {
-        "material": choice.material,
-        "radius_m": choice.radius,
-        "preload_N": choice.preload,
-        "pads": choice.pads,
-        "hold_speed_m_per_s": choice.hold_speed,
-        "release_speed_m_per_s": choice.release_speed,
-        "modulus_Pa": choice.modulus,
-        "thickness_m": choice.thickness,
-        "exponent": choice.exponent,
-        "backing_N_per_m": choice.backing,
-    }
+# Variables of a design as columns.
+_CHOICE = ("material", "radius_m", "preload_N", "pads", "hold_speed_m_per_s")
+_CHOICE += ("release_speed_m_per_s", "modulus_Pa", "thickness_m", "exponent", "backing_N_per_m")
 
 
 def _forces_row(one: Any) -> dict[str, Any]:
@@ -124,7 +112,7 @@ def _forces_row(one: Any) -> dict[str, Any]:
 
 def _row(one: Any, run: Any, part: float | None) -> dict[str, Any]:
     """Return the row of a design."""
-    row = _choice_row(one.choice) | _forces_row(one)
+    row = read(one.choice, *_CHOICE) | _forces_row(one)
     for name, unit in _FORCES.items():
         row[f"simulated_{name}_{unit}"] = None if run is None else run.forces.get(name)
     row["simulated_time_s"] = None if run is None else run.time
@@ -139,7 +127,7 @@ def _front_row(one: Any) -> dict[str, Any]:
     """Return the row of a design of the front, with the margins at both ends of the intervals."""
     low = {f"margin_{name}": x for name, x in one.margins.items()}
     high = {f"best_margin_{name}": x for name, x in one.best_margins.items()}
-    return _choice_row(one.choice) | _forces_row(one) | low | high
+    return read(one.choice, *_CHOICE) | _forces_row(one) | low | high
 
 
 def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]]) -> dict[str, Any]:
@@ -151,14 +139,7 @@ def _record(found: Any, rows: list[dict[str, Any]], front: list[dict[str, Any]])
         "binding": list(found.binding),
         "elasticities": {name: dict(each) for name, each in found.elasticities.items()},
         "limits": [
-            {
-                "target": each.target,
-                "wanted": each.wanted,
-                "reach": each.reach,
-                "cause": each.cause,
-                "excludes": each.excludes,
-                "why": each.why,
-            }
+            read(each, "target", "wanted", "reach", "cause", "excludes", "why")
             for each in found.limits
         ],
         "predictions": found.predictions,
@@ -191,66 +172,21 @@ _VERDICTS = {
 }
 
 
-def _words(found: Any, warned: list[list[str]]) -> str:
-    """Return the answer as lines."""
-    lines = [_VERDICTS[found.meets]]
-    both = zip(found.candidates, found.simulated, found.yields, strict=True)
-    for number, (one, run, part) in enumerate(both, 1):
-        lines += [f"design {number}: {_choice_words(one.choice)}", *_force_words(one, run)]
-        if part is not None:
-            wanted = found.judge.conditions.share
-            lines.append(f"  yield {part:.1%}, wanted {wanted:.1%}")
-        lines += [f"  {words}" for words in warned[number - 1]]
-    lines.append(f"binding: {', '.join(found.binding)}")
-    for name, slopes in found.elasticities.items():
-        known = ", ".join(f"{x} {s:+.2f}" for x, s in slopes.items() if s is not None)
-        words = {"work": "work", "dead_load": "dead load"}.get(name, f"force to {name}")
-        lines.append(f"d ln P/d ln x of the {words}: {known}")
-    if found.front:
-        lines.append(
-            f"the output front has {len(found.front)} designs, none better in every target"
+def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> dict[str, Any]:
+    """Return what the text says of a record: the front has a table of its own."""
+    words = [_VERDICTS[found.meets], *(_limit_words(each) for each in found.excluded)]
+    if found.meets is False and not found.excluded and found.simulated[0] is None:
+        words.append(
+            "each target alone is within reach, but no design between the bounds meets all"
         )
-    lines += [*(_limit_words(each) for each in found.excluded), *_apart(found)]
-    return "\n".join([*lines, OF_METHOD])
-
-
-def _choice_words(choice: Any) -> str:
-    parts = [
-        f"{choice.pads} pad{'s' if choice.pads > 1 else ''} of {choice.material}",
-        f"R = {readable(choice.radius, 'm')}",
-        f"preload {readable(choice.preload, 'N')}",
-    ]
-    for name, unit, words in (
-        ("hold_speed", "m/s", "hold at"),
-        ("release_speed", "m/s", "release at"),
-        ("modulus", "Pa", "E0 ="),
-        ("thickness", "m", "thickness"),
-        ("exponent", "1", "exponent"),
-        ("backing", "N/m", "backing"),
-    ):
-        if (value := getattr(choice, name)) is not None:
-            parts.append(f"{words} {readable(value, unit)}")
-    return ", ".join(parts)
-
-
-def _force_words(one: Any, run: Any) -> list[str]:
-    """Return the forces and margins of a design as lines."""
-    lines = []
-    for name, force in one.forces.items():
-        unit = _FORCES[name]
-        line = (
-            f"  {name.replace('_', ' ')}: {readable(force.value, unit)} "
-            f"({readable(force.low, unit, to=force.high)}, {force.method})"
-        )
-        value = None if run is None else run.forces.get(name)
-        if run is not None and value is not None:
-            line += f"; {run.method} {readable(value, unit)} within {run.errors[name]:.1g}"
-        lines.append(line)
-    margin = one.margin if run is None or run.margin is None else run.margin
-    by = "the fast tier" if margin is one.margin else "simulation"
-    met = "met" if margin >= 0 else "not met"
-    lines.append(f"  worst target: {met}, {exp(margin) - 1:+.1%} by {by}")
-    return lines + ([f"  not simulated: {run.why}"] if run is not None and run.why else [])
+    return {
+        "words": words,
+        "designs": rows,
+        "binding": list(found.binding),
+        "designs_of_the_front": len(found.front) or None,
+        "d ln P/d ln x": {f"of {name}": dict(each) for name, each in found.elasticities.items()},
+        "cautions": [*warned, OF_METHOD],
+    }
 
 
 def _limit_words(limit: Any) -> str:
@@ -265,10 +201,3 @@ def _limit_words(limit: Any) -> str:
         f"out of reach: {target} of {end} {wanted}; {cause[limit.cause]} {reach} {reached}: "
         f"{limit.why}"
     )
-
-
-def _apart(found: Any) -> list[str]:
-    """Return a line if each target alone is in reach, but not all together."""
-    if found.meets is not False or found.excluded or found.simulated[0] is not None:
-        return []
-    return ["each target alone is within reach, but no design between the bounds meets all"]

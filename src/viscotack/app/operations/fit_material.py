@@ -55,33 +55,23 @@ class FitMaterial(Dma, Shifting):
         ),
     ]
     poisson_ratio: Annotated[
-        float, Number("0.5 for rubber, about 0.35 for a glass.", metavar="NU", example="0.5")
+        float, Number("0.5 for rubber, about 0.35 for a glass.", example="0.5")
     ]
     model: Annotated[
-        Model,
-        Option("Model; best: fit all and select by an information criterion."),
+        Model, Option("Model; best: fit all and select by an information criterion.")
     ] = "best"
     arms: Annotated[
-        int | None,
-        Option("Number of relaxation times of a Prony series; default: by the data.", metavar="N"),
+        int | None, Option("Number of relaxation times of a Prony series; default: by the data.")
     ] = None
     glassy_modulus: Annotated[
         float | None,
-        Number(
-            'Known modulus that is not fitted, "3 GPa"; not for a Prony series.',
-            unit="Pa",
-            metavar="PRESSURE",
-        ),
+        Number('Known modulus that is not fitted, "3 GPa"; not for a Prony series.', unit="Pa"),
     ] = None
-    rubbery_modulus: Annotated[
-        float | None, Number("Known modulus, as above.", unit="Pa", metavar="PRESSURE")
-    ] = None
+    rubbery_modulus: Annotated[float | None, Number("Known modulus, as above.", unit="Pa")] = None
     loss: Annotated[bool, Option("Whether to fit the loss modulus as well.")] = True
     level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
-    name: Annotated[
-        str | None, Option("Name of the material; default: the file name.", metavar="WORDS")
-    ] = None
-    source: Annotated[str, Option("Who measured it, for the passport.", metavar="WORDS")] = ""
+    name: Annotated[str | None, Option("Name of the material; default: the file name.")] = None
+    source: Annotated[str, Option("Who measured it, for the passport.")] = ""
 
     def check(self) -> None:
         """Check that options for sweeps are given for sweeps only."""

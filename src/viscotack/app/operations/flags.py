@@ -38,7 +38,7 @@ class Flag:
     many : bool
         Whether it may be repeated.
     metavar : str
-        Placeholder of the value.
+        Placeholder of the value; "" for a number.
     """
 
     words: str
@@ -46,7 +46,7 @@ class Flag:
     si: str = ""
     indenters: tuple[str, ...] = INDENTERS
     many: bool = False
-    metavar: str = "NUMBER"
+    metavar: str = ""
 
 
 _MATERIAL = (
@@ -77,7 +77,6 @@ OF_FILE = {
         'Temperature of a passport material, "0 degC", within its measured range; shifts its '
         "times. In SI only.",
         si="material.temperature",
-        metavar="T",
     ),
     "set": Flag(
         'Replace a number of CASE.toml, sphere.radius="6 mm"; `viscotack campaign inputs '
@@ -107,9 +106,7 @@ FLAGS: Mapping[str, Flag] = {
         indenters=("profile",),
         metavar="FILE.csv",
     ),
-    "modulus-ratio": Flag(
-        "Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio", "-", metavar="K"
-    ),
+    "modulus-ratio": Flag("Rubbery over glassy modulus k, up to 1.", "material.modulus_ratio", "-"),
     "exponent": Flag(
         "Exponent n of the modified power law.", "material.exponent", "material.exponent"
     ),
@@ -165,50 +162,32 @@ FLAGS: Mapping[str, Flag] = {
         'In SI, with units on all numbers: radius of the sphere or disc, "5 mm".',
         si="shape.radius",
         indenters=_BY_RADIUS,
-        metavar="LENGTH",
     ),
     "half-width": Flag(
-        'In SI: half width of the punch, "1 mm".',
-        si="punch.half_width",
-        indenters=("punch",),
-        metavar="LENGTH",
+        'In SI: half width of the punch, "1 mm".', si="punch.half_width", indenters=("punch",)
     ),
-    "speed": Flag('In SI: retraction speed, "10 um/s".', si="protocol.speed", metavar="SPEED"),
+    "speed": Flag('In SI: retraction speed, "10 um/s".', si="protocol.speed"),
     "work-of-adhesion": Flag(
-        'In SI: work of adhesion dg0, "50 mJ/m^2".',
-        si="interface.work_of_adhesion",
-        metavar="ENERGY",
+        'In SI: work of adhesion dg0, "50 mJ/m^2".', si="interface.work_of_adhesion"
     ),
     "equilibrium-gap": Flag(
-        'In SI: range of the attraction h0, "100 nm".',
-        si="interface.equilibrium_gap",
-        metavar="LENGTH",
+        'In SI: range of the attraction h0, "100 nm".', si="interface.equilibrium_gap"
     ),
     "strength": Flag(
         'In SI, in place of --equilibrium-gap: largest tension of the law, "100 kPa".',
         si="interface.strength",
-        metavar="PRESSURE",
     ),
     "rubbery-modulus": Flag(
         'In SI: Young\'s modulus E0 of the relaxed solid, "1.5 MPa"; not with a passport.',
         si="material.rubbery_modulus",
-        metavar="PRESSURE",
     ),
     "contact-modulus": Flag(
-        'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".',
-        si="-",
-        metavar="PRESSURE",
+        'In SI, in place of --rubbery-modulus: E0* = E0/(1 - nu^2), "1.94 MPa".', si="-"
     ),
     "poisson-ratio": Flag(
-        "In SI: Poisson ratio of the solid, 0.5 when left out.",
-        si="material.poisson_ratio",
-        metavar="NU",
+        "In SI: Poisson ratio of the solid, 0.5 when left out.", si="material.poisson_ratio"
     ),
-    "tau0": Flag(
-        'In SI: time of the solid, "100 ms"; not with a passport.',
-        si="material.tau0",
-        metavar="TIME",
-    ),
+    "tau0": Flag('In SI: time of the solid, "100 ms"; not with a passport.', si="material.tau0"),
     **OF_FILE,
 }
 

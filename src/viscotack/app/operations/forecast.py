@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.units import parse, readable
+from viscotack.units import parse
 
 from .identify import Identified, IdentifyEdge, IdentifyRates, Series
 from .parts.records import forecast_rows, interface_record
@@ -55,17 +55,15 @@ class Wish(Request):
             to=speeds_of,
         ),
     ] = ()
-    preload: Annotated[
-        float | None,
-        Number("Preload; default: that of the series.", unit="N", metavar="FORCE"),
-    ] = None
+    preload: Annotated[float | None, Number("Preload; default: that of the series.", unit="N")] = (
+        None
+    )
     temperature: Annotated[
         float | None,
         Number(
             'Temperature, "40 degC"; default: that of the series. The passport provides the shift '
             "of the times.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     dwell: Annotated[
@@ -73,11 +71,10 @@ class Wish(Request):
         Number(
             "Dwell time under the preload; default: full relaxation. Needs --approach-speed.",
             unit="s",
-            metavar="TIME",
         ),
     ] = None
     approach_speed: Annotated[
-        float | None, Number("Approach speed; needs --dwell.", unit="m/s", metavar="SPEED")
+        float | None, Number("Approach speed; needs --dwell.", unit="m/s")
     ] = None
 
     def of_fit(self, fit: Any) -> Any:
@@ -121,7 +118,7 @@ class Forecast(Wish):
 
     word: ClassVar = "forecast"
     outputs: ClassVar = (
-        csv_file("Write a row for each speed; - is standard output."),
+        csv_file("Write a row for each speed."),
         picture(),
     )
 
@@ -138,7 +135,6 @@ class Forecast(Wish):
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, rows),
-            words=lambda: _words(found.fit, forecast, rows),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
             notes=refusals(found.survey),
@@ -175,7 +171,7 @@ class Report(Wish):
         return Answer(
             (found, forecast),
             record=lambda: _record(found.fit, forecast, forecast_rows(forecast)),
-            words=lambda: "\n".join([*found.fit.words, *forecast.words]),
+            words=lambda: {"words": [*found.fit.words, *forecast.words]},
             files={"output": as_text(lambda: page(found, forecast))},
             notes=refusals(found.survey),
         )
@@ -217,15 +213,3 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
         "forecast": rows,
         "words": [*fit.words, *forecast.words],
     }
-
-
-def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
-    first = [fit.misfit] if fit.misfit else []
-    lines = []
-    for v, force, *ends in (row.values() for row in rows):
-        pairs = zip(ends[::2], ends[1::2], strict=True)
-        bands = "; ".join(f"{readable(low, 'N', to=high)}" for low, high in pairs)
-        lines.append(f"  {readable(v, 'm/s')}: {readable(force, 'N')} ({bands})")
-    single = "" if forecast.low_of_one is None else ", and of a single test"
-    head = f"Pull-off forces, {forecast.level:.0%} band of their mean{single}"
-    return "\n".join([*first, head, *lines, *fit.words[len(first) :], *forecast.words])

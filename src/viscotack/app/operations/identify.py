@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 from pydantic import Field
 
 from viscotack.errors import InputError
-from viscotack.units import readable
 
 from .parts.layer import BONDED, THICKNESS, body_of
 from .parts.rig import Rig, refusals
@@ -21,9 +20,7 @@ if TYPE_CHECKING:
     from viscotack.files.whole import Target
 
 Model = Literal["jkr", "dmt", "maugis", "carpick"]
-Radius = Annotated[
-    float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
-]
+Radius = Annotated[float, Number('Sphere radius, "5.19 mm".', unit="m", example='"5.19 mm"')]
 Level = Annotated[float, Number("Confidence level of the intervals.")]
 
 
@@ -46,14 +43,12 @@ class IdentifySlow(Rig):
 
     radius: Radius
     cycle: Annotated[
-        int, Option("Number of the cycle in the files, from 1.", metavar="N"), Field(ge=1, le=10**6)
+        int, Option("Number of the cycle in the files, from 1."), Field(ge=1, le=10**6)
     ] = 1
     model: Annotated[tuple[Model, ...], Option("Models to compare; default: all four.")] = ()
     against: Annotated[
         Literal["radius", "depth"] | None,
-        Option(
-            "Abscissa: contact radius or depth; default: the radius if the file contains it.",
-        ),
+        Option("Abscissa: contact radius or depth; default: the radius if the file contains it."),
     ] = None
     contact_modulus: Annotated[
         float | None,
@@ -61,12 +56,10 @@ class IdentifySlow(Rig):
             'Known E0* of the relaxed solid, "1.94 MPa"; default: that of --material if its '
             "uncertainty is known, else fitted.",
             unit="Pa",
-            metavar="PRESSURE",
         ),
     ] = None
     contact_modulus_uncertainty: Annotated[
-        float | None,
-        Number("Its standard uncertainty; needed with it.", unit="Pa", metavar="PRESSURE"),
+        float | None, Number("Its standard uncertainty; needed with it.", unit="Pa")
     ] = None
     material: Annotated[
         Any,
@@ -102,7 +95,7 @@ class IdentifySlow(Rig):
         return Answer(
             fit,
             record=lambda: slow_record(fit),
-            words=lambda: _slow_words(fit),
+            words=lambda: _slow_shown(slow_record(fit)),
             pictures={"plot": lambda: draw_slow_test(fit)},
             drawn=lambda: {
                 "measured": {"at": drawn(test.at), "force": drawn(test.force)},
@@ -122,7 +115,6 @@ class Series(Rig):
             'Preload of the relaxed contact, "1.5 mN"; default: the force at the start of '
             "retraction.",
             unit="N",
-            metavar="FORCE",
         ),
     ] = None
     work_of_adhesion: Annotated[
@@ -130,18 +122,16 @@ class Series(Rig):
         Number(
             'Work of adhesion known from a slow test, "152 mJ/m2"; default: fitted.',
             unit="J/m^2",
-            metavar="ENERGY/AREA",
         ),
     ] = None
     work_of_adhesion_uncertainty: Annotated[
         float | None,
-        Number("Its standard uncertainty; needed with it.", unit="J/m^2", metavar="ENERGY/AREA"),
+        Number("Its standard uncertainty; needed with it.", unit="J/m^2"),
     ] = None
     scatter: Annotated[
         float,
         Number(
             'Relative scatter of the force between tests, "3 %", if there are no repeated tests.',
-            metavar="PART",
         ),
     ] = 0.0
     level: Level = 0.9
@@ -213,7 +203,6 @@ class IdentifyRates(Series):
             'Temperature of all tests, "25 degC"; default: that in each file, else that of the '
             "passport.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     temperature_uncertainty: Annotated[
@@ -222,7 +211,6 @@ class IdentifyRates(Series):
             'Standard uncertainty of this temperature, "0.5 K"; default: 2 K. It changes the times '
             "of the material by the shift of the passport.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     curves: Annotated[
@@ -244,8 +232,8 @@ class IdentifyRates(Series):
         ),
     ] = False
     time_limit: HowLong = None
-    title: Annotated[str, Option("Title of the report.", metavar="WORDS")] = ""
-    notes: Annotated[str, Option("Notes for the report.", metavar="WORDS")] = ""
+    title: Annotated[str, Option("Title of the report.")] = ""
+    notes: Annotated[str, Option("Notes for the report.")] = ""
 
     def check(self) -> None:
         """Refuse options that exclude each other."""
@@ -299,7 +287,7 @@ class IdentifyRates(Series):
         return Answer(
             found,
             record=lambda: rates_record(fit),
-            words=lambda: f"{_series_words(fit)}\nTabor number {fit.tabor:.3g}",
+            words=lambda: {n: x for n, x in rates_record(fit).items() if n not in _SAID},
             files={"output": _written(found, caller)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
@@ -341,7 +329,6 @@ class IdentifyEdge(Series):
             "a stiff rig do not depend on it.",
             unit="Pa",
             above=0,
-            metavar="PRESSURE",
             example='"2 MPa"',
         ),
     ]
@@ -368,7 +355,7 @@ class IdentifyEdge(Series):
         return Answer(
             found,
             record=lambda: edge_record(fit),
-            words=lambda: _series_words(fit),
+            words=lambda: {n: x for n, x in edge_record(fit).items() if n not in _SAID},
             files={"output": _written(found, caller)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
@@ -397,24 +384,12 @@ def _written(found: Identified, caller: Caller) -> Callable[["Target"], None]:
     return write
 
 
-def _slow_words(fit: Any) -> str:
-    first, *words = fit.words
-    lines = [first, f"Force against {fit.test.against}, {fit.test.force.size} points"]
-    for one in fit.fits:
-        tabor = "" if one.tabor is None else f", Tabor number {one.tabor:.3g}"
-        lines.append(
-            f"  {one.model:8} {readable(one.work_of_adhesion, 'J/m2')}, "
-            f"E0* {readable(one.contact_modulus, 'Pa')}{tabor}; "
-            f"scatter {readable(one.scatter, 'N', digits=2)}, criterion {one.criterion:.1f}"
-        )
-    return "\n".join([*lines, *words, f"Ranked by: {fit.evidence}"])
+# What the sentences of a fitted series say.
+_SAID = ("work_of_adhesion_J_m2", "equilibrium_gap_m", "intervals", "solutions", "describes_tests")
 
 
-def _series_words(fit: Any) -> str:
-    rows = [
-        f"  {one.conditions()}: {readable(one.force.value, 'N')} measured, "
-        f"{readable(force, 'N')} fitted"
-        for one, force in zip(fit.series, fit.forces, strict=True)
-    ]
-    first, *words = fit.words
-    return "\n".join([first, *rows, *words])
+def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record: the interval is in the sentences."""
+    fits = [{n: x for n, x in fit.items() if n != "intervals"} for fit in record["fits"]]
+    shown = {name: record[name] for name in ("words", "against", "points", "evidence")}
+    return shown | {"fits": fits}

@@ -1,10 +1,12 @@
 """The operation ``identify dwell``: growth of the work of adhesion with contact time."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
+from .identify import Level, Radius
+from .parts.record_words import read
 from .parts.rig import Rig, refusals
 from .parts.solid import Solid, solid_of
-from .request import Answer, Caller, Number, picture
+from .request import Answer, Caller, picture
 
 
 class IdentifyDwell(Rig):
@@ -20,13 +22,11 @@ class IdentifyDwell(Rig):
     """
 
     word: ClassVar = "identify dwell"
-    outputs: ClassVar = (picture("Draw force by contact time to a .png, .pdf or .svg file."),)
+    outputs: ClassVar = (picture("Draw force by contact time."),)
 
     material: Solid
-    radius: Annotated[
-        float, Number('Sphere radius, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
-    ]
-    level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
+    radius: Radius
+    level: Level = 0.9
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the growth to the pull-off forces of all cycles."""
@@ -46,7 +46,6 @@ class IdentifyDwell(Rig):
         return Answer(
             fit,
             record=lambda: _record(fit),
-            words=lambda: "\n".join(fit.words),
             pictures={"plot": lambda: draw_dwells(fit)},
             notes=refusals(found),
         )
@@ -54,22 +53,13 @@ class IdentifyDwell(Rig):
 
 def _record(fit: Any) -> dict[str, Any]:
     """Return the numbers of the answer."""
-    names = {
-        "work_of_adhesion": "work_of_adhesion_J_m2",
-        "reference_time": "reference_time_s",
-    }
     low, high = fit.reference_time
-    law = {names.get(name, name): value for name, value in fit.parameters.items()}
+    tails = {"work_of_adhesion": "_J_m2", "reference_time": "_s"}
     return {
-        "times_s": list(fit.times),
-        "forces_N": list(fit.forces),
-        "work_of_adhesion_J_m2": fit.work_of_adhesion,
-        "growth_per_decade": fit.growth_per_decade,
+        **read(fit, "times_s", "forces_N", "work_of_adhesion_J_m2", "growth_per_decade"),
         "growth_interval": list(fit.interval),
-        "level": fit.level,
-        "scatter": fit.scatter,
-        "law": fit.law,
-        "interface": law,
+        **read(fit, "level", "scatter", "law"),
+        "interface": {f"{name}{tails.get(name, '')}": x for name, x in fit.parameters.items()},
         "reference_time_interval_s": [low, high if high < float("inf") else None],
         "words": list(fit.words),
     }

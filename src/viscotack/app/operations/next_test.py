@@ -6,21 +6,16 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from viscotack.errors import InputError
-from viscotack.units import readable
 
 from .forecast import StudyFile, fitted, speeds_of
+from .parts.record_words import read
 from .parts.rig import refusals
 from .request import Answer, Caller, Number, Option, Request, Text, csv_file, picture
 from .simulate import HowLong
 
 Loads = Annotated[
     tuple[float, ...],
-    Number(
-        "Preload of a test; can be repeated. Default: that of the series.",
-        unit="N",
-        above=0,
-        metavar="FORCE",
-    ),
+    Number("Preload of a test; can be repeated. Default: that of the series.", unit="N", above=0),
 ]
 Radii = Annotated[
     tuple[float, ...],
@@ -28,7 +23,6 @@ Radii = Annotated[
         "Radius of the sphere of a test; can be repeated. Default: that of the series.",
         unit="m",
         above=0,
-        metavar="LENGTH",
     ),
 ]
 
@@ -47,8 +41,8 @@ class NextTest(Request):
 
     word: ClassVar = "next-test"
     outputs: ClassVar = (
-        csv_file("Write a row for each test; - is standard output."),
-        picture("Draw what each test leaves of the uncertainty to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each test."),
+        picture("Draw what each test leaves of the uncertainty."),
     )
 
     study: StudyFile
@@ -68,12 +62,10 @@ class NextTest(Request):
             "Dwell time under the preload; can be repeated. Default: full relaxation. Needs "
             "--approach-speed.",
             unit="s",
-            metavar="TIME",
         ),
     ] = ()
     approach_speed: Annotated[
-        float | None,
-        Number("Approach speed; needs --dwell.", unit="m/s", above=0, metavar="SPEED"),
+        float | None, Number("Approach speed; needs --dwell.", unit="m/s", above=0)
     ] = None
     forecast_speed: Annotated[
         tuple[Any, ...],
@@ -85,12 +77,10 @@ class NextTest(Request):
         ),
     ] = ()
     forecast_preload: Annotated[
-        float | None,
-        Number("Preload of the wanted forecast.", unit="N", above=0, metavar="FORCE"),
+        float | None, Number("Preload of the wanted forecast.", unit="N", above=0)
     ] = None
     forecast_radius: Annotated[
-        float | None,
-        Number("Sphere radius of the wanted forecast.", unit="m", above=0, metavar="LENGTH"),
+        float | None, Number("Sphere radius of the wanted forecast.", unit="m", above=0)
     ] = None
     noise: Annotated[
         float | None,
@@ -98,7 +88,6 @@ class NextTest(Request):
             'Relative standard deviation of the force of one test, "3 %"; default: that of the '
             "series.",
             above=0,
-            metavar="PART",
         ),
     ] = None
     repeats: Annotated[int, Option("Repetitions of each test."), Field(ge=1, le=1000)] = 1
@@ -143,6 +132,7 @@ class NextTest(Request):
                 count=self.count,
             )
         rows = [_row(each) for each in found.ranked]
+        what = "the forecast" if wanted else "ln(work) and ln(range)"
         return Answer(
             found,
             record=lambda: {
@@ -150,56 +140,32 @@ class NextTest(Request):
                 "noise": found.noise,
                 "tests": rows,
                 "sequence": [_row(each) for each in found.sequence],
-                "refused": [_trial(each) | {"why": why} for each, why in found.refused],
+                "refused": [read(each, *_TRIAL) | {"why": why} for each, why in found.refused],
                 "words": [*study.fit.words, *found.words],
             },
-            words=lambda: "\n".join(filter(None, (study.fit.misfit, _words(found, bool(wanted))))),
+            words=lambda: {
+                "words": [
+                    *([study.fit.misfit] if study.fit.misfit else []),
+                    f"standard deviation of {what}: {found.now:.2%} now; noise of a test "
+                    f"{found.noise:.2%}",
+                ],
+                "best_tests": rows[:_SHOWN],
+                "best_sequence": [_row(each) for each in found.sequence],
+                "not_ranked": list(dict.fromkeys(why for _, why in found.refused)),
+                "notes": found.words,
+            },
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_next_tests(found)},
             notes=refusals(study.survey),
         )
 
 
-def _trial(trial: Any) -> dict[str, Any]:
-    return {
-        "speed_m_per_s": trial.speed,
-        "preload_N": trial.preload,
-        "radius_m": trial.radius,
-        "dwell_s": trial.dwell,
-        "approach_speed_m_per_s": trial.approach_speed,
-    }
+# What a trial is, as columns.
+_TRIAL = ("speed_m_per_s", "preload_N", "radius_m", "dwell_s", "approach_speed_m_per_s")
+_SHOWN = 8  # tests in the text
 
 
 def _row(one: Any) -> dict[str, Any]:
     """Return the row of a ranked test."""
     forecast = {"force_N": one.force, "force_deviation": one.uncertain, "left": one.left}
-    return _trial(one.trial) | forecast
-
-
-_SHOWN = 8  # tests in words
-
-
-def _words(found: Any, forecast: bool) -> str:
-    """Return the answer as lines."""
-    from viscotack.identify.ranked_tests import trial_words
-
-    what = "the forecast" if forecast else "ln(work) and ln(range)"
-    lines = [
-        f"standard deviation of {what}: {found.now:.2%} now; noise of a test {found.noise:.2%}",
-        "after one test:",
-    ]
-    lines += [
-        f"  {x.left:7.2%}  {trial_words(x.trial)} (force {readable(x.force, 'N', digits=3)} "
-        f"within {x.uncertain:.1%})"
-        for x in found.ranked[:_SHOWN]
-    ]
-    if len(found.ranked) > _SHOWN:
-        last = found.ranked[-1]
-        lines.append(f"  ... of {len(found.ranked)}; the last leaves {last.left:.2%}")
-    lines.append("best sequence:")
-    lines += [f"  {x.left:7.2%}  {trial_words(x.trial)}" for x in found.sequence]
-    reasons: dict[str, int] = {}
-    for _, why in found.refused:
-        reasons[why] = reasons.get(why, 0) + 1
-    lines += [f"not ranked ({count}): {why}" for why, count in reasons.items()]
-    return "\n".join([*lines, *found.words])
+    return read(one.trial, *_TRIAL) | forecast

@@ -29,17 +29,12 @@ _OUTPUT = Output(
 # Of input of other programs.
 _CARDS = (".inp", ".txt", ".csv", ".dat", ".mac")
 
-Temperature = Annotated[
-    float | None,
-    Number('At this temperature, "0 degC" or "273 K".', unit="K", metavar="T"),
-]
+Temperature = Annotated[float | None, Number('At this temperature, "0 degC" or "273 K".', unit="K")]
 Tolerance = Annotated[float, Number("Largest relative error of the series.")]
 PressureUnit = Annotated[
-    str | None, Option("Unit of moduli in the other program, MPa.", metavar="UNIT", example="MPa")
+    str | None, Option("Unit of moduli in the other program, MPa.", example="MPa")
 ]
-TimeUnit = Annotated[
-    str | None, Option("Unit of times in the other program, s.", metavar="UNIT", example="s")
-]
+TimeUnit = Annotated[str | None, Option("Unit of times in the other program, s.", example="s")]
 
 
 def _band(value: Any) -> tuple[float, float]:
@@ -107,23 +102,17 @@ class ConvertMaterial(Request):
     prony: Annotated[bool, Option("Convert to a Prony series with a stated error.")] = False
     frequencies: Frequencies = None
     tolerance: Tolerance = 3e-4
-    code: Annotated[
-        Code | None,
-        Option("Program whose input file is read.", flags=("--from",)),
-    ] = None
+    code: Annotated[Code | None, Option("Program whose input file is read.", flags=("--from",))] = (
+        None
+    )
     pressure_unit: PressureUnit = None
     time_unit: TimeUnit = None
     rubbery_modulus: Annotated[
-        float | None,
-        Number(
-            "Long-term Young's modulus, if not in the input file.",
-            unit="Pa",
-            metavar="PRESSURE",
-        ),
+        float | None, Number("Long-term Young's modulus, if not in the input file.", unit="Pa")
     ] = None
-    poisson_ratio: Annotated[
-        float | None, Number("Poisson ratio, if not in the input file.", metavar="NU")
-    ] = None
+    poisson_ratio: Annotated[float | None, Number("Poisson ratio, if not in the input file.")] = (
+        None
+    )
 
     def check(self) -> None:
         """Check that options of other programs' input, and of a series, are given for these."""
@@ -221,9 +210,7 @@ class ExportMaterial(Request):
     bulk_modulus: Annotated[
         float | None,
         Number(
-            'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".',
-            unit="Pa",
-            metavar="PRESSURE",
+            'Bulk modulus for programs that do not allow incompressible solids, "2 GPa".', unit="Pa"
         ),
     ] = None
 

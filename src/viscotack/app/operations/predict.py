@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.units import readable
 
+from .parts.record_words import units_of
 from .request import (
     Answer,
     Caller,
@@ -26,24 +26,16 @@ from .request import (
 from .simulate import HowLong
 
 if TYPE_CHECKING:
-    from viscotack.model.problem import Case
     from viscotack.model.problem.outputs import Kind
     from viscotack.prediction import Advice, Prediction
     from viscotack.result import Result
 
 # Meaning of the intervals of a prediction.
 OF_METHOD = "Intervals are the error of the method; material and interface are taken as given."
-# What a simulation would only repeat.
-_SAID_ONCE = (
-    "problem",
-    "run_id",
-    "tabor",
-    "size",
-    "thickness",
-    "cohesion",
-    "modulus_ratio",
-    "rate",
-)
+# What a simulation would only repeat, and what the text leaves out.
+_INPUTS = ("tabor", "size", "thickness", "cohesion", "modulus_ratio", "rate")
+_SAID_ONCE = ("problem", "run_id", *_INPUTS)
+_UNSAID = (*_INPUTS, "method", "inside", "confidence", "band", "curve_band", "why")
 
 
 class Predict(Request):
@@ -69,11 +61,9 @@ class Predict(Request):
 
     word: ClassVar = "predict"
     outputs: ClassVar = (
-        csv_file("Write the predicted unloading curve as a table; - is standard output.", "curve"),
-        picture("Draw that curve to a .png, .pdf or .svg file."),
-        csv_file(
-            "Write the rows of the table of cases with their predictions; - is standard output.",
-        ),
+        csv_file("Write the predicted unloading curve as a table.", "curve"),
+        picture("Draw that curve."),
+        csv_file("Write the rows of the table of cases with their predictions."),
         Output(
             "xlsx",
             "Write the rows of the table of cases with their predictions to a workbook FILE.xlsx.",
@@ -109,11 +99,7 @@ class Predict(Request):
         ),
     ] = None
     confidence: Annotated[
-        float,
-        Number(
-            "Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.",
-            metavar="PART",
-        ),
+        float, Number("Confidence level of the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.")
     ] = 0.9
     budget: Annotated[
         float | None,
@@ -124,7 +110,6 @@ class Predict(Request):
             unit="s",
             above=0,
             bare=True,
-            metavar="SECONDS",
         ),
     ] = None
     exact: Annotated[
@@ -151,6 +136,8 @@ class Predict(Request):
         from viscotack.prediction.tiers import SOON
         from viscotack.result import Outcome
 
+        from .parts.tables import write_table
+
         stated = self.stated(caller)
         if table := sorted(caller.wants & {"csv", "xlsx"}):
             raise InputError(
@@ -170,16 +157,21 @@ class Predict(Request):
                     f"{found.why}. The tier {found.method!r} gives no curve; leave out curve and "
                     "plot, or simulate"
                 )
-            result = _simulated(stated.problem) if self.compare else None
+            result = None
+            if self.compare:
+                from viscotack.simulate import solve
+
+                result = solve(stated.problem, until="pull-off", throw=False)
         record = prediction_summary(found)
         if result is not None:
-            record |= _comparison(found, result)
+            record |= _comparison(found, record, result)
         return Answer(
             found,
             record=lambda: record,
-            words=lambda: _words(found, record, self.why),
-            files={"curve": lambda target: _write_curve(found, target)},
-            pictures={"plot": lambda: _draw(found, result)},
+            words=lambda: _shown(found, record, self.why),
+            units=units_of(found.problem.groups().outputs),
+            files={"curve": lambda target: write_table(_curve(found), target)},
+            pictures={"plot": lambda: _drawn(found, result)},
             notes=stated.improbable,
             status=int(result is not None and result.outcome is Outcome.STOPPED),
         )
@@ -236,8 +228,7 @@ class Advise(Request):
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Any,
-        Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc")),
+        Any, Contact("The contact, of revolution.", indenters=("sphere", "profile", "disc"))
     ]
 
     def answer(self, caller: Caller) -> Answer:
@@ -259,7 +250,7 @@ class Advise(Request):
         return Answer(
             advice,
             record=lambda: _advised(advice, sentences, warned),
-            words=lambda: "\n".join(sentences),
+            words=lambda: {"sentences": sentences},
             notes=stated.notes,
         )
 
@@ -295,30 +286,24 @@ def _in_si(contact: dict[str, Any], scales: tuple[float | None, float | None]) -
     return found
 
 
-def _simulated(problem: "Case") -> "Result":
-    from viscotack.simulate import solve
-
-    return solve(problem, until="pull-off", throw=False)
-
-
 def _compared(kind: "Kind") -> dict[str, str]:
     """Return the quantities to compare, with the names of their intervals."""
     return {f"pull_off_{kind.name_of('force')}": "interval", "work_to_pull_off": "work_interval"}
 
 
-def _comparison(found: "Prediction", result: "Result") -> dict[str, Any]:
+def _comparison(
+    found: "Prediction", predicted: Mapping[str, Any], result: "Result"
+) -> dict[str, Any]:
     """Return the simulated numbers, the errors of the prediction, and whether the interval holds.
 
     `difference` is prediction over simulation, less 1.
     """
-    from viscotack.prediction.prediction import prediction_summary
     from viscotack.result.observables import summary
 
     simulated = summary(result)
     answer: dict[str, Any] = {
         "simulation": {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
     }
-    predicted = prediction_summary(found)
     compared = _compared(found.problem.groups().outputs)
     difference: dict[str, float | None] = dict.fromkeys(compared)
     held: dict[str, bool | None] = dict.fromkeys(compared)
@@ -348,73 +333,22 @@ def _curve(found: "Prediction") -> dict[str, Any]:
     return table
 
 
-def _words(found: "Prediction", answer: dict[str, Any], why: bool) -> str:
-    """Return a prediction as lines a person reads."""
-    lines = [f"by {found.method}{'' if found.inside else ', outside of the surrogates'}"]
-    lines += [found.why] if why else []
-    held = (
-        "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
-    )
-    kind = found.problem.groups().outputs
-    intervals = _compared(kind) | {"depth_at_pull_off": "depth_interval"}
-    for name, observable in kind.observables.items():
-        told = observable.words, observable.unit, intervals.get(name)
-        lines += _number_words(name, *told, answer, held)
-    force, depth = kind.name_of("force"), kind.observables["depth_at_pull_off"].unit
-    told = f"depth at zero {force}", depth, f"zero_{force}_interval"
-    lines += _number_words(f"zero_{force}_depth", *told, answer, held)
-    if "simulation" in answer:
-        lines += _comparison_words(answer, kind)
-    lines += [OF_METHOD, *answer["cautions"]]
-    return "\n".join(lines)
+def _shown(found: "Prediction", record: Mapping[str, Any], why: bool) -> dict[str, Any]:
+    """Return what the text says of a record."""
+    by = f"by {found.method}{'' if found.inside else ', outside of the surrogates'}"
+    if found.confidence is not None:
+        by += f"; {100 * found.confidence:.4g} % intervals"
+    shown = {n: x for n, x in record.items() if n not in _UNSAID}
+    if simulated := record.get("simulation"):
+        said = (*_compared(found.problem.groups().outputs), "status", "wall_time")
+        shown["simulation"] = {n: x for n, x in simulated.items() if n.startswith(said)}
+        parts = {n: x for n, x in record["difference"].items() if x is not None}
+        shown["difference"] = {n: f"{x:+.2%}" for n, x in parts.items()}
+    words = [by, found.why] if why else [by]
+    return {"words": words} | shown | {"cautions": [OF_METHOD, *record["cautions"]]}
 
 
-def _number_words(
-    name: str, words: str, unit: Any, interval: str | None, answer: dict[str, Any], held: str
-) -> list[str]:
-    """Return a number and its interval as lines, none where the answer has it not."""
-    if (value := answer.get(name)) is None:
-        return []
-    line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
-    if f"{name}_{unit.tail}" in answer:
-        line += f"= {readable(answer[f'{name}_{unit.tail}'], unit.si)}"
-    if interval is None or answer[interval] is None:
-        return [line.rstrip()]
-    low, high = answer[interval]
-    between = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
-    if f"{interval}_{unit.tail}" in answer:
-        low, high = answer[f"{interval}_{unit.tail}"]
-        between += f"= {readable(low, unit.si, to=high)}"
-    return [line.rstrip(), between.rstrip()]
-
-
-def _comparison_words(answer: dict[str, Any], kind: "Kind") -> list[str]:
-    simulated = answer["simulation"]
-    took = simulated["wall_time_s"]
-    lines = ["simulated" + ("" if took is None else f" in {readable(took, 's', digits=2)}")]
-    for name in _compared(kind):
-        words, true = kind.observables[name].words, simulated[name]
-        if true is None:
-            why = simulated.get(f"{name}_note") or simulated["status"]
-            lines.append(f"  {words:<21}{'none':>12}  {why}")
-            continue
-        line = f"  {words:<21}{true:>12.5g}"
-        if (off := answer["difference"][name]) is not None:
-            way = "above" if off >= 0 else "below"
-            line += f"  the prediction is {abs(off):.2%} {way}"
-            if (held := answer["interval_held"][name]) is not None:
-                line += f"; {'inside' if held else 'outside'} its interval"
-        lines.append(line)
-    return lines
-
-
-def _write_curve(found: "Prediction", target: Any) -> None:
-    from .parts.predict_table import write_table
-
-    write_table(_curve(found), target)
-
-
-def _draw(found: "Prediction", result: "Result | None") -> Any:
+def _drawn(found: "Prediction", result: "Result | None") -> Any:
     from viscotack.plot.prediction import draw_prediction
 
     return draw_prediction(found, result)

@@ -303,13 +303,15 @@ class Output:
         return next((f for f in self.flags if f.startswith("--")), f"--{self.name}")
 
 
-def csv_file(words: str = "Write a table; - is standard output.", name: str = "csv") -> Output:
+def csv_file(words: str = "Write a table.", name: str = "csv") -> Output:
     """Declare a CSV table as output."""
+    words = f"{words.removesuffix('.')}; - is standard output."
     return Output(name, words, endings=(".csv", ".txt", ".dat"))
 
 
-def picture(words: str = "Draw to a .png, .pdf or .svg file.", name: str = "plot") -> Output:
+def picture(words: str = "Draw.", name: str = "plot") -> Output:
     """Declare a figure as output."""
+    words = f"{words.removesuffix('.')} to a .png, .pdf or .svg file."
     return Output(name, words, "picture", done="drew")
 
 
@@ -329,8 +331,11 @@ class Answer:
     record : callable
         Returns plain data, numbers in SI with the unit in the name, as printed by ``--json`` and
         returned over HTTP.
-    words : callable
-        Returns text for the terminal.
+    words : callable, optional
+        Returns text for the terminal, or the part of the record that is shown there; default:
+        all of it.
+    units : mapping
+        Units of dimensionless numbers of the record by name, for the text.
     files : mapping
         Name of an output -> function that writes it to a target.
     pictures : mapping
@@ -345,7 +350,8 @@ class Answer:
 
     found: Any
     record: Callable[[], Any]
-    words: Callable[[], str]
+    words: Callable[[], Any] | None = None
+    units: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, Callable[["Target"], None]] = field(default_factory=dict)
     pictures: Mapping[str, Callable[[], Any]] = field(default_factory=dict)
     drawn: Callable[[], dict[str, Any]] | None = None
@@ -353,8 +359,11 @@ class Answer:
     status: int = 0
 
     def __str__(self) -> str:
-        """Return the text."""
-        return self.words()
+        """Return the text for the terminal."""
+        from .parts.record_words import record_words
+
+        shown = self.record() if self.words is None else self.words()
+        return shown if isinstance(shown, str) else record_words(shown, self.units)
 
 
 def harmless_name(name: str) -> str:

@@ -3,7 +3,6 @@
 from typing import Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
-from viscotack.units import readable
 
 from .parts.rig import Rig, refusals
 from .parts.shifting import ShiftLaw
@@ -28,8 +27,8 @@ class ReadTests(Rig, ShiftLaw):
 
     word: ClassVar = "test read"
     outputs: ClassVar = (
-        csv_file("Write a row for each cycle; - is standard output."),
-        csv_file("Write a row for each temperature and speed; - is standard output.", "repeats"),
+        csv_file("Write a row for each cycle."),
+        csv_file("Write a row for each temperature and speed.", "repeats"),
         csv_file(
             "Write depth and force of every retraction as two columns, coldest and slowest first; "
             "- is standard output.",
@@ -51,7 +50,6 @@ class ReadTests(Rig, ShiftLaw):
             'Sphere radius, "5.19 mm"; adds the work of adhesion of an elastic JKR sphere, '
             "2F/(3 pi R).",
             unit="m",
-            metavar="LENGTH",
         ),
     ] = None
 
@@ -74,6 +72,7 @@ class ReadTests(Rig, ShiftLaw):
             curve_rows,
             cycle_row,
             repeat_rows,
+            series_record,
             series_rows,
             tests_record,
         )
@@ -90,12 +89,12 @@ class ReadTests(Rig, ShiftLaw):
         ]
         repeats = repeat_rows(table, self.radius)
         refused = [{"file": path, "reason": why} for path, why in found.reasons]
-        series = [{"quantity": name, "value": value} for name, value in series_rows(table)]
+        series = series_rows(series_record(table))
         sheets = {"cycles": rows, "repeats": repeats, "series": series, "refused": refused}
         return Answer(
             found,
             record=lambda: tests_record(found, table, self.radius, law),
-            words=lambda: _words(found, table, self.radius, law),
+            words=lambda: _shown(tests_record(found, table, self.radius, law)),
             files={
                 "csv": rows_as_csv(rows),
                 "repeats": rows_as_csv(repeats),
@@ -126,70 +125,27 @@ def _unread_names(found: Any) -> tuple[str, ...]:
     )
 
 
-def _words(found: Any, table: Any, radius: float | None, law: Any) -> str:
-    lines = []
-    for one in found.evaluations:
-        if not one.cycles:
-            continue
-        lines.append(f"{one.record.source.path} ({one.record.source.format})")
-        for cycle in one.cycles:
-            force, speed, work = cycle.pull_off_force, cycle.speed, cycle.work_of_separation
-            lines.append(
-                f"  {cycle.number}: pull-off {_pair(force, 'N')}, work of separation "
-                f"{_pair(work, 'J')}, at {_at(cycle)}{_pair(speed, 'm/s')}, preload "
-                f"{readable(cycle.preload.value, 'N', digits=3)}, dwell "
-                f"{readable(cycle.dwell_time, 's', digits=3)}"
-            )
-        lines.append(f"     {'; '.join(one.cycles[0].source.notes)}")
-    lines += _words_by_speed(table, radius, law)
-    count = len(found.cycles)
-    lines.append(f"{count} {'cycle' if count == 1 else 'cycles'}, {len(found.reasons)} refused")
-    return "\n".join(lines)
+# Of a cycle in the text; all numbers are in the tables.
+_CYCLE = ("cycle", "temperature_K", "speed_m_s", "pull_off_force_N", "work_of_separation_J")
+_CYCLE += tuple(f"{name}_uncertainty" for name in _CYCLE[2:])
+_CYCLE += ("preload_N", "dwell_time_s", "notes", "cautions")
 
 
-def _words_by_speed(table: Any, radius: float | None, law: Any) -> list[str]:
-    """Describe the repeated tests, the comparison with JKR and the exponents of force by speed."""
-    from viscotack.lab.tack.speed_table import jkr_work
-
-    from .parts.records import conditions
-
-    several = len(table.series) > 1
-    lines = [f"Pull-off force by {'temperature and ' * several}speed"]
-    for one in table.speeds:
-        at = conditions(one.temperature if several else None, one.speed)
-        if one.shifted_speed is not None:
-            at += f", a_T v {readable(one.shifted_speed, 'm/s', digits=3)}"
-        line = f"  {at}: {readable(one.force, 'N', digits=3)}"
-        if one.force_deviation is not None:
-            line += ", standard deviation "
-            line += readable(one.force_deviation, "N", digits=2, like=one.force)
-            line += f" of {len(one.cycles)} tests"
-        if radius is not None:
-            work = jkr_work(one.force, radius)
-            line += f", JKR work of adhesion {readable(work, 'J/m2', digits=3)}"
-            if work > _LARGEST_WORK:
-                line += " (beyond surface energies: losses of the solid, fibrils or cavities)"
-        lines.append(line)
-        lines += [f"    far from the others: {x.source.path} cycle {x.number}" for x in one.far]
-    if table.scatter is not None:
-        lines.append(f"  scatter of single tests {100 * table.scatter:.2g} %, pooled over speeds")
-    for one in table.exponents:
-        at = one.temperature if several else None
-        where = "" if at is None else f" at {at - 273.15:.3g} C"
-        lines.append(f"  exponent of force by speed{where} {_exponent(one.exponent)}")
-    if table.master is not None:
-        where = f"{law.reference_temperature - 273.15:.4g} C"
-        lines.append(f"  exponent of force by a_T v at {where} {_exponent(table.master)}")
-    return lines
-
-
-def _exponent(one: Any) -> str:
-    return f"{one.value:.3g}, standard error {one.uncertainty:.1g}"
-
-
-def _at(cycle: Any) -> str:
-    return "" if cycle.temperature is None else f"{cycle.temperature - 273.15:.3g} C and "
-
-
-def _pair(one: Any, unit: str) -> str:
-    return readable(one.value, unit, uncertainty=one.uncertainty)
+def _shown(record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record."""
+    cycles = [
+        {"file": test["file"]} | {name: cycle[name] for name in _CYCLE}
+        for test in record["tests"]
+        for cycle in test["cycles"]
+    ]
+    several = len(record["exponents"]) > 1
+    hidden = ("tests", "unread", *(() if several else ("exponents",)))
+    bad = len(record["unread"]) + sum(len(test["refused"]) for test in record["tests"])
+    works = [row.get("jkr_work_of_adhesion_J_m2", 0.0) for row in record["repeats"]]
+    beyond = "the JKR work is beyond surface energies: losses of the solid, fibrils or cavities"
+    return {
+        "words": [f"{len(cycles)} {'cycle' if len(cycles) == 1 else 'cycles'}, {bad} refused"],
+        "cycles": cycles,
+        **{n: x for n, x in record.items() if n not in hidden},
+        "cautions": [beyond] if max(works) > _LARGEST_WORK else [],
+    }

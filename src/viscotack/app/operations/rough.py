@@ -6,13 +6,11 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from viscotack.cards import card_of
 from viscotack.errors import InputError
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
-from viscotack.units import readable
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
-from .request import Answer, Caller, File, Option, Output, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .request import Answer, Caller, File, Option, Output, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 # Frames of a film, by default.
 _FRAMES = 60
@@ -32,11 +30,11 @@ class OfRough(Request):
 
     word: ClassVar = "rough"
     outputs: ClassVar = (
-        csv_file("Write force, contact area and energies by time; - is standard output."),
+        csv_file("Write force, contact area and energies by time."),
         Output(
             "maps", "Write maps of gap and pressure to a .npz file.", "binary", endings=(".npz",)
         ),
-        picture("Draw the force curve and the contact to a .png, .pdf or .svg file."),
+        picture("Draw the force curve and the contact."),
         Output(
             "film", "Write the detachment as a film to a .gif file.", "binary", endings=(".gif",)
         ),
@@ -60,15 +58,13 @@ class OfRough(Request):
     accuracy: Accuracy = DEFAULT_ACCURACY
     theory: Annotated[
         Literal["superposition"] | None,
-        Option(
-            "Answer by a theory instead of a simulation: the asperities by themselves.",
-        ),
+        Option("Answer by a theory instead of a simulation: the asperities by themselves."),
     ] = None
     moments: Annotated[
         int | None,
         Option(
             "Up to how many instants have maps of gap and pressure; 60 for a film, else that of "
-            "the largest tension.",
+            "the largest tension."
         ),
         Field(ge=2, le=1000),
     ] = None
@@ -83,7 +79,7 @@ class OfRough(Request):
         Literal["cpu", "cuda"],
         Option("Where to compute: cuda is a GPU, by CuPy, for maps from about 512 x 512 pixels."),
     ] = "cpu"
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 600.0
+    time_limit: Limit = 600.0
     checkpoint: Annotated[
         Path | None,
         File(
@@ -129,7 +125,7 @@ class OfRough(Request):
         return Answer(
             found,
             record=lambda: found.summary | about,
-            words=lambda: _words(found, about),
+            words=lambda: _shown(found, about),
             files={
                 "csv": rows_as_csv(found.rows()),
                 "maps": found.save_maps,
@@ -166,55 +162,16 @@ class OfRough(Request):
         return Answer(
             found,
             record=lambda: found.summary,
-            words=lambda: (
-                f"superposition of {len(found.asperities.radii)} asperities, {found.touching} of "
-                f"them in contact, by {found.method}\n"
-                f"pull-off force: {readable(found.pull_off_force, 'N')}"
-                + (f" +- {100 * found.band:.2g} %" if found.inside else "")
-                + f", a stress of {readable(found.pull_off_stress, 'Pa')}\n"
-                f"work of separation: {readable(found.work_of_separation, 'J')}\n"
-                f"share of the surface around contacts: {found.share:.2g}"
-            ),
             files={"csv": rows_as_csv(found.rows())},
             pictures={"plot": lambda: draw_superposition(problem, found)},
             notes=(*problem.surface.notes, *((found.why,) if found.why else ())),
         )
 
 
-def _words(found: Any, about: dict[str, Any]) -> str:
-    """Return the answer as lines."""
-    errors = found.error_estimate or {}
-
-    def within(name: str) -> str:
-        return f" +- {100 * errors[name]:.2g} %" if name in errors else ""
-
+def _shown(found: Any, about: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record; its warnings are notes."""
     from viscotack.simulate.rough import LONGEST_RANGE
 
-    at, bearing = found.at_pull_off, about["bearing_area_stress_Pa"]
-    share = 100 * found.area[at] / found.nominal_area
-    lines = [
-        f"surface: rms height {readable(about['rms_height_m'], 'm')}, rms slope "
-        f"{about['rms_slope']:.3g}, {about['pixels_per_zone']:.2g} pixels in a zone at an edge",
-        f"energy of full contact over the work of adhesion: "
-        f"{about['full_contact_energy_over_work']:.3g} slow, "
-        f"{about['full_contact_energy_over_work_fast']:.3g} fast; Fuller-Tabor parameter "
-        f"{about['fuller_tabor']:.3g}; Pastewka-Robbins ratio {about['pastewka_robbins']:.3g}"
-        + (
-            "" if (about["range_over_gap_at_patches"] or 0) < LONGEST_RANGE else " (range too long)"
-        ),
-        f"pull-off force: {readable(found.pull_off_force, 'N')}{within('force')}, a stress of "
-        f"{readable(found.pull_off_stress, 'Pa')}"
-        + (f" ({readable(bearing, 'Pa')} by the bearing area)" if bearing is not None else ""),
-        f"there: depth {readable(float(found.depth[at]), 'm')}, {share:.3g} % of the map in "
-        f"contact in {int(found.patches[at])} patches",
-    ]
-    if found.has_separated:
-        lines.append(
-            f"work of separation: {readable(found.work_of_separation, 'J')}{within('work')}"
-        )
-    lines += [
-        f"lost: {readable(float(found.heat[-1]), 'J')} as heat in the solid, "
-        f"{readable(float(found.jumps[-1]), 'J')} in {len(found.events)} jumps",
-        f"energy balance: {found.energy_residual:.1g}; {found.status}",
-    ]
-    return "\n".join(lines)
+    cautions = ["the range is too long for the ratio of Pastewka and Robbins"]
+    short = (about["range_over_gap_at_patches"] or 0) < LONGEST_RANGE
+    return found.summary | about | {"warnings": [], "cautions": [] if short else cautions}

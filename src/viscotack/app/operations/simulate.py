@@ -1,6 +1,5 @@
 """The operations ``simulate`` and ``show``: simulate a contact, and show a saved result."""
 
-from collections.abc import Iterable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -9,9 +8,9 @@ from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.model.problem.accuracy import Accuracy as AccuracyCard
-from viscotack.units import readable
 
 from .flags import INDENTERS
+from .parts.record_words import units_of
 from .request import (
     Answer,
     Caller,
@@ -27,30 +26,25 @@ from .request import (
 
 if TYPE_CHECKING:
     from viscotack.result import Result
-    from viscotack.result.observables import Observable
 
 # How far to pull, and the accuracy of a simulation.
 Until = Annotated[
     Literal["pull-off", "detached"],
-    Option(
-        "Stop past the largest tension, or when the surfaces are apart.",
-    ),
+    Option("Stop past the largest tension, or when the surfaces are apart."),
 ]
-Accuracy = Annotated[float, number_of(card_of(AccuracyCard), metavar="RELATIVE")]
-HowLong = Annotated[
-    float | None,
-    number_of(card_of(TimeLimit), metavar="TIME"),
-]
+Accuracy = Annotated[float, number_of(card_of(AccuracyCard))]
+Limit = Annotated[float, number_of(card_of(TimeLimit))]
+HowLong = Annotated[float | None, number_of(card_of(TimeLimit))]
 PlotKind = Annotated[
     Literal["force", "radius", "overview", "energy", "sensitivities"],
     Option(
         "force: against depth; radius: force against contact radius; overview: four pictures; "
-        "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed.",
+        "energy: energy balance; sensitivities: elasticities by the inputs, if they were computed."
     ),
 ]
 _FILES = (
     picture(),
-    csv_file("Write the curve as a table; - is standard output."),
+    csv_file("Write the curve as a table."),
     csv_file(
         "Write a table with a row for each cycle of the test: snap-in, peak, pull-off, work, "
         "hysteresis, time to detachment; - is standard output.",
@@ -129,9 +123,7 @@ class Simulate(Request):
     problem: Annotated[
         Any,
         Contact(
-            "The contact and the moves of the machine.",
-            indenters=INDENTERS,
-            spelling="commands",
+            "The contact and the moves of the machine.", indenters=INDENTERS, spelling="commands"
         ),
     ]
     until: Until = "detached"
@@ -216,7 +208,7 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
 
     from .parts.running import drawn_of
 
-    also = known(caller.also).observables
+    also, kind = known(caller.also).observables, result.problem.outputs
     draw = {
         "force": plot.draw_force,
         "radius": plot.draw_radius,
@@ -234,7 +226,8 @@ def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
     return Answer(
         result,
         record=lambda: found,
-        words=lambda: _words(result, found, also),
+        words=lambda: _shown(result, found),
+        units=units_of(kind) | {own.name: kind.units[own.measure].text for own in also},
         files=files,
         pictures={"plot": lambda: draw(result)},
         drawn=lambda: drawn_of(result),
@@ -253,45 +246,37 @@ def _not_met(result: "Result") -> str:
     )
 
 
-def _words(result: "Result", answer: dict[str, Any], also: "Iterable[Observable]") -> str:
-    """Return a summary as lines a person reads."""
-    from .parts.cycle_table import table_of_cycles
-    from .parts.sensitivity_table import table_of_sensitivities
+# What the text leaves out: inputs, what the status says, and how the answer was computed.
+_UNSAID = ("outcome", "accuracy", "accuracy_met", "method", "energy_residual", "events")
 
-    lines, kind = [answer["status"]], result.problem.outputs
-    said = {name: (output.words, output.unit) for name, output in kind.observables.items()}
-    seen = answer[next(iter(said))] is not None
-    said |= {own.name: (own.words, kind.units[own.measure]) for own in also}
-    for name, (words, unit) in said.items():
-        value, note = answer[name], answer.get(f"{name}_note")
-        if value is None:
-            if note and seen:  # of all numbers this one is missing
-                lines.append(f"  {words:<21}  not known: {note}")
-            continue
-        line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
-        if f"{name}_{unit.tail}" in answer:
-            line += f"= {readable(answer[f'{name}_{unit.tail}'], unit.si)}"
-        lines.append(line.rstrip())
-        if note:
-            lines.append(f"  {'':<21}  {note}")
-    lines += table_of_cycles(result, answer["cycles"])
-    if began := answer["shallow_start"]:
-        lines += [
-            f"  begun at depth       {began['depth']:>12.5g}  h0 and not {began['asked']:.4g} h0, "
-            "which changes the force",
-            f"  {'':<33}  by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, "
-            f"the depth by {began['shift']:.1g} h0;",
-            f"  {'':<33}  curve and time begin there (--whole marches all of it)",
+
+def _shown(result: "Result", record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the text says of a record."""
+    shown = {n: x for n, x in record.items() if n not in (*_UNSAID, *result.groups.inputs)}
+    if len(record["cycles"]) < 2 and all(x["snap_in_depth"] is None for x in record["cycles"]):
+        del shown["cycles"]  # the pull-off says it all
+    if began := record["shallow_start"]:
+        shown["shallow_start"] = (
+            f"begun at {began['depth']:.5g} h0 and not {began['asked']:.4g} h0, which changes the "
+            f"force by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, the "
+            f"depth by {began['shift']:.1g} h0; curve and time begin there"
+        )
+    del shown["error_estimate"], shown["wall_time_s"]
+    relative = {"force": f"pull_off_{result.problem.outputs.name_of('force')}"}
+    relative["work"] = "work_to_pull_off"
+    for name, error in (record["error_estimate"] or {}).items():
+        known = relative.get(name)
+        shown[f"{known}_error" if known else f"error_of_the_{name}"] = error
+    if record["error_estimate"] is None:
+        shown["numerical_error"] = "not known: no coarser run to compare with"
+    shown["wall_time_s"] = record["wall_time_s"]
+    if (found := result.sensitivities) is not None:
+        first = next(iter(found.elasticities.values()), {})
+        shown["sensitivities"] = [
+            {"d ln y/d ln x of": name}
+            | {f"ln_{y}": slopes.get(name) for y, slopes in found.elasticities.items()}
+            | {f"ln_{y}_uncertainty": errors.get(name) for y, errors in found.errors.items()}
+            for name in sorted(found.inputs, key=lambda name: -abs(first.get(name, 0.0)))
         ]
-    if answer["error_estimate"] is None:
-        lines.append("  numerical error      not known: no coarser run to compare with")
-    for name, error in (answer["error_estimate"] or {}).items():
-        if error is not None:
-            unit = "h0, estimated" if name == "depth" else "estimated, relative"
-            lines.append(f"  {'error of the ' + name:<21}{error:>12.1e}  {unit}")
-    if result.sensitivities is not None:
-        lines += table_of_sensitivities(result.sensitivities)
-    cost = answer["statistics"]
-    if cost.get("steps") is not None and answer["wall_time_s"] is not None:
-        lines.append(f"  {cost['steps']:.0f} steps in {answer['wall_time_s']:.2f} s")
-    return "\n".join(lines)
+        shown["no_elasticity"] = [f"of {name}: {why}" for name, why in found.refused.items()]
+    return shown

@@ -5,15 +5,14 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.model.problem import RoughCase
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
-from viscotack.units import readable
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 
 from .flags import INDENTERS
-from .request import Answer, Caller, Contact, Request, Rows, csv_file, number_of
-from .simulate import Accuracy, Until
+from .parts.record_words import units_of
+from .request import Answer, Caller, Contact, Request, Rows, csv_file
+from .simulate import Accuracy, Limit, Until
 
 if TYPE_CHECKING:
     from viscotack.campaign import CaseSettings
@@ -36,7 +35,7 @@ class Sweep(Request):
     """
 
     word: ClassVar = "sweep"
-    outputs: ClassVar = (csv_file("Write a row for each case; - is standard output."),)
+    outputs: ClassVar = (csv_file("Write a row for each case."),)
     takes_own: ClassVar = True
 
     problem: Annotated[
@@ -59,7 +58,7 @@ class Sweep(Request):
     ]
     accuracy: Accuracy = DEFAULT_ACCURACY
     until: Until = "pull-off"
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+    time_limit: Limit = 120.0
 
     def answer(self, caller: Caller) -> Answer:
         """Simulate one case after the other, telling ``share`` and the new ``rows``."""
@@ -69,6 +68,7 @@ class Sweep(Request):
         from .parts.tables import rows_as_csv
 
         stated, cases = self.stated(caller), caller.rows(self.cases)
+        rough = isinstance(stated.problem, RoughCase)
         if not cases or any(row.keys() != cases[0].keys() for row in cases):
             raise InputError("all cases must replace the same numbers of the problem")
         changes = changes_of(stated.problem, cases[0])
@@ -87,7 +87,8 @@ class Sweep(Request):
         return Answer(
             rows,
             record=lambda: {"rows": rows, "failed": failed},
-            words=lambda: _words(changes, rows, failed),
+            words=lambda: _shown(changes, rows, failed),
+            units={} if rough else units_of(stated.problem.outputs),
             files={"csv": rows_as_csv(_flat(cases, rows))},
             notes=(*stated.notes, *changes.notes, *warnings),
             status=_SOME_FAILED if failed else 0,
@@ -154,23 +155,16 @@ def _flat(
     ]
 
 
-def _shown(problem: Any) -> tuple[str, str, str]:
-    """Return the name of the pull-off among the outputs, its unit and words."""
-    if isinstance(problem, RoughCase):
-        return "pull_off_force_N", "N", "pull-off force"
-    kind = problem.outputs
-    name = f"pull_off_{kind.name_of('force')}"
-    shown = kind.observables[name]
-    if problem.scales() is None:
-        return name, shown.unit.text, shown.words
-    return f"{name}_{shown.unit.tail}", shown.unit.si, shown.words
-
-
-def _words(changes: "Changes", rows: Sequence[Mapping[str, Any]], failed: int) -> str:
-    key, unit, about = _shown(changes.problem)
-    lines = []
-    for row in rows:
-        found = row["reason"] or f"{about} {readable(row['outputs'][key], unit, digits=5)}"
-        lines.append(f"  {changes.words(row)}: {found}")
-    count = sum(row["inputs"] is not None for row in rows)
-    return "\n".join([*lines, f"{count - failed} of {count} cases done, {failed} failed"])
+def _shown(changes: "Changes", rows: Sequence[Mapping[str, Any]], failed: int) -> dict[str, Any]:
+    """Return what the text says of the rows: the pull-off, or the reason why there is none."""
+    problem = changes.problem
+    name = "pull_off_force_N"
+    if not isinstance(problem, RoughCase):
+        name = f"pull_off_{problem.outputs.name_of('force')}"
+        unit = problem.outputs.observables[name].unit
+        name += "" if problem.scales() is None else f"_{unit.tail}"
+    shown = [
+        {"case": changes.words(row), name: (row["outputs"] or {}).get(name), "why": row["reason"]}
+        for row in rows
+    ]
+    return {"rows": shown, "failed": failed}

@@ -8,7 +8,6 @@ from viscotack.errors import InputError
 
 from .parts.closed_form import closed_form
 from .parts.layer import BONDED, THICKNESS, body_of
-from .parts.record_words import record_words
 from .parts.tables import as_text
 from .request import Answer, Caller, Contact, Number, Request, csv_file, picture, quoted
 
@@ -17,9 +16,9 @@ if TYPE_CHECKING:
 
     from viscotack.simulate.crack_contact.by_crack import CrackContact
 
-_RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0, metavar="LENGTH")
-_MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0, metavar="PRESSURE")
-_WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0, metavar="ENERGY")
+_RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0)
+_MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0)
+_WORK = Number('dg0, "0.1523 J/m^2".', unit="J/m^2", above=0)
 
 
 class Jkr(Request):
@@ -111,19 +110,12 @@ class OfDisc(Request):
     word: ClassVar = "theory disc"
     outputs: ClassVar = (picture("Draw the force against the radius of the disc."),)
 
-    radius: Annotated[
-        float, Number('Radius of the disc a, "1 mm".', unit="m", above=0, metavar="LENGTH")
-    ]
+    radius: Annotated[float, Number('Radius of the disc a, "1 mm".', unit="m", above=0)]
     contact_modulus: Annotated[float, _MODULUS]
     work_of_adhesion: Annotated[float, _WORK]
     strength: Annotated[
         float | None,
-        Number(
-            'Of the interface, "50 kPa"; its force limits that of Kendall.',
-            unit="Pa",
-            above=0,
-            metavar="PRESSURE",
-        ),
+        Number('Of the interface, "50 kPa"; its force limits that of Kendall.', unit="Pa", above=0),
     ] = None
     thickness: Annotated[float | None, THICKNESS] = None
     bonded: Annotated[float | None, BONDED] = None
@@ -179,8 +171,7 @@ class Maugis(Request):
     contact_modulus: Annotated[float | None, _MODULUS] = None
     work_of_adhesion: Annotated[float | None, _WORK] = None
     strength: Annotated[
-        float | None,
-        Number('Tension in the ring, "5 MPa".', unit="Pa", above=0, metavar="PRESSURE"),
+        float | None, Number('Tension in the ring, "5 MPa".', unit="Pa", above=0)
     ] = None
     tabor: Annotated[
         float | None,
@@ -188,7 +179,6 @@ class Maugis(Request):
             "Instead of all of them, for dimensionless answers: the Tabor number of a "
             "Lennard-Jones contact of the same work and peak tension.",
             above=0,
-            metavar="MU",
         ),
     ] = None
 
@@ -268,7 +258,6 @@ class OfCrack(Request):
         return Answer(
             found,
             record=lambda: record,
-            words=lambda: record_words(record),
             files={"curve": as_text(lambda: _table(found))},
             pictures={"plot": lambda: _drawn(found)},
             notes=stated.notes,

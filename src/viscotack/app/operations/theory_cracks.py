@@ -41,8 +41,7 @@ class _OfTheory(Reduced):
         tuple[float, ...],
         Number(
             "Crack speed, in the theory's length over the time of the material (a second with "
-            "--modulus-table); repeat it for more. Without it a table over the range that matters.",
-            metavar="V",
+            "--modulus-table); repeat it for more. Without it a table over the range that matters."
         ),
     ] = ()
     modulus_table: Annotated[
@@ -50,8 +49,7 @@ class _OfTheory(Reduced):
         File(
             "Instead of a material: a measured complex modulus, CSV with the header "
             "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). "
-            "The answer is two bounds, for what the solid may do outside of the table.",
-            metavar="FILE",
+            "The answer is two bounds, for what the solid may do outside of the table."
         ),
     ] = None
     rubbery_modulus: Annotated[
@@ -60,7 +58,6 @@ class _OfTheory(Reduced):
             'Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".',
             unit="Pa",
             above=0,
-            metavar="PRESSURE",
         ),
     ] = None
 
@@ -213,14 +210,13 @@ class OfSteadyCrack(Scales):
             "Crack speed in E0* h0^2/(dg tau), tau the time of the material, negative where the "
             "crack closes; with the scales of SI also as '10 um/s'. Repeat it for more. Without "
             "it a table over the range that matters.",
-            metavar="V",
             to=_speed,
         ),
     ] = ()
     law: Annotated[str | None, Option(LAW, metavar="LAW")] = None
-    strength_ratio: Annotated[
-        float, Number("Alpha of Persson and Brener's length.", above=0, metavar="ALPHA")
-    ] = THESIS_RATIO
+    strength_ratio: Annotated[float, Number("Alpha of Persson and Brener's length.", above=0)] = (
+        THESIS_RATIO
+    )
 
     def answer(self, caller: Caller) -> Answer:
         """Solve the crack at the speeds, or over the range that matters."""

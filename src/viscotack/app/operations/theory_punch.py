@@ -10,7 +10,6 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .flags import FLAGS
-from .parts.record_words import record_words
 from .parts.solid import Reduced, passport_of
 from .request import Answer, Caller, File, Named, Number, Option, picture, quoted
 
@@ -39,7 +38,7 @@ class OfPad(Reduced):
     """
 
     word: ClassVar = "theory punch"
-    outputs: ClassVar = (picture("Draw that map to a .png, .pdf or .svg file."),)
+    outputs: ClassVar = (picture("Draw that map."),)
 
     case: Annotated[
         Path | None,
@@ -51,45 +50,31 @@ class OfPad(Reduced):
         ),
     ] = None
     half_width: Annotated[
-        float | None,
-        Number('Half width of the punch a, "1 mm".', unit="m", above=0, metavar="LENGTH"),
+        float | None, Number('Half width of the punch a, "1 mm".', unit="m", above=0)
     ] = None
     thickness: Annotated[
         float | None,
-        Number(
-            'Thickness of the layer b, "200 um": what does it hold?',
-            unit="m",
-            above=0,
-            metavar="LENGTH",
-        ),
+        Number('Thickness of the layer b, "200 um": what does it hold?', unit="m", above=0),
     ] = None
     stress: Annotated[
         float | None,
         Number(
-            'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?',
-            unit="Pa",
-            above=0,
-            metavar="PRESSURE",
+            'Or: wanted pull-off stress, "30 kPa": how thick must the layer be?', unit="Pa", above=0
         ),
     ] = None
-    speed: Annotated[
-        float | None,
-        Number('Retraction speed, "100 um/s".', unit="m/s", above=0, metavar="SPEED"),
-    ] = None
+    speed: Annotated[float | None, Number('Retraction speed, "100 um/s".', unit="m/s", above=0)] = (
+        None
+    )
     contact_modulus: Annotated[
-        float | None,
-        Number('E0* = E0/(1 - nu^2), "1 MPa".', unit="Pa", above=0, metavar="PRESSURE"),
+        float | None, Number('E0* = E0/(1 - nu^2), "1 MPa".', unit="Pa", above=0)
     ] = None
     work_of_adhesion: Annotated[
-        float | None, Number('dg0, "50 mJ/m^2".', unit="J/m^2", above=0, metavar="ENERGY")
+        float | None, Number('dg0, "50 mJ/m^2".', unit="J/m^2", above=0)
     ] = None
     strength: Annotated[
-        float | None,
-        Number('Of the interface, sigma0, "50 kPa".', unit="Pa", above=0, metavar="PRESSURE"),
+        float | None, Number('Of the interface, sigma0, "50 kPa".', unit="Pa", above=0)
     ] = None
-    bonded: Annotated[
-        float | None, Number(FLAGS["bonded"].words, least=0, most=0.5, metavar="NU")
-    ] = None
+    bonded: Annotated[float | None, Number(FLAGS["bonded"].words, least=0, most=0.5)] = None
     material: Annotated[
         Any,
         Named(
@@ -100,9 +85,7 @@ class OfPad(Reduced):
     ] = None
     tau0: Annotated[
         float | None,
-        Number(
-            'Time of the material, "1 ms" (not for prony:FILE).', unit="s", above=0, metavar="TIME"
-        ),
+        Number('Time of the material, "1 ms" (not for prony:FILE).', unit="s", above=0),
     ] = None
     theory: Annotated[
         Literal["greenwood", "persson-brener"], Option("Theory of the moving crack.")
@@ -130,7 +113,7 @@ class OfPad(Reduced):
         return Answer(
             record,
             record=lambda: record,
-            words=lambda: record_words(numbers),
+            words=lambda: numbers,
             pictures={"plot": lambda: draw_regimes(regimes or _map(pad, crack))},
         )
 

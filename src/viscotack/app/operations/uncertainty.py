@@ -65,14 +65,13 @@ class OfUncertainty(Request):
 
     word: ClassVar = "uncertainty"
     outputs: ClassVar = (
-        csv_file("Write a row for each input; - is standard output."),
-        picture("Draw the shares of the variance to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each input."),
+        picture("Draw the shares of the variance."),
     )
     takes_own: ClassVar = True
 
     problem: Annotated[
-        Any,
-        Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case"),
+        Any, Contact("The problem at its stated inputs.", indenters=INDENTERS, spelling="case")
     ]
     scatter: Annotated[
         tuple[str, ...],
@@ -91,8 +90,7 @@ class OfUncertainty(Request):
         ),
     ] = None
     temperature: Annotated[
-        float | None,
-        Number('Temperature, "25 degC"; default: that of the passport.', unit="K", metavar="T"),
+        float | None, Number('Temperature, "25 degC"; default: that of the passport.', unit="K")
     ] = None
     temperature_uncertainty: Annotated[
         float | None,
@@ -101,7 +99,6 @@ class OfUncertainty(Request):
             "material by the shift of the passport.",
             unit="K",
             above=0,
-            metavar="T",
         ),
     ] = None
     study: Annotated[
@@ -112,9 +109,7 @@ class OfUncertainty(Request):
             metavar="STUDY",
         ),
     ] = None
-    confidence: Annotated[
-        float, Number("Fraction inside the band.", above=0, most=0.999, metavar="PART")
-    ] = 0.9
+    confidence: Annotated[float, Number("Fraction inside the band.", above=0, most=0.999)] = 0.9
     samples: Annotated[int, Option("Number of predictions."), Field(ge=6, le=10_000)] = 256
     seed: Annotated[int, Option("Seed of the drawn problems."), Field(ge=0, lt=2**32)] = 0
     budget: Annotated[
@@ -124,7 +119,6 @@ class OfUncertainty(Request):
             unit="s",
             above=0,
             bare=True,
-            metavar="SECONDS",
         ),
     ] = 1.0
 
@@ -169,7 +163,7 @@ class OfUncertainty(Request):
         return Answer(
             found,
             record=lambda: _record(found, rows, unit),
-            words=lambda: _words(found, rows, force.words, unit),
+            words=lambda: _shown(found, rows, force.words, unit),
             files={"csv": rows_as_csv(rows)},
             pictures={"plot": lambda: draw_uncertainty(found)},
         )
@@ -246,18 +240,20 @@ def _record(found: "Uncertainty", rows: list[dict[str, Any]], unit: str) -> dict
     }
 
 
-def _words(found: "Uncertainty", rows: list[dict[str, Any]], force: str, unit: str) -> str:
-    """Return the answer as lines."""
+def _shown(
+    found: "Uncertainty", rows: list[dict[str, Any]], force: str, unit: str
+) -> dict[str, Any]:
+    """Return what the text says of a record."""
     low, high = found.interval
-    tiers = ", ".join(f"{name} ({count})" for name, count in found.methods.items())
-    lines = [
-        f"{force} {readable(found.pull_off_force, unit)}, in {found.confidence:.0%} of the cases "
-        f"{readable(low, unit, to=high)}",
-        f"by {tiers}",
-        "share of the variance of ln(force), alone and with the other inputs:",
-    ]
-    width = max(len(row["input"]) for row in rows)
-    for row in sorted(rows, key=lambda x: -x["total"]):
-        by = "" if row["deviation"] is None else f"  (deviation {row['deviation']:.3g})"
-        lines.append(f"  {row['input']:{width}s}  {row['first']:6.1%}  {row['total']:6.1%}{by}")
-    return "\n".join(lines)
+    return {
+        "words": [
+            f"{force} {readable(found.pull_off_force, unit)}, in {found.confidence:.0%} of the "
+            f"cases {readable(low, unit, to=high)}",
+            "shares of the variance of ln(force), first: alone, total: with the other inputs",
+        ],
+        "inputs": [
+            row | {name: f"{row[name]:.1%}" for name in ("first", "total")}
+            for row in sorted(rows, key=lambda x: -x["total"])
+        ],
+        "methods": dict(found.methods),
+    }

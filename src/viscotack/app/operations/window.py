@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from viscotack.cards import card_of
-from viscotack.model.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .request import Answer, Caller, File, Option, Request, csv_file, number_of, picture
-from .simulate import Accuracy
+from .parts.record_words import read
+from .request import Answer, Caller, File, Option, Request, csv_file, picture
+from .simulate import Accuracy, Limit
 
 
 class OfWindow(Request):
@@ -24,9 +24,9 @@ class OfWindow(Request):
 
     word: ClassVar = "window"
     outputs: ClassVar = (
-        csv_file("Write a row for each speed and preload; - is standard output."),
-        csv_file("Write a row for each critical speed; - is standard output.", "critical"),
-        picture("Draw the map of speed and preload to a .png, .pdf or .svg file."),
+        csv_file("Write a row for each speed and preload."),
+        csv_file("Write a row for each critical speed.", "critical"),
+        picture("Draw the map of speed and preload."),
     )
     takes_own: ClassVar = True
 
@@ -43,7 +43,7 @@ class OfWindow(Request):
         Option("Simulate both contacts in one march where steady cracks do not decide (seconds)."),
     ] = False
     accuracy: Accuracy = DEFAULT_ACCURACY
-    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 60.0
+    time_limit: Limit = 60.0
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every speed and preload of each map, telling ``share``."""
@@ -71,20 +71,19 @@ class OfWindow(Request):
                 )
             )
             chances.append(_chances(each, maps[-1]))
-        cells, critical, parts = [], [], []
+        cells: list[dict[str, Any]] = []
+        critical: list[dict[str, Any]] = []
         for place, found, known in zip(files, maps, chances, strict=True):
             at = _place(*place)
             rows = [_cell(cell) | _yields(known, i) for i, cell in enumerate(found.cells)]
             cells += [at | row for row in rows]
             critical += [at | _critical(each) for each in found.critical_speeds]
-            head = _title(*place)
-            parts.append((head and f"{head}\n") + _words(found) + _yield_words(found, known))
         first = _place(*files[0])
         columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
         return Answer(
             tuple(maps) if stated.variants else maps[0],
             record=lambda: {"cells": cells, "critical_speeds": critical},
-            words=lambda: "\n\n".join(parts),
+            words=lambda: _shown(cells, critical),
             files={
                 "csv": rows_as_csv(cells, columns),
                 "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
@@ -131,91 +130,52 @@ def _yields(chances: tuple[Any, ...], number: int) -> dict[str, Any]:
     return dict(zip(_YIELD, values, strict=True))
 
 
-def _yield_words(found: Any, chances: tuple[Any, ...]) -> str:
-    """Return the best yield of each preload in words."""
-    lines = []
-    for j, load in enumerate(found.preloads):
-        row = chances[j * len(found.speeds) : (j + 1) * len(found.speeds)]
-        for name in ("pick", "print", "transfer"):
-            known = [each for each in row if getattr(each, name) is not None]
-            if known:
-                best = max(known, key=lambda each: getattr(each, name))
-                lines.append(
-                    f"best {name} at {readable(load, 'N', digits=3)}: "
-                    f"{getattr(best, name):.1%} at {readable(best.speed, 'm/s', digits=3)}"
-                )
-    return "".join(f"\n{line}" for line in lines)
-
-
 _NONE = (None, None)
-_YIELD = (
-    "pick_probability",
-    "pick_low",
-    "pick_high",
-    "print_probability",
-    "print_low",
-    "print_high",
-    "transfer_probability",
-)
+_YIELD = ("pick_probability", "pick_low", "pick_high", "print_probability", "print_low")
+_YIELD += ("print_high", "transfer_probability")
 _OF_BASE = ("opens", "tension_N", "held", "method")
-_CELL = (
-    "speed_m_per_s",
-    "preload_N",
-    "word",
-    *(f"{base}_{name}" for base in ("donor", "receiver") for name in _OF_BASE),
-    "why",
-)
-_CRITICAL = (
-    "base",
-    "preload_N",
-    "critical_speed_m_per_s",
-    "low_m_per_s",
-    "high_m_per_s",
-    "opens_below",
-    "opens_above",
-    "method",
-)
+_CELL = ("speed_m_per_s", "preload_N", "word")
+_CELL += tuple(f"{base}_{name}" for base in ("donor", "receiver") for name in _OF_BASE) + ("why",)
+_CRITICAL = ("base", "preload_N", "critical_speed_m_per_s", "low_m_per_s", "high_m_per_s")
+_CRITICAL += ("opens_below", "opens_above", "method")
 
 
 def _cell(cell: Any) -> dict[str, Any]:
     """Return the row of a speed and a preload."""
-    row = dict.fromkeys(_CELL)
-    row |= {"speed_m_per_s": cell.speed, "preload_N": cell.preload, "word": cell.word}
+    row = dict.fromkeys(_CELL) | read(cell, "speed_m_per_s", "preload_N", "word", "why")
     for base in ("donor", "receiver"):
         one = getattr(cell, base)
         if one is not None:
-            opens = None if one.opened is None else (base, "stamp")[one.opened]
-            values = opens, one.tension, one.held, one.method
-            row |= {f"{base}_{name}": x for name, x in zip(_OF_BASE, values, strict=True)}
-    return row | {"why": cell.why}
+            found = read(one, *_OF_BASE[1:])
+            found["opens"] = None if one.opened is None else (base, "stamp")[one.opened]
+            row |= {f"{base}_{name}": x for name, x in found.items()}
+    return row
 
 
 def _critical(one: Any) -> dict[str, Any]:
     """Return the row of a critical speed."""
-    low, high = one.interval
-    values = one.base, one.preload, one.speed, low, high, one.below, one.above, one.method
+    values = one.base, one.preload, one.speed, *one.interval, one.below, one.above, one.method
     return dict(zip(_CRITICAL, values, strict=True))
 
 
-def _words(found: Any) -> str:
-    """Return the map as rows of words, and the critical speeds."""
-    width = max(len(cell.word) for cell in found.cells) + 2
-    speeds = [readable(v, "m/s", digits=3) for v in found.speeds]
-    width = max(width, *(len(each) + 2 for each in speeds))
-    loads = [readable(F, "N", digits=3) for F in found.preloads]
-    first = max(len("preload"), *map(len, loads))
-    lines = [f"{'preload':>{first}}" + "".join(f"{each:>{width}}" for each in speeds)]
-    for j, load in enumerate(loads):
-        words = (found.at(i, j).word for i in range(len(speeds)))
-        lines.append(f"{load:>{first}}" + "".join(f"{word:>{width}}" for word in words))
-    for one in found.critical_speeds:
-        low, high = (
-            None if end is None else readable(end, "m/s", digits=3) for end in one.interval
-        )
-        between = f"{low or 'below the map'} to {high or 'above the map'}"
-        lines.append(
-            f"{one.base} at {readable(one.preload, 'N', digits=3)}: the {one.below} opens below "
-            f"{readable(one.speed, 'm/s', digits=3)} ({between}), the {one.above} above"
-        )
-    reasons = dict.fromkeys(cell.why for cell in found.cells if cell.word == "undecided")
-    return "\n".join([*lines, *(f"undecided: {why}" for why in reasons)])
+def _shown(cells: list[dict[str, Any]], critical: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return what the text says: the map of words, best yields, and critical speeds."""
+    maps: dict[Any, dict[str, Any]] = {}
+    best: dict[Any, dict[str, Any]] = {}
+    for cell in cells:
+        at = {name: cell.get(name) for name in ("temperature_K", "dwell_s", "preload_N")}
+        place, speed = tuple(at.values()), cell["speed_m_per_s"]
+        maps.setdefault(place, dict(at))[readable(speed, "m/s", digits=3)] = cell["word"]
+        for name in ("pick", "print", "transfer"):
+            chance = cell.get(f"{name}_probability")
+            known = best.get((*place, name), {"probability": -1.0})
+            if chance is not None and chance > known["probability"]:
+                row = {"of": name, "probability": chance, "speed_m_per_s": speed}
+                best[(*place, name)] = at | row
+    undecided = {cell["why"]: None for cell in cells if cell["word"] == "undecided"}
+    return {
+        "map": list(maps.values()),
+        "best": list(best.values()),
+        "critical_speeds": critical,
+        "undecided": list(undecided),
+    }

@@ -3,7 +3,6 @@
 from typing import TYPE_CHECKING, Any
 
 from ..request import Answer
-from .record_words import record_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,7 +20,6 @@ def closed_form(
     return Answer(
         found,
         record=lambda: record,
-        words=lambda: _words(record),
         pictures={"plot": lambda: _drawn(curve, labels, logarithmic)},
     )
 
@@ -38,15 +36,3 @@ def _drawn(curve: tuple[Any, Any], labels: tuple[str, str], logarithmic: bool) -
         axes.set_xscale("log")
         axes.set_yscale("log")
     return figure
-
-
-def _words(record: dict[str, Any]) -> str:
-    if not isinstance(next(iter(record.values())), list):
-        return record_words(record)
-    rows = zip(*record.values(), strict=True)
-    lines = ["  ".join(_cell(value) for value in row) for row in rows]
-    return "\n".join(["  ".join(f"{name:>18}" for name in record), *lines])
-
-
-def _cell(value: float | None) -> str:
-    return f"{'-':>18}" if value is None else f"{value:18.6g}"

@@ -33,9 +33,7 @@ class Dma(Request):
         Literal["dma", "relaxation", "creep"] | None,
         Option("Kind of test; default: by the columns."),
     ] = None
-    format: Annotated[
-        str | None, Option("Format of the file, if it is not detected.", metavar="NAME")
-    ] = None
+    format: Annotated[str | None, Option("Format of the file, if it is not detected.")] = None
     kind: Annotated[
         str | None,
         Option(
@@ -45,10 +43,7 @@ class Dma(Request):
     temperature: Annotated[
         float | None,
         Number(
-            "Temperature of the test, if the file does not state it.",
-            unit="K",
-            metavar="T",
-            example="20 degC",
+            "Temperature of the test, if the file does not state it.", unit="K", example="20 degC"
         ),
     ] = None
     frequency_unit: Annotated[
@@ -62,10 +57,7 @@ class Dma(Request):
     ] = None
     temperature_unit: Annotated[
         str | None,
-        Option(
-            "degC, K or degF, if columns or header lines do not state it.",
-            example="degC",
-        ),
+        Option("degC, K or degF, if columns or header lines do not state it.", example="degC"),
     ] = None
     temperature_in_name: Annotated[
         bool, Option("Read the temperature from the name of each file, as in foam_-25C.csv.")
@@ -78,7 +70,6 @@ class Dma(Request):
         Number(
             "Time of the step, if the file counts time from the start of the whole test.",
             unit="s",
-            metavar="TIME",
             example="300 s",
         ),
     ] = 0.0

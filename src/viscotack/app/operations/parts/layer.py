@@ -10,17 +10,13 @@ if TYPE_CHECKING:
     from viscotack.model.geometry import HalfSpace, Layer
 
 THICKNESS = Number(
-    'Thickness of a layer on a rigid base, "60 um"; a half-space when left out.',
-    unit="m",
-    above=0,
-    metavar="LENGTH",
+    'Thickness of a layer on a rigid base, "60 um"; a half-space when left out.', unit="m", above=0
 )
 BONDED = Number(
     "Poisson ratio, 0 to 0.5, of a layer bonded to its base; without this option the layer slides "
     "on its base.",
     least=0,
     most=0.5,
-    metavar="NU",
 )
 
 

@@ -13,11 +13,12 @@ from viscotack.model.problem.changes import Changes, changes_of
 from viscotack.prediction import predict
 from viscotack.prediction.prediction import prediction_summary
 from viscotack.prediction.table import METHOD, WORK, with_interval
-from viscotack.units import readable
 
 from ..request import Answer, Told
 from ..statement import Statement
-from .predict_table import in_sheet, refuse_answered, write_table
+from .predict_table import in_sheet, refuse_answered
+from .record_words import units_of
+from .tables import write_table
 from .workbook import write_workbook
 
 if TYPE_CHECKING:
@@ -27,7 +28,6 @@ Rows = Sequence[Mapping[str, Any]]
 # Of the record of a prediction: what is equal in all rows, or an object.
 _LEFT_OUT = ("problem", "versions")
 _ABOUT = ("method", "inside", "band", "cautions", "why")
-_SHOWN = 40  # rows printed
 
 
 def predict_changes(
@@ -85,7 +85,8 @@ def predict_changes(
     return Answer(
         found,
         record=lambda: record,
-        words=lambda: _words(changes, found, record),
+        words=lambda: _shown(changes, found, record),
+        units=units_of(stated.problem.groups().outputs),
         files={"csv": lambda target: write_table(table, target), "xlsx": in_workbook},
         notes=(*stated.improbable, *changes.notes),
     )
@@ -162,25 +163,18 @@ def _record(found: Rows) -> dict[str, Any]:
     }
 
 
-def _words(changes: Changes, found: Rows, record: Mapping[str, Any]) -> str:
+def _shown(changes: Changes, found: Rows, record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the text says: of each row the pull-off, or why there is none."""
     problem = changes.problem
     outputs = problem.groups().outputs
-    name = f"pull_off_{outputs.name_of('force')}"
-    shown = outputs.observables[name]
-    in_si = problem.scales() is not None
-    tail, unit = (f"_{shown.unit.tail}", shown.unit.si) if in_si else ("", shown.unit.text)
-    lines = []
-    for one in found[:_SHOWN]:
-        inputs, answer = changes.words(one), one["outputs"]
-        if answer is None:
-            lines.append(f"  {inputs}: {one['why']}" if inputs else f"  {one['why']}")
-            continue
-        low, high = answer[f"interval{tail}"]
-        force = readable(answer[f"{name}{tail}"], unit)
-        lines.append(f"  {inputs}: {shown.words} {force} ({readable(low, unit, to=high)})")
-    if (more := len(found) - _SHOWN) > 0:
-        lines.append(f"  and {more} more rows, which --csv and --xlsx write")
-    count = sum(one["why"] != EMPTY for one in found)
-    told = f"{count} rows, {record['inside']} inside what was learned from"
-    told += f", {record['unanswered']} without answer" if record["unanswered"] else ""
-    return "\n".join([*lines, told])
+    name, interval = f"pull_off_{outputs.name_of('force')}", "interval"
+    if problem.scales() is not None:
+        tail = outputs.observables[name].unit.tail
+        name, interval = f"{name}_{tail}", f"{interval}_{tail}"
+    rows = [
+        {"case": changes.words(one)}
+        | {n: (one["outputs"] or {}).get(n) for n in (name, interval)}
+        | {"why": one["why"] if one["outputs"] is None else ""}
+        for one in found
+    ]
+    return {**record, "rows": rows}

@@ -1,7 +1,5 @@
 """Tables of cases without dimensions from files, and back into files with their predictions."""
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
@@ -14,14 +12,13 @@ import numpy.typing as npt
 
 from viscotack.campaign.listed import EMPTY, read_words
 from viscotack.errors import InputError
-from viscotack.files.text import cell
-from viscotack.files.whole import Target, write_whole, writing_whole
+from viscotack.files.whole import Target, writing_whole
 from viscotack.model.problem.kinds import plain_heading
 from viscotack.prediction.table import answers_of, kind_of, predict_table
 from viscotack.units import is_number
 
 from ..request import Answer, Told
-from .tables import Writer
+from .tables import Writer, columns_text
 from .workbook import write_workbook
 
 # Rows in memory at a time.
@@ -76,7 +73,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
     def answered(file: Target) -> None:
         with writing_whole(file) as stream:
             for number, table in enumerate(blocks()):
-                stream.write(_text(table, header=not number))
+                stream.write(columns_text(table, header=not number))
 
     def in_workbook(file: Target) -> None:
         columns: dict[str, list[Any]] = {}
@@ -97,7 +94,7 @@ def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) ->
         }
 
     files: dict[str, Writer] = {"csv": answered, "xlsx": in_workbook}
-    return Answer(methods, record=record, words=lambda: _words(record()), files=files)
+    return Answer(methods, record=record, files=files)
 
 
 def refuse_answered(where: Any, headings: Iterable[str], answers: Iterable[str]) -> None:
@@ -121,15 +118,6 @@ def _rows_told(tell: Callable[[Told], None], before: int, done: int, count: int)
     tell({"words": f"{before + done} of {before + count} rows answered"})
 
 
-def _words(answer: Mapping[str, Any]) -> str:
-    lines = [f"{answer['rows']} rows, {answer['inside']} inside what was learned from"]
-    for method, count in answer["methods"].items():
-        lines.append(f"  {method:<14}{count:>8}")
-    if answer["unanswered"]:
-        lines.append(f"  {'no answer':<14}{answer['unanswered']:>8}  reasons in the column why")
-    return "\n".join(lines)
-
-
 def _answers(
     path: Path,
     given: Mapping[str, list[str]],
@@ -148,28 +136,6 @@ def _answers(
         if wrong:
             found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
     return found
-
-
-def write_table(table: Mapping[str, Any], path: Target) -> None:
-    """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
-    write_whole(path, _text(table, header=True))
-
-
-def _text(table: Mapping[str, Any], *, header: bool) -> bytes:
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    if header:
-        rows.writerow(map(cell, table))
-    rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
-    return text.getvalue().encode()
-
-
-def _cells(values: Any) -> list[Any]:
-    if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
-        return [cell(value) if isinstance(value, str) else value for value in values]
-    if values.dtype.kind == "b":
-        return ["true" if value else "false" for value in values.tolist()]
-    return ["" if value != value else value for value in values.tolist()]
 
 
 def _numbers(words: list[str]) -> npt.NDArray[np.float64]:

@@ -9,25 +9,11 @@ from typing import Any
 from viscotack.units import readable
 
 from .json_data import plain
+from .record_words import read, rows_of
 
-# name in Python -> name in tables, with the unit
-_MEASURED = {
-    "pull_off_force": "pull_off_force_N",
-    "depth_at_pull_off": "depth_at_pull_off_m",
-    "work_to_pull_off": "work_to_pull_off_J",
-    "work_of_separation": "work_of_separation_J",
-    "preload": "preload_N",
-    "preload_depth": "preload_depth_m",
-    "speed": "speed_m_s",
-    "mean_speed": "mean_speed_m_s",
-}
-_PLAIN = {
-    "pull_off_raw": "pull_off_raw_N",
-    "dwell_time": "dwell_time_s",
-    "approach_speed": "approach_speed_m_s",
-    "noise": "noise_N",
-    "temperature": "temperature_K",
-}
+_MEASURED = ("pull_off_force_N", "depth_at_pull_off_m", "work_to_pull_off_J")
+_MEASURED += ("work_of_separation_J", "preload_N", "preload_depth_m", "speed_m_s", "mean_speed_m_s")
+_PLAIN = ("pull_off_raw_N", "dwell_time_s", "approach_speed_m_s", "noise_N", "temperature_K")
 
 
 def passport_record(passport: Any) -> dict[str, Any]:
@@ -67,10 +53,9 @@ def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[
     With a radius JKR's work is among them, and with a shift law the speed a_T v.
     """
     row: dict[str, Any] = {"cycle": cycle.number}
-    for name, column in _MEASURED.items():
-        one = getattr(cycle, name)
-        row[column], row[f"{column}_uncertainty"] = one.value, one.uncertainty
-    row |= {column: getattr(cycle, name) for name, column in _PLAIN.items()}
+    for name, one in read(cycle, *_MEASURED).items():
+        row |= {name: one.value, f"{name}_uncertainty": one.uncertainty}
+    row |= read(cycle, *_PLAIN)
     if law is not None and cycle.temperature is not None:
         factor = 10.0 ** float(law.log10_shift(cycle.temperature))
         row["shifted_speed_m_s"] = factor * cycle.speed.value
@@ -147,14 +132,13 @@ def series_record(table: Any) -> dict[str, Any]:
     }
 
 
-def series_rows(table: Any) -> list[tuple[str, Any]]:
-    """Return names and values of the record of a series, the exponents each by temperature."""
-    record = series_record(table)
-    rows = [(name.replace("_", " "), record[name]) for name in record if name != "exponents"]
-    for one in record["exponents"] if len(table.series) > 1 else ():
+def series_rows(record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return names and values of the record of a series as rows, exponents by temperature."""
+    rows = {name: x for name, x in record.items() if name != "exponents"}
+    for one in record["exponents"] if len(record["exponents"]) > 1 else ():
         at = "" if one["temperature_K"] is None else f" at {one['temperature_K']:.5g} K"
-        rows += [(f"{x.replace('_', ' ')}{at}", one[x]) for x in one if x != "temperature_K"]
-    return rows
+        rows |= {f"{name}{at}": x for name, x in one.items() if name != "temperature_K"}
+    return [{"quantity": name.replace("_", " "), "value": x} for name, x in rows.items()]
 
 
 def tests_record(found: Any, table: Any, radius: float | None, law: Any = None) -> dict[str, Any]:
@@ -187,16 +171,10 @@ def slow_record(fit: Any) -> dict[str, Any]:
 
     The work is None where it is an upper bound, or undetermined between the models in "alike".
     """
+    names = ("model", "work_of_adhesion_J_m2", "contact_modulus_Pa", "tabor", "scatter_N")
     fits = [
-        {
-            "model": one.model,
-            "work_of_adhesion_J_m2": one.work_of_adhesion,
-            "contact_modulus_Pa": one.contact_modulus,
-            "tabor": one.tabor,
-            "scatter_N": one.scatter,
-            "criterion": one.criterion,
-            "intervals": {name: asdict(interval) for name, interval in one.intervals.items()},
-        }
+        read(one, *names, "criterion")
+        | {"intervals": {name: asdict(interval) for name, interval in one.intervals.items()}}
         for one in fit.fits
     ]
     return {
@@ -269,44 +247,29 @@ def _series_record(fit: Any) -> dict[str, Any]:
 
 def forecast_rows(forecast: Any) -> list[dict[str, float]]:
     """Return a row for each speed of a forecast."""
-    found = [forecast.speed, forecast.force, forecast.low, forecast.high]
-    names = ["speed_m_s", "pull_off_force_N", "low_N", "high_N"]
-    if forecast.low_of_one is not None:
-        found += [forecast.low_of_one, forecast.high_of_one]
-        names += ["low_of_one_test_N", "high_of_one_test_N"]
-    columns = zip(*found, strict=True)
-    return [dict(zip(names, map(float, row), strict=True)) for row in columns]
+    columns = {
+        "speed_m_s": forecast.speed,
+        "pull_off_force_N": forecast.force,
+        "low_N": forecast.low,
+        "high_N": forecast.high,
+        "low_of_one_test_N": forecast.low_of_one,
+        "high_of_one_test_N": forecast.high_of_one,
+    }
+    return rows_of({name: x for name, x in columns.items() if x is not None})
 
 
 def _layer_record(body: Any) -> dict[str, Any] | None:
     """Return thickness and base of a layer, None for a half-space."""
     if body.word != "layer":
         return None
-    return {
-        "thickness_m": body.thickness,
-        "base": body.base.word,
-        "poisson_ratio": body.poisson_ratio,
-    }
+    return read(body, "thickness_m", "poisson_ratio") | {"base": body.base.word}
 
 
 def _growth_record(found: Any) -> dict[str, Any]:
     """Return the growth of the interface with speed."""
-    grows = isfinite(found.reference_speed)
-    return {
-        "strengthening": found.strengthening,
-        "opening_speed_m_s": found.opening_speed,
-        "exponent": found.exponent,
-        "reference_speed_m_s": found.reference_speed if grows else None,
-        "better_by": found.better_by,
-        "chance": found.chance,
-        "shares": [
-            {
-                "speed_m_s": one.speed,
-                "edge_speed_m_s": one.edge_speed,
-                "energy": one.energy,
-                "bulk": one.bulk,
-                "interface": one.interface,
-            }
-            for one in found.shares
-        ],
-    }
+    names = ("strengthening", "opening_speed_m_s", "exponent", "reference_speed_m_s")
+    shares = ("speed_m_s", "edge_speed_m_s", "energy", "bulk", "interface")
+    record = read(found, *names, "better_by", "chance")
+    if not isfinite(found.reference_speed):
+        record["reference_speed_m_s"] = None
+    return record | {"shares": [read(one, *shares) for one in found.shares]}

@@ -64,19 +64,14 @@ class Rig(Request):
         str | None, Text("Unit such as s, if not in the file.", to=_unit_of("time"))
     ] = None
     force_column: Annotated[
-        str | None,
-        Option("Heading or number of the force column, if not detected.", metavar="NAME"),
+        str | None, Option("Heading or number of the force column, if not detected.")
     ] = None
     position_column: Annotated[
         str | None,
-        Option(
-            "Heading or number of the gap, depth or travel column, if there are several.",
-            metavar="NAME",
-        ),
+        Option("Heading or number of the gap, depth or travel column, if there are several."),
     ] = None
     time_column: Annotated[
-        str | None,
-        Option("Heading or number of the time column, if not detected.", metavar="NAME"),
+        str | None, Option("Heading or number of the time column, if not detected.")
     ] = None
     decimal: Annotated[
         str | None, Option("Decimal mark, if 1,234 is ambiguous.", metavar=",|.")
@@ -84,18 +79,12 @@ class Rig(Request):
     where: Where = None
     nominal_speed: Annotated[
         float | None,
-        Number(
-            'Nominal speed, "10 um/s", if a file has no time; it is not checked.',
-            unit="m/s",
-            metavar="SPEED",
-        ),
+        Number('Nominal speed, "10 um/s", if a file has no time; it is not checked.', unit="m/s"),
     ] = None
     spring_constant: Annotated[
         float | None,
         Number(
-            "Spring constant of a cantilever, if its file does not state it (NT-MDT).",
-            unit="N/m",
-            metavar="STIFFNESS",
+            "Spring constant of a cantilever, if its file does not state it (NT-MDT).", unit="N/m"
         ),
     ] = None
     sensitivity: Annotated[
@@ -104,7 +93,6 @@ class Rig(Request):
             'Deflection by signal of a cantilever, "50 nm/nA", if its file does not state it '
             "(NT-MDT).",
             unit="m/A",
-            metavar="LENGTH/CURRENT",
         ),
     ] = None
     temperature_in_name: Annotated[
@@ -120,7 +108,6 @@ class Rig(Request):
             'Compliance of the rig, "2 um/N", measured on a stiff sample; corrects the depth. '
             "For a cantilever with a stiffness in its file the correction is automatic.",
             unit="m/N",
-            metavar="LENGTH/FORCE",
         ),
     ] = None
     compliance_uncertainty: Annotated[
@@ -129,7 +116,6 @@ class Rig(Request):
             "Standard uncertainty of the compliance; propagated to depths and works, and by "
             "`identify rates` to the interface, there 10 % by default.",
             unit="m/N",
-            metavar="LENGTH/FORCE",
         ),
     ] = 0.0
     into: Annotated[
@@ -149,8 +135,7 @@ class Rig(Request):
         ),
     ] = 0
     retraction_only: Annotated[
-        bool,
-        Option("Accept curves without approach; the force zero is then taken after pull-off."),
+        bool, Option("Accept curves without approach; the force zero is then taken after pull-off.")
     ] = False
 
     @property

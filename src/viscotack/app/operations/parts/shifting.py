@@ -42,7 +42,6 @@ class ShiftLaw(Request):
             'Temperature of the master curve, "20 degC"; required for a shift, and for a DMA at '
             "several temperatures.",
             unit="K",
-            metavar="T",
         ),
     ] = None
     glass_transition: Annotated[
@@ -50,7 +49,6 @@ class ShiftLaw(Request):
         Number(
             'Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC".',
             unit="K",
-            metavar="T",
         ),
     ] = None
     wlf: Annotated[
@@ -61,9 +59,7 @@ class ShiftLaw(Request):
             to=_constants,
         ),
     ] = None
-    shift_file: Annotated[Path | None, File("Shift by this table of log_aT.", metavar="FILE")] = (
-        None
-    )
+    shift_file: Annotated[Path | None, File("Shift by this table of log_aT.")] = None
 
     def check(self) -> None:
         """Check that at most one shift is given, with its reference temperature."""
@@ -109,7 +105,7 @@ class Shifting(ShiftLaw):
         Option(
             "Quantity that must superpose where shifts are fitted to the overlap of the sweeps, as "
             "they are by default. Default without --vertical: both, or storage if it is clearly "
-            "more causal.",
+            "more causal."
         ),
     ] = None
     vertical: Annotated[
@@ -124,11 +120,7 @@ class Shifting(ShiftLaw):
     ] = None
     leave_out: Annotated[
         tuple[float, ...],
-        Number(
-            'Exclude the sweep at this temperature, "-30 degC". Can be repeated.',
-            unit="K",
-            metavar="T",
-        ),
+        Number('Exclude the sweep at this temperature, "-30 degC". Can be repeated.', unit="K"),
     ] = ()
 
     def check(self) -> None:

@@ -54,10 +54,8 @@ class Reduced(Request):
             metavar="MATERIAL",
         ),
     ] = None
-    modulus_ratio: Annotated[
-        float | None, Number(FLAGS["modulus-ratio"].words, above=0, metavar="K")
-    ] = None
-    exponent: Annotated[float | None, Number(FLAGS["exponent"].words, above=0, metavar="N")] = None
+    modulus_ratio: Annotated[float | None, Number(FLAGS["modulus-ratio"].words, above=0)] = None
+    exponent: Annotated[float | None, Number(FLAGS["exponent"].words, above=0)] = None
 
     @property
     def given(self) -> dict[str, Any]:

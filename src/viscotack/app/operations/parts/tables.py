@@ -2,8 +2,12 @@
 
 import csv
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscotack.files.text import cell
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
@@ -36,3 +40,28 @@ def as_text(text: Callable[[], str]) -> Writer:
         write_whole(target, text().encode())
 
     return write
+
+
+def write_table(table: Mapping[str, Any], path: "Target") -> None:
+    """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
+    from viscotack.files.whole import write_whole
+
+    write_whole(path, columns_text(table, header=True))
+
+
+def columns_text(table: Mapping[str, Any], *, header: bool) -> bytes:
+    """Return columns as CSV, with their names above."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    if header:
+        rows.writerow(map(cell, table))
+    rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
+    return text.getvalue().encode()
+
+
+def _cells(values: Any) -> list[Any]:
+    if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
+        return [cell(value) if isinstance(value, str) else value for value in values]
+    if values.dtype.kind == "b":
+        return ["true" if value else "false" for value in values.tolist()]
+    return ["" if value != value else value for value in values.tolist()]

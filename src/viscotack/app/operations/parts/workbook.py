@@ -9,18 +9,13 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError, install_command
 from viscotack.units import prefixed
 
+from .record_words import quantity_of, spelled
 from .tables import Writer
 
 if TYPE_CHECKING:
     from viscotack.files.whole import Target
 
 Rows = Sequence[Mapping[str, Any]]
-# Names of columns such as pull_off_force_N or pull_off_force_N_uncertainty.
-_UNITS = {"J_m2": "J/m2", "m_s": "m/s", "N": "N", "J": "J", "m": "m", "s": "s", "K": "K"}
-_NAME = re.compile(
-    rf"(.+?)_({'|'.join(_UNITS)})(?:_(uncertainty|mean|weighted_mean|standard_deviation))?"
-)
-_SPELLED = {"pull off": "pull-off", "jkr": "JKR"}
 _WIDEST = 60  # characters of a column
 # Control characters are not allowed in the XML of a workbook.
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
@@ -82,15 +77,13 @@ def headed(rows: Rows) -> dict[str, list[Any]]:
     columns = {name: [row[name] for row in rows] for name in rows[0]}
     found = {}
     for name, values in columns.items():
-        match = _NAME.fullmatch(name)
-        if match is None:
-            found[_words(name)] = values
+        quantity, unit, more = quantity_of(name)
+        if unit == "1":
+            found[spelled(name)] = values
             continue
-        quantity, unit, more = match.groups()
-        factor, written = prefixed(_size(columns, f"{quantity}_{unit}"), _UNITS[unit])
-        heading = _words(" ".join(filter(None, (quantity, more))))
+        factor, written = prefixed(_size(columns, name.removesuffix(f"_{more}")), unit)
         scaled = [None if value is None else value / factor for value in values]
-        found[f"{heading} [{written}]"] = scaled
+        found[f"{spelled(f'{quantity} {more}')} [{written}]"] = scaled
     return found
 
 
@@ -100,10 +93,3 @@ def _size(columns: Mapping[str, list[Any]], quantity: str) -> float:
     sizes = [abs(value) for value in values if value]
     # 999.9997 nm/s is written as 1 um/s
     return float(f"{median(sizes):.3g}") if sizes else 0.0
-
-
-def _words(name: str) -> str:
-    words = name.replace("_", " ")
-    for plain, spelled in _SPELLED.items():
-        words = words.replace(plain, spelled)
-    return words
