@@ -36,6 +36,11 @@ class Curve:
         return int(self.force.argmin())
 
     @property
+    def pull_off_force(self) -> float:
+        """Largest tension [N]."""
+        return -float(self.force.min())
+
+    @property
     def retraction(self) -> int:
         """Index of the first sample of the last motion out of the solid."""
         step = np.diff(self.drive[: self.pull_off])
@@ -50,8 +55,8 @@ class Curve:
     @property
     def jump_in_force(self) -> float:
         """Largest tension before the first compression [N]."""
-        first = int((self.force[self.jump_in :] > 0).argmax())
-        return -float(self.force[self.jump_in : self.jump_in + first].min())
+        after = self.force[self.jump_in + 1 :]
+        return -float(after[: int((after > 0).argmax())].min())
 
     @property
     def contact_time(self) -> float:
