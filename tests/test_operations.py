@@ -74,6 +74,9 @@ NOT_DRAWN = {
     "campaign run": [{"plan": "plan.toml", "out": "study", "workers": 2}],
     "campaign status": [{"folder": "study"}],
     "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
+    "identify approach": [
+        {"files": ["lens_slow.csv"], "radius": "5.19 mm", "contact_modulus": "1.944 MPa"}
+    ],
     "identify dwell": [RATES],
     "identify rates": [RATES, RATES | {"thickness": "300 um", "bonded": 0.49}],
     "material fit": [DMA | SHIFTED],

@@ -10,11 +10,13 @@ result        ``rate_fit``, ``forecasting``, ``ranked_tests``
 sentences     ``rate_words``, ``slow_words``
 ============  ======================================================================
 
-One slow test goes through ``slow_tests`` and ``contacts``, tests after several dwells through
-``contact_time``. ``study`` does all for the files of a rig, ``computed`` keeps forces for the next
-time, and ``speed_table`` has the statistics that laboratories report.
+One slow test goes through ``slow_tests`` and ``contacts``, an approach through ``approach``, tests
+after several dwells through ``contact_time``. ``study`` does all for the files of a rig,
+``computed`` keeps forces for the next time, and ``speed_table`` has the statistics that
+laboratories report.
 """
 
+from .approach import ApproachFit, Attraction, attraction, identify_approach
 from .contact_time import DwellFit, identify_dwell
 from .forecasting import RateForecast, forecast_rates, interfaces
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
@@ -25,6 +27,8 @@ from .rate_series import RateSeries
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [
+    "ApproachFit",
+    "Attraction",
     "Best",
     "DwellFit",
     "Interval",
@@ -41,8 +45,10 @@ __all__ = [
     "SlowTest",
     "SlowTestFit",
     "Trial",
+    "attraction",
     "fitted_force",
     "forecast_rates",
+    "identify_approach",
     "identify_dwell",
     "identify_rates",
     "identify_slow",

@@ -94,6 +94,9 @@ SECTIONS: Mapping[str, Mapping[str, Listed]] = {
         "identify rates": Listed(
             "identify", "Identify the interface from tests at several speeds."
         ),
+        "identify approach": Listed(
+            "identify_approach", "Bound the range of attraction by the approach."
+        ),
         "identify dwell": Listed("identify_dwell", "Identify the growth with contact time."),
         "forecast": Listed("forecast", "Forecast pull-off forces from a measured rate series."),
         "next-test": Listed("next_test", "Rank tests by how much each narrows a forecast."),
