@@ -20,6 +20,7 @@ from rate_tests import (
     holds,
     linear,
     measured,
+    of_other,
 )
 from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
@@ -53,6 +54,15 @@ def test_forces_of_single_cracks_give_back_the_interface(material, tabor):
     assert fit.equilibrium_gap == pytest.approx(GAP, rel=0.02)
     # (R w^2/E0*^2)^(1/3)/h0
     assert fit.tabor == pytest.approx(tabor, rel=0.02)
+
+
+def test_an_approach_that_excludes_the_fitted_range_makes_it_a_zone_length():
+    fit = fitted(linear(), 0.01)
+    for bound, is_zone in ((0.5 * GAP, True), (2 * GAP, False)):
+        known = of_other(fit, range_bound=bound)
+        assert known.is_zone_length is is_zone
+        assert known.equilibrium_gap == fit.equilibrium_gap
+        assert len(known.words) == len(fit.words) + is_zone
 
 
 def test_a_slow_test_beside_the_series_narrows_the_range():

@@ -1,22 +1,27 @@
 """A study: the files and settings of a series of tack tests, and its evaluation."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from viscotack.errors import InputError
-from viscotack.lab.tack import Survey, survey
+from viscotack.lab.tack import Cycle, Survey, survey
 from viscotack.model.geometry import HalfSpace, Layer
 from viscotack.model.materials import Material
 from viscotack.model.materials.library import passport_of
 from viscotack.model.materials.passport import Passport
 
+from .approach import identify_approaches
 from .computed import Computed
 from .contact_time import check_dwells
 from .pull_off import pull_offs
 from .rate_fit import RateSeriesFit, identify_rates
 from .rate_series import RateSeries
+
+_APPROACHES = 3  # number of cycles whose approach bounds the range
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,12 +150,27 @@ def answer(study: Study, kept: Path | None = None) -> Answer:
             history=study.history,
             scatter=study.scatter,
             level=study.level,
+            range_bound=_range_bound(study, found.cycles, solid),
         ),
         computed=computed,
     )
     if kept is not None:
         computed.write(kept)
     return Answer(study, found, fit, computed)
+
+
+def _range_bound(study: Study, cycles: Sequence[Cycle], solid: Passport | Material) -> float | None:
+    """Return the upper bound of h0 from the approaches [m], the median of a few; None without."""
+    if isinstance(study.body, Layer):
+        return None
+    material = solid.material if isinstance(solid, Passport) else solid
+    fits, _ = identify_approaches(
+        cycles[:: max(len(cycles) // _APPROACHES, 1)][:_APPROACHES],
+        radius=study.radius,
+        contact_modulus=material.contact_modulus,
+        level=study.level,
+    )
+    return float(np.median([fit.bound for fit in fits])) if fits else None
 
 
 def _relative(evaluation: Mapping[str, Any], compliance: float) -> float | None:

@@ -227,6 +227,7 @@ def rates_record(fit: Any) -> dict[str, Any]:
         "scatter_between_speeds": fit.between_speeds,
         "trend": fit.trend,
         "describes_tests": not fit.misfit,
+        "range_bound_m": fit.given.range_bound,
         "solutions": [dict(one.values) for one in fit.solutions],
         "series": [
             {
