@@ -4,7 +4,8 @@
 in the git directory of github.com/Tour712/Nanoindentation_Analysis and writes `predictions.csv`.
 Three minutes.
 Without `--predict` it reads the tests at the other speeds too, and writes `comparison.csv` and
-`comparison.png`, from the predictions that are kept.
+`comparison.png`, from the predictions that are kept. `--cycles` simulates nine cycles of partial
+unloading beside a single test.
 """
 
 import argparse
@@ -13,6 +14,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from .comparison import draw, table
+from .cycles import grown
 from .prediction import (
     SINGLE,
     exact_sphere_over_parabola,
@@ -56,7 +58,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("repository", type=Path, help="git directory of the raw curves")
     parser.add_argument("--predict", action="store_true", help="predict, and open no other speed")
+    parser.add_argument("--cycles", action="store_true", help="simulate cycles on PDMS")
     chosen = parser.parse_args()
+    if chosen.cycles:
+        for name, force, time in grown(measured(chosen.repository, "PDMS")):
+            print(f"{name}: {force:.4f} of the force after {time:.2f} times as long in contact")
+        return
     if chosen.predict:
         predict(chosen.repository)
         return
