@@ -11,7 +11,8 @@ monotonic where the drive turns back. A rigid solid far apart jumps at :math:`P 
 relaxed modulus gives the largest range for a force, and the modulus at once the smallest.
 
 The work of adhesion lies between that which the tension after the jump-in needs, where adhesion
-closes the contact and the solid takes a part of it, and that of the pull-off.
+closes the contact and the solid takes a part of it, and that of the pull-off. The baseline of the
+force is a straight line: a curved one is read as attraction.
 """
 
 from collections.abc import Sequence
