@@ -218,3 +218,19 @@ def test_the_operation_bounds_the_range(file):
     assert record["bound_m"] == pytest.approx(identify_approach(cycle, **SOLID).bound, rel=0.1)
     with pytest.raises(InputError, match="contact_modulus"):
         ask("identify approach", **given)
+
+
+def test_a_rate_series_knows_the_bound_of_its_approaches(file, monkeypatch):
+    path, cycle = file
+    known = []
+
+    def series(tests, **options):
+        known.append(options["range_bound"])
+        raise InputError("enough")
+
+    monkeypatch.setattr("viscotack.identify.study.RateSeries", series)
+    rubber = '[material]\nmodel = "elastic"\nrubbery_modulus = "1.47 MPa"\npoisson_ratio = 0.5\n'
+    given = {"files": [str(path)], "radius": "7.5 um", "spring_constant": "3.01 N/m"}
+    with pytest.raises(InputError, match="enough"):
+        ask("identify rates", **given, material=rubber)
+    assert known == [pytest.approx(identify_approach(cycle, **SOLID).bound, rel=0.1)]
