@@ -22,6 +22,7 @@ from rate_tests import (
     holds,
     linear,
     measured,
+    of_other,
 )
 from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
@@ -70,6 +71,15 @@ def test_the_effect_of_a_machine_follows_powers_of_work_and_range():
     found, _ = yielding_near(series, forward, Interface(0.05, 1e-8, None))
     at = {"work_of_adhesion": 0.07, "equilibrium_gap": 3e-8}
     assert found(at) == pytest.approx(ratio(0.07, 3e-8), rel=1e-9)
+
+
+def test_an_approach_that_excludes_the_fitted_range_makes_it_a_zone_length():
+    fit = fitted(linear(), 0.01)
+    for bound, is_zone in ((0.5 * GAP, True), (2 * GAP, False)):
+        known = of_other(fit, range_bound=bound)
+        assert known.is_zone_length is is_zone
+        assert known.equilibrium_gap == fit.equilibrium_gap
+        assert len(known.words) == len(fit.words) + is_zone
 
 
 def test_a_slow_test_beside_the_series_narrows_the_range():

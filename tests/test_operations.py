@@ -81,6 +81,11 @@ NOT_DRAWN = {
         "radius": "5.19 mm",
         "contact_modulus": "2 MPa",
     },
+    "identify approach": {
+        "files": ["lens_slow.csv"],
+        "radius": "5.19 mm",
+        "contact_modulus": "1.944 MPa",
+    },
     "rough": {"file": "bumps.toml", "accuracy": 0.02},
     "uncertainty": {"problem": "lens.toml", "scatter": ["sphere.radius 2 %"], "samples": 16},
     "window": {"file": "kinetic_stamp.toml"},

@@ -10,10 +10,11 @@ result        ``series_fit``, ``rate_fit``, ``edge_fit``, ``forecasting``, ``ran
 sentences     ``rate_words``, ``slow_words``
 ============  ======================================================================
 
-One slow test goes through ``slow_tests`` and ``contacts``, tests after several dwells through
-``contact_time``. ``computed`` keeps forces for the next time.
+One slow test goes through ``slow_tests`` and ``contacts``, an approach through ``approach``, tests
+after several dwells through ``contact_time``. ``computed`` keeps forces for the next time.
 """
 
+from .approach import ApproachFit, Attraction, attraction, identify_approach
 from .contact_time import DwellFit, identify_dwell
 from .edge_fit import EdgeFit, identify_edge
 from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
@@ -25,6 +26,8 @@ from .rate_series import RateSeries
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [
+    "ApproachFit",
+    "Attraction",
     "Best",
     "DwellFit",
     "EdgeFit",
@@ -42,9 +45,11 @@ __all__ = [
     "SlowTest",
     "SlowTestFit",
     "Trial",
+    "attraction",
     "fitted_force",
     "forecast_edge",
     "forecast_rates",
+    "identify_approach",
     "identify_dwell",
     "identify_edge",
     "identify_rates",

@@ -89,6 +89,12 @@ class RateSeriesFit(SeriesFit):
         return self.found.search.ratio(self.best.values)
 
     @property
+    def is_zone_length(self) -> bool:
+        """Whether the approach excludes every h0 that fits the forces."""
+        bound = self.given.range_bound
+        return bound is not None and self.intervals["equilibrium_gap"].low > bound
+
+    @property
     def misfit(self) -> str:
         """Sentence on tests that the fit does not describe; empty if it describes them."""
         return "" if self.describes_tests else misfit_words(self)

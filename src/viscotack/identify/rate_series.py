@@ -77,6 +77,9 @@ class RateSeries:
         forces have the error of their interpolation.
     level : float
         Confidence level of the intervals.
+    range_bound : float, optional
+        Upper bound of h0 [m] from the approach (:func:`.identify_approach`). It is compared with
+        the fitted range, and changes no number.
 
     Raises
     ------
@@ -102,6 +105,7 @@ class RateSeries:
     scatter: float = 0.0
     theory: float | None = None
     level: float = 0.9
+    range_bound: float | None = None
 
     def __post_init__(self) -> None:
         self.passport.refuse_liquid("a rate series cannot be identified: contacts do not relax")

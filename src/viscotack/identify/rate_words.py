@@ -50,6 +50,7 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
         said.append("the material is assumed exact, because its uncertainty is unknown")
     return [
         *said,
+        *_of_approach(fit),
         *_of_scatter(fit),
         *_of_edge(fit),
         *_of_solutions(fit),
@@ -214,6 +215,18 @@ def _of_growth(found: FoundGrowth) -> list[str]:
             f"a factor {one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
         )
     return said
+
+
+def _of_approach(fit: RateSeriesFit) -> list[str]:
+    """Return a caution if the approach excludes the fitted range."""
+    bound = fit.given.range_bound
+    if bound is None or not fit.is_zone_length:
+        return []
+    return [
+        f"the approach bounds the range of attraction at {readable(bound, 'm', digits=2)}, below "
+        f"every h0 that fits the forces: the fitted {readable(fit.equilibrium_gap, 'm', digits=3)} "
+        "is a length of the crack's zone, not a range of attraction"
+    ]
 
 
 def _of_scatter(fit: RateSeriesFit | EdgeFit) -> list[str]:

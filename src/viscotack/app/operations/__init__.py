@@ -98,6 +98,9 @@ SECTIONS: Mapping[str, Mapping[str, Listed]] = {
             "identify",
             "Identify the plain edge law from pull-offs at several speeds, without a dynamic test.",
         ),
+        "identify approach": Listed(
+            "identify_approach", "Bound the range of attraction by the approach."
+        ),
         "identify dwell": Listed("identify_dwell", "Identify the growth with contact time."),
         "forecast": Listed("forecast", "Forecast pull-off forces from a measured rate series."),
         "next-test": Listed("next_test", "Rank tests by how much each narrows a forecast."),

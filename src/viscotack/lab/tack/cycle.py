@@ -64,6 +64,8 @@ class Cycle:
         Origin of the numbers; its notes list all decisions.
     temperature : float or None
         Mean temperature of the cycle [K]; None where the file states none.
+    compliance : float
+        Compliance of the rig between drive and contact, subtracted from the depth [m/N].
     cautions : tuple of str
         Signs that the theories of a closing edge do not hold.
     """
@@ -89,6 +91,7 @@ class Cycle:
     noise: float
     source: Source
     temperature: float | None = None
+    compliance: float = 0.0
     cautions: tuple[str, ...] = ()
 
     @property

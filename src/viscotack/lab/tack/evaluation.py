@@ -234,6 +234,7 @@ def _cycle(
         noise=law.noise,
         source=record.source.noted(*notes, *changes),
         temperature=temperature,
+        compliance=compliance,
         cautions=_fibrils(force, way, crossing, at, own.end),
     )
 

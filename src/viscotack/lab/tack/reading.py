@@ -16,7 +16,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.formats import afm, ibw, jpk, jpk_text, nid, tables, text, workbook
+from viscotack.lab.formats import afm, ibw, jpk, jpk_text, mems_text, nid, tables, text, workbook
 from viscotack.lab.formats.columns import Columns, refuse_pooled
 from viscotack.lab.formats.file import Curve, LabFile, first_fitting, load
 from viscotack.lab.formats.headings import POSITIONS, TACK
@@ -34,6 +34,7 @@ _MICROSCOPES: dict[str, Callable[[LabFile, TackOptions], list[Curve] | None]] = 
     "afmformats": afm.curves,
     "jpk-force": jpk.curves,
     "jpk-text": jpk_text.curves,
+    "mems-text": mems_text.curves,
     "nid": nid.curves,
     "ibw": ibw.curves,
 }

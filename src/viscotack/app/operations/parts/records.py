@@ -199,6 +199,7 @@ def rates_record(fit: Any) -> dict[str, Any]:
     return {
         **interface_record(fit),
         "tabor": fit.tabor,
+        "range_bound_m": fit.given.range_bound,
         **_series_record(fit),
         "criterion_of_edge_law": None if fit.edge is None else fit.edge.criterion,
         "layer": _layer_record(fit.forward.body),

@@ -1,0 +1,103 @@
+"""The operation ``identify approach``: range of attraction from the forces before the contact."""
+
+from typing import Annotated, Any, ClassVar
+
+from viscotack.errors import InputError
+
+from .parts.rig import Rig, refusals
+from .parts.solid import solid_of
+from .request import Answer, Caller, Named, Number
+
+
+class IdentifyApproach(Rig):
+    """Bound the range of attraction by the approach, before the jump into contact.
+
+    Every cycle with an approach gives an upper bound of h0 and, where an attraction is seen before
+    the jump-in, an interval. The compliance of the rig is that of its spring: it decides where the
+    contact jumps. The work of adhesion lies between that of the jump-in and that of the pull-off,
+    unless it is given. An interface whose fitted range (`viscotack identify rates`) exceeds the
+    bound has a fitted length of the crack's zone, not a range of attraction.
+
+    Example: viscotack identify approach sphere_*.csv --radius "7.5 um" --contact-modulus "1.9 MPa"
+    --compliance "332 mm/N"
+    """
+
+    word: ClassVar = "identify approach"
+
+    radius: Annotated[float, Number('Sphere radius, "7.5 um".', unit="m", example='"7.5 um"')]
+    contact_modulus: Annotated[
+        float | None,
+        Number(
+            'E0* of the relaxed solid, "1.9 MPa"; default: that of --material.',
+            unit="Pa",
+        ),
+    ] = None
+    material: Annotated[
+        Any,
+        Named(
+            "Passport or published name of the solid, instead of --contact-modulus; its modulus at "
+            "once is the other limit.",
+            metavar="PASSPORT",
+        ),
+    ] = None
+    work_of_adhesion: Annotated[
+        float | None,
+        Number(
+            'Known work of adhesion, "50 mJ/m2"; default: between jump-in and pull-off.',
+            unit="J/m^2",
+        ),
+    ] = None
+    level: Annotated[float, Number("Confidence level of interval and bound.")] = 0.9
+
+    def answer(self, caller: Caller) -> Answer:
+        """Bound the range by every approach."""
+        from viscotack.identify.approach import identify_approaches
+        from viscotack.model.materials.passport import Passport
+
+        modulus, instantaneous = self.contact_modulus, None
+        if (modulus is None) == (self.material is None):
+            raise InputError("give either contact_modulus or material", field="contact_modulus")
+        if modulus is None:
+            found = solid_of(self.material, caller)
+            solid = found.material if isinstance(found, Passport) else found
+            modulus = solid.contact_modulus
+            instantaneous = modulus / solid.modulus_ratio
+        survey = self.survey(caller)
+        fits, refused = identify_approaches(
+            survey.cycles,
+            radius=self.radius,
+            contact_modulus=modulus,
+            instantaneous=instantaneous,
+            work_of_adhesion=self.work_of_adhesion,
+            level=self.level,
+        )
+        if not fits:
+            raise InputError("; ".join(dict.fromkeys(refused)), field="files")
+        return Answer(
+            fits,
+            record=lambda: {"approaches": [_record(fit) for fit in fits]},
+            words=lambda: "\n".join(
+                f"{cycle + 1}: {line}" if first else f"   {line}"
+                for cycle, fit in enumerate(fits)
+                for first, line in zip((True, *(False,) * len(fit.words)), fit.words, strict=False)
+            ),
+            notes=(*refusals(survey), *(f"refused: {why}" for why in dict.fromkeys(refused))),
+        )
+
+
+def _record(fit: Any) -> dict[str, Any]:
+    """Return the numbers of one approach."""
+    interval = fit.equilibrium_gap
+    return {
+        "bound_m": fit.bound,
+        "equilibrium_gap_m": fit.likely,
+        "interval_m": None if interval is None else [interval.low, interval.high],
+        "level": fit.level,
+        "attraction_N": fit.attraction,
+        "noise_N": fit.noise,
+        "jump_in_force_N": fit.jump_in_force,
+        "works_of_adhesion_J_m2": list(fit.works),
+        "step_m": fit.step,
+        "samples_during_jump": fit.during,
+        "words": list(fit.words),
+    }
