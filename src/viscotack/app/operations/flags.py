@@ -250,7 +250,9 @@ def stated(word: str, given: Mapping[str, Any], caller: Caller) -> "Statement":
         if (name := flag_at.get(error.field)) is None:
             raise
         rest = str(error).partition(error.field.partition(".")[2])[2]
-        raise InputError(f"{name.replace('-', '_')}{rest}", field=name) from None
+        # what most mean by a preload
+        more = "; a force is `preload_force`" if name == "preload" else ""
+        raise InputError(f"{name.replace('-', '_')}{rest}{more}", field=name) from None
     passport, deviation = passport_of(tables, reading)
     return Statement(problem, deviation, passport)  # type: ignore[arg-type]
 

@@ -393,7 +393,8 @@ def _written(found: Identified, caller: Caller) -> Callable[["Target"], None]:
 
 
 # What the sentences of a fitted series say.
-_SAID = ("work_of_adhesion_J_m2", "equilibrium_gap_m", "intervals", "solutions", "describes_tests")
+_SAID = ("work_of_adhesion_J_m2", "equilibrium_gap_m", "reference_speed_m_s", "exponent")
+_SAID += ("intervals", "solutions", "describes_tests")
 
 
 def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:

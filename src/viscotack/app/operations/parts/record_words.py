@@ -41,6 +41,8 @@ _SPELLED = {
     "snap in": "snap-in",
     "half space": "half-space",
     "jkr": "JKR",
+    "fuller tabor": "Fuller-Tabor parameter",
+    "pastewka robbins": "Pastewka-Robbins ratio",
     "tabor": "Tabor number",
 }
 # What identifies a result rather than answers.
