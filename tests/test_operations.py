@@ -104,6 +104,7 @@ NOT_DRAWN = {
             "study": "study.toml",
         },
     ],
+    "export contact": [{"problem": "glass_lens.toml"}],
     "control": [{"problem": "lens.toml", "slowest": "100 um/s", "fastest": "150 um/s"}],
     "window": [{"file": "kinetic_stamp.toml", "simulate": True}],
 }
