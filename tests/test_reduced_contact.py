@@ -1,10 +1,12 @@
 """Tests of the contact with memory for other simulators: limits, passivity, the twin in C."""
 
 import ctypes
+import importlib.util
 import shutil
 import subprocess
 from dataclasses import replace
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -240,3 +242,42 @@ def test_the_command_writes_the_header_of_the_contact(ball, tmp_path):
     done = CliRunner().invoke(application(), words)
     assert done.exit_code == 0, done.output
     assert header.read_text() == reduced_header(ball, "ball")
+
+
+# In other simulators, where these are installed
+
+
+def example(name, needed):
+    """Return an example of a simulator as a module."""
+    pytest.importorskip(needed)
+    path = Path(__file__).parents[1] / "examples" / "simulators" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.outside
+def test_a_pad_in_mujoco_lifts_fast_and_lets_go_slowly():
+    gripper = example("mujoco_gripper", "mujoco")
+    library = gripper.compiled(Path(gripper.__file__).with_name("pad_dome.toml"))
+    _, height, _ = gripper.run(None, library)
+    assert height.max() > 0.5e-3 and abs(height[-1]) < 1e-5
+    text = gripper.SCENE.format(pad="").replace("implicitfast", "RK4")
+    with pytest.raises(ValueError, match="integrator"):
+        gripper.Adhesion(gripper.mujoco.MjModel.from_xml_string(text), library)
+
+
+@pytest.mark.outside
+def test_two_balls_in_lammps_pull_as_the_reduction_and_stick_when_slow():
+    spheres = example("lammps_spheres", "lammps")
+    library = spheres.compiled()
+    depth, force = spheres.pull(library)
+    contact = reduced_contact(vt.read_case(spheres.CASE))
+    state, ours = contact.apart(-1e-7), []
+    for z in depth[10::10]:
+        state, _ = contact.step(state, z, 1e-4)
+        ours.append(contact.force(state)[0])
+    assert force.min() == pytest.approx(min(ours), rel=0.01)
+    stuck, slow, fast = (spheres.bounce(library, speed) for speed in (0.01, 0.1, 1.0))
+    assert stuck == 0 and 0.3 < slow < fast < 0.8
