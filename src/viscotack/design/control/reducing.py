@@ -68,7 +68,7 @@ def reduced_contact(problem: Problem) -> ReducedContact:
     >>> for depth in range(1, 101):
     ...     state, _ = contact.step(state, depth * 1e-8, 0.01)
     >>> f"{contact.force(state)[0] * 1e6:.0f} uN at {contact.radius(state)[0] * 1e6:.1f} um"
-    '-61 uN at 55.5 um'
+    '53 uN at 45.8 um'
     """
     if not isinstance(problem, Problem):
         raise InputError(f"a contact for simulators is in SI and needs a Problem, got {problem!r}")
