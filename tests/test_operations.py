@@ -81,11 +81,7 @@ NOT_DRAWN = {
         "radius": "5.19 mm",
         "contact_modulus": "2 MPa",
     },
-    "identify approach": {
-        "files": ["lens_slow.csv"],
-        "radius": "5.19 mm",
-        "contact_modulus": "1.944 MPa",
-    },
+    "export contact": {"problem": "glass_lens.toml"},
     "rough": {"file": "bumps.toml", "accuracy": 0.02},
     "uncertainty": {"problem": "lens.toml", "scatter": ["sphere.radius 2 %"], "samples": 16},
     "window": {"file": "kinetic_stamp.toml"},
@@ -144,10 +140,15 @@ def test_all_doors_answer_alike(word, folder, http):
         ("predict", {"problem": "nothing.toml"}),
         ("test read", {"files": ["nothing.csv"]}),
         ("material show", {"passport": "../../etc/passwd"}),
+        # its approach has no jump-in
+        (
+            "identify approach",
+            {"files": ["lens_slow.csv"], "radius": "5.19 mm", "contact_modulus": "1.9 MPa"},
+        ),
     ],
 )
 def test_all_doors_refuse_alike(word, wrong, folder, http):
-    question = Question(word, ASKED[word][0] | wrong)
+    question = Question(word, ASKED.get(word, [{}])[0] | wrong)
     found = through_all(question, http)
     assert found["Python"].refused
     agree(question, found)

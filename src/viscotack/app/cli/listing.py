@@ -14,6 +14,7 @@ _GROUPS = {
     "simulate": "Simulate a contact.",
     "theory": "Evaluate a closed-form theory.",
     "material": "Fit, show, convert and export materials.",
+    "export": "Write contacts for other programs.",
     "test": "Evaluate files of a tack tester or microscope: pull-off forces and speeds.",
     "identify": "Fit work of adhesion and range of attraction to measured curves.",
     "campaign": "Run many problems by a plan; resumable, results as a table.",

@@ -124,6 +124,7 @@ SECTIONS: Mapping[str, Mapping[str, Listed]] = {
     },
     "Serve other programs": {
         "app": Listed("", "Open the web page and the HTTP API."),
+        "export contact": Listed("export_contact", "Write a contact for other simulators, in C."),
         "schema": Listed("schema", "Print the JSON schema of a problem."),
     },
 }

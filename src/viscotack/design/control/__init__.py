@@ -1,17 +1,23 @@
-"""Control of a release: force tables, a controller, a simulated rig, C and FMU."""
+"""Contacts for other programs: force tables, a controller of a release, a contact with memory."""
 
 from .making import force_table
+from .reduced import ContactState, ReducedContact
+from .reducing import reduced_contact
 from .release import Release
 from .rig import Released, let_go
 from .table import ForceTable
-from .writing import c_header, fmu
+from .writing import c_header, fmu, reduced_header
 
 __all__ = [
+    "ContactState",
     "ForceTable",
+    "ReducedContact",
     "Release",
     "Released",
     "c_header",
     "fmu",
     "force_table",
     "let_go",
+    "reduced_contact",
+    "reduced_header",
 ]

@@ -1,4 +1,4 @@
-"""A force table as C source and as an FMU."""
+"""A force table as C source and as an FMU, and a reduced contact as C source."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.version import __version__
 
+from . import reduced
+from .reduced import ReducedContact
 from .release import CATCH_UP, PAST
 from .table import ForceTable
 
@@ -117,27 +119,51 @@ def _code(name: str) -> str:
     return (files(__package__ or "") / "code" / name).read_text(encoding="utf-8")
 
 
+def reduced_header(contact: ReducedContact, name: str = "contact") -> str:
+    """Return C source of a reduced contact, in one header of C99 that needs math.h alone.
+
+    Parameters
+    ----------
+    contact : ReducedContact
+        The contact.
+    name : str
+        Its type in C, and prefix of its functions.
+
+    Returns
+    -------
+    str
+        The header. Its steps are those of the Python class to round-off.
+
+    Raises
+    ------
+    InputError
+        If the name is no name in C.
+    """
+    arrays = ("node", "modulus", "relaxation_time", "first", "per", "energy", "zone_time")
+    numbers = ("surface", "length", "force_unit", "radius_unit")
+    return Template(_code("reduced_contact.h")).substitute(
+        _heading(name, contact.of),
+        **{each: _initialiser(getattr(contact, each)) for each in arrays},
+        **{each: f"{getattr(contact, each):.17g}" for each in numbers},
+        range=contact.range,
+        cells=contact.node.size - 1,
+        modes=contact.modulus.size,
+        rows=contact.energy.shape[1],
+        start=reduced.FIRST,
+        small=reduced.SMALL,
+        gone=reduced.GONE,
+        rest=reduced.REST,
+        against=reduced.AGAINST,
+        series=reduced.SERIES,
+        doublings=reduced.DOUBLINGS,
+        halvings=reduced.HALVINGS,
+    )
+
+
 def _filled(table: ForceTable, name: str) -> str:
-    """Return the header with the numbers of a table, 17 digits each."""
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,30}", name):
-        raise InputError(
-            f"{name!r:.40} cannot be the name of a function: take letters, digits and _, a letter "
-            "first, at most 31"
-        )
-
-    def line(values: Array) -> str:
-        return ",\n    ".join(
-            ", ".join(f"{x:.17g}" for x in values[i : i + 4]) for i in range(0, len(values), 4)
-        )
-
-    def lines(values: Array) -> str:
-        return ",\n    ".join(f"{{{line(each)}}}" for each in values)
-
+    """Return the header with the numbers of a table."""
     return Template(_code("force_table.h")).substitute(
-        name=name,
-        guard=name.upper(),
-        version=__version__,
-        of=re.sub(r"[^ -~]|\*/", " ", table.of),
+        _heading(name, table.of),
         error=f"{table.error:.2g}",
         speeds=len(table.speed),
         shares=len(table.share),
@@ -145,10 +171,30 @@ def _filled(table: ForceTable, name: str) -> str:
         past=PAST,
         catch_up=CATCH_UP,
         start_depth=f"{table.start_depth:.17g}",
-        speed=line(table.speed),
-        travel=lines(table.travel),
-        share=line(table.share),
-        force=lines(table.force),
+        speed=_initialiser(table.speed),
+        travel=_initialiser(table.travel),
+        share=_initialiser(table.share),
+        force=_initialiser(table.force),
+    )
+
+
+def _heading(name: str, of: str) -> dict[str, str]:
+    """Return name, guard, version and content of a header; refuse what is no name in C."""
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,30}", name):
+        raise InputError(
+            f"{name!r:.40} cannot be the name of a function: take letters, digits and _, a letter "
+            "first, at most 31"
+        )
+    printed = re.sub(r"[^ -~]|\*/", " ", of)
+    return {"name": name, "guard": name.upper(), "version": __version__, "of": printed}
+
+
+def _initialiser(values: Array) -> str:
+    """Return the rows of an array as initialisers of C, 17 digits each."""
+    if values.ndim > 1:
+        return ",\n    ".join(f"{{{_initialiser(row)}}}" for row in values)
+    return ",\n    ".join(
+        ", ".join(f"{x:.17g}" for x in values[i : i + 4]) for i in range(0, len(values), 4)
     )
 
 

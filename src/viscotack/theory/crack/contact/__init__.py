@@ -5,6 +5,7 @@ unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
 from . import growing, history, recession, series
+from ._edge import Edge
 from ._profile import (
     Profile,
     SpheresOnLayers,
@@ -23,6 +24,7 @@ __all__ = [
     "Curve",
     "Curves",
     "Drive",
+    "Edge",
     "Elastic",
     "GrowingCracks",
     "GrowingEdges",

@@ -49,7 +49,7 @@ class Edge:
         self.limit, self.sign = (crack.largest if sign > 0 else k), sign
         # an interface that grows with the opening speed has no such limit
         grown = sign > 0 and crack.largest != 1 / k
-        self.elastic, self._span = k == 1 and not grown, (0.0, 0.0)
+        self.elastic, self.span = k == 1 and not grown, (0.0, 0.0)
         if self.elastic:
             return
         ends = energy_of_odds(np.exp(np.array(_ODDS)), k, sign)
@@ -58,7 +58,7 @@ class Edge:
         first, last = np.log(np.abs(np.asarray(crack.speed(ends))))
         speed = np.exp(np.linspace(first, last, _ROWS))
         self._gamma = Even(first, last, np.asarray(crack.amplification(sign * speed)))
-        self._span = first, last
+        self.span = first, last
 
     def amplification(self, speed: Any) -> Any:
         """Return Gamma at speeds, not negative."""
@@ -77,5 +77,5 @@ class Edge:
         """Tabulate a function of the speed over ln V; None if Gamma is constant."""
         if self.elastic:
             return None
-        first, last = self._span
+        first, last = self.span
         return Even(first, last, quantity(np.exp(np.linspace(first, last, _OTHERS))))
