@@ -80,7 +80,9 @@ def bare(value):
 def device(monkeypatch):
     """Put the double in place of CuPy."""
     library = SimpleNamespace(
-        asarray=OnDevice, zeros=lambda shape, kind: OnDevice(np.zeros(shape, kind))
+        asarray=OnDevice,
+        zeros=lambda shape, kind: OnDevice(np.zeros(shape, kind)),
+        cuda=SimpleNamespace(runtime=SimpleNamespace(memGetInfo=lambda: (0, 10**12))),
     )
     transforms = SimpleNamespace(
         rfft2=lambda x: OnDevice(fft.rfft2(x.held)),

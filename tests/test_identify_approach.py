@@ -228,7 +228,7 @@ def test_a_rate_series_knows_the_bound_of_its_approaches(file, monkeypatch):
         known.append(options["range_bound"])
         raise InputError("enough")
 
-    monkeypatch.setattr("viscotack.identify.study.RateSeries", series)
+    monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", series)
     rubber = '[material]\nmodel = "elastic"\nrubbery_modulus = "1.47 MPa"\npoisson_ratio = 0.5\n'
     given = {"files": [str(path)], "radius": "7.5 um", "spring_constant": "3.01 N/m"}
     with pytest.raises(InputError, match="enough"):

@@ -147,10 +147,8 @@ def test_a_folder_at_several_temperatures_becomes_tables_and_a_picture(tmp_path,
     assert exit_status([*named, *shift, *outputs]) == 0
     both = capsys.readouterr()
     assert "--temperature-in-name" not in both.err
-    assert "Pull-off force by temperature and speed" in both.out
-    assert "10 C, 1 um/s, a_T v 2.28 um/s: 4.21 mN" in both.out
-    assert "exponent of force by speed at 40 C 0.138" in both.out
-    assert "exponent of force by a_T v at 20 C" in both.out
+    # the exponents at both temperatures, and that of the master curve
+    assert both.out.count("0.138 +- ") == 2 and both.out.count("0.120 +- ") == 1
     rows = list(csv.DictReader(repeats.read_text().splitlines()))
     assert [float(row["temperature_K"]) for row in rows] == pytest.approx(
         3 * [283.15] + 3 * [313.15]

@@ -394,7 +394,7 @@ def _written(found: Identified, caller: Caller) -> Callable[["Target"], None]:
 
 # What the sentences of a fitted series say.
 _SAID = ("work_of_adhesion_J_m2", "equilibrium_gap_m", "reference_speed_m_s", "exponent")
-_SAID += ("intervals", "solutions", "describes_tests")
+_SAID += ("intervals", "solutions", "describes_tests", "criterion", "criterion_of_edge_law")
 
 
 def _slow_shown(record: dict[str, Any]) -> dict[str, Any]:
