@@ -60,5 +60,5 @@ def test_a_map_that_has_changed_since_is_refused(folder):
 def test_a_campaign_of_rough_surfaces_runs(folder):
     assert run(read_plan("plan.toml"), "out").done == 4
     forces = np.array([row["pull_off_force_N"] for row in Store("out").results()])
-    # elastic: the speed of two of the four changes nothing
-    assert len(np.unique(forces.round(12))) == 2
+    # elastic: the speed of two of the four changes nothing, to the tolerance of an equilibrium
+    assert len(np.unique(forces.round(9))) == 2

@@ -134,7 +134,6 @@ def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
         plan,
         cases=tuple(case for case in plan.cases if case.name in missed),
         settings=replace(plan.settings, accuracy=plan.settings.accuracy / _FINER),
-        source="",
     )
 
 
