@@ -84,7 +84,8 @@ class Rig(Request):
     spring_constant: Annotated[
         float | None,
         Number(
-            "Spring constant of a cantilever, if its file does not state it (NT-MDT, MEMS indenters).", unit="N/m"
+            "Spring constant of a cantilever, if its file does not state it (NT-MDT, MEMS).",
+            unit="N/m",
         ),
     ] = None
     sensitivity: Annotated[
