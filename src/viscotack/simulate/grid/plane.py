@@ -16,6 +16,7 @@ Tractions that vary over a pixel move its centre less than their mean does. The 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
@@ -182,10 +183,11 @@ def memory(device: Device) -> float:
     """Return the bytes of memory of a device; infinity where the system does not tell."""
     if device == "cuda":
         return float(libraries(device)[0].cuda.runtime.memGetInfo()[1])
-    try:
-        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-    except (AttributeError, ValueError, OSError):
+    # Windows has no sysconf
+    value: Callable[[str], int] | None = getattr(os, "sysconf", None)
+    if value is None:
         return float("inf")
+    return float(value("SC_PAGE_SIZE") * value("SC_PHYS_PAGES"))
 
 
 def on_host(field: Any) -> npt.NDArray:
