@@ -285,24 +285,12 @@ class IdentifyRates(Series):
     def answer(self, caller: Caller) -> Answer:
         """Fit the interface to the rate series."""
         from viscotack.clock import limited
-        from viscotack.plot.interface import draw_posterior, draw_rate_series
 
         from .parts.records import rates_record
 
         with limited(self.time_limit):
             found = self.identified(caller)
-        fit = found.fit
-        return Answer(
-            found,
-            record=lambda: rates_record(fit),
-            words=lambda: {n: x for n, x in rates_record(fit).items() if n not in _SAID},
-            files={"output": _written(found, caller)},
-            pictures={
-                "plot": lambda: draw_rate_series(fit),
-                "corner": lambda: draw_posterior(fit.sampled(), fit),
-            },
-            notes=refusals(found.survey),
-        )
+        return _answer(found, rates_record, caller)
 
 
 class IdentifyEdge(Series):
@@ -354,23 +342,30 @@ class IdentifyEdge(Series):
 
     def answer(self, caller: Caller) -> Answer:
         """Fit the law to the rate series."""
-        from viscotack.plot.interface import draw_posterior, draw_rate_series
-
         from .parts.records import edge_record
 
         found = self.identified(caller)
-        fit = found.fit
-        return Answer(
-            found,
-            record=lambda: edge_record(fit),
-            words=lambda: {n: x for n, x in edge_record(fit).items() if n not in _SAID},
-            files={"output": _written(found, caller)},
-            pictures={
-                "plot": lambda: draw_rate_series(fit),
-                "corner": lambda: draw_posterior(fit.sampled(), fit),
-            },
-            notes=refusals(found.survey),
-        )
+        return _answer(found, edge_record, caller)
+
+
+def _answer(
+    found: Identified, record_of: Callable[[Any], dict[str, Any]], caller: Caller
+) -> Answer:
+    """Return the answer of a fitted series."""
+    from viscotack.plot.interface import draw_posterior, draw_rate_series
+
+    fit = found.fit
+    return Answer(
+        found,
+        record=lambda: record_of(fit),
+        words=lambda: {n: x for n, x in record_of(fit).items() if n not in _SAID},
+        files={"output": _written(found, caller)},
+        pictures={
+            "plot": lambda: draw_rate_series(fit),
+            "corner": lambda: draw_posterior(fit.sampled(), fit),
+        },
+        notes=refusals(found.survey),
+    )
 
 
 def _written(found: Identified, caller: Caller) -> Callable[["Target"], None]:

@@ -214,10 +214,11 @@ def equilibrium(
         tangent = _Tangent(plane, *single, compliance, curvature, spring)
         saddle = iteration > _LINGERED and missing <= tolerance * scale
         step, lowered, stable = _direction(tangent, residual, unheld, span, saddle)
-        part = _longest(plane.within(step) - lowered, gap, span, stable)
+        change = plane.within(step) - lowered
+        part = _longest(change, gap, span, stable)
         ways = [(step, lowered, part, _HALVINGS)]
         if part < _LIMITED:
-            ways.insert(0, (*_stopped(plane, step, lowered, gap, span, stable), 1.0, 0))
+            ways.insert(0, (*_stopped(plane, step, lowered, change, gap, span, stable), 1.0, 0))
         for step, lowered, part, halvings in ways:
             at_surface = plane.within(step) - lowered
             slope = float(np.vdot(residual, step)) + unheld * lowered
@@ -273,10 +274,15 @@ def _longest(change: npt.NDArray, gap: npt.NDArray, span: float, stable: bool) -
 
 
 def _stopped(
-    plane: Plane, step: npt.NDArray, lowered: float, gap: npt.NDArray, span: float, stable: bool
+    plane: Plane,
+    step: npt.NDArray,
+    lowered: float,
+    change: npt.NDArray,
+    gap: npt.NDArray,
+    span: float,
+    stable: bool,
 ) -> tuple[npt.NDArray, float]:
     """Return a step in which each pixel stops by itself where its gap would close too far."""
-    change = plane.within(step) - lowered
     part = 1.0 if stable else min(1.0, _FAR * span / float(np.abs(change).max()))
     least = -_LARGEST_CLOSING * room(gap, span)
     raised = plane.widened(np.maximum(least - part * change, 0.0))

@@ -145,6 +145,8 @@ def pull(
         tell = progress
         return None if tell is None else lambda done: tell(begin + (end - begin) * done)
 
+    # the modes follow from the start, which needs memory itself
+    check_memory(contact.plane, 0)
     with limited(time_limit), set_workers(threads):
         try:
             start = relaxed(contact, problem.units.start(problem.protocol.start), kept)
