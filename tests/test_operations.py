@@ -76,6 +76,7 @@ NOT_DRAWN = {
     "array": {"file": "wafer_pad.toml", "accuracy": 0.01},
     "control": {"problem": "lens.toml", "slowest": "100 um/s", "fastest": "150 um/s"},
     "design": {"file": "lift_and_let_go.toml", "confirm": 0},
+    "identify curves": {"files": LENS, "radius": "5.19 mm"},
     "identify edge": {
         "files": [*LENS, "lens_slow.csv"],
         "radius": "5.19 mm",

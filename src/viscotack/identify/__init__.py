@@ -10,12 +10,14 @@ result        ``series_fit``, ``rate_fit``, ``edge_fit``, ``forecasting``, ``ran
 sentences     ``rate_words``, ``slow_words``
 ============  ======================================================================
 
-One slow test goes through ``slow_tests`` and ``contacts``, an approach through ``approach``, tests
-after several dwells through ``contact_time``. ``computed`` keeps forces for the next time.
+One slow test goes through ``slow_tests`` and ``contacts``, a folder through ``curves``, an approach
+through ``approach``, tests after several dwells through ``contact_time``. ``computed`` keeps forces
+for the next time.
 """
 
 from .approach import ApproachFit, Attraction, attraction, identify_approach
 from .contact_time import DwellFit, identify_dwell
+from .curves import CurveFit, CurveGroup, fit_curves, group_curves
 from .edge_fit import EdgeFit, identify_edge
 from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
 from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
@@ -29,6 +31,8 @@ __all__ = [
     "ApproachFit",
     "Attraction",
     "Best",
+    "CurveFit",
+    "CurveGroup",
     "DwellFit",
     "EdgeFit",
     "Interval",
@@ -46,9 +50,11 @@ __all__ = [
     "SlowTestFit",
     "Trial",
     "attraction",
+    "fit_curves",
     "fitted_force",
     "forecast_edge",
     "forecast_rates",
+    "group_curves",
     "identify_approach",
     "identify_dwell",
     "identify_edge",

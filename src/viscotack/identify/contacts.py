@@ -19,7 +19,6 @@ from .likelihood import Parameter
 Values = Mapping[str, float]
 
 _POINTS = 1200
-_ABOVE = 1.5  # factor on the largest radius of the data
 
 
 @dataclass(frozen=True)
@@ -102,11 +101,9 @@ def _carpick_by_radius(a: Array, values: Values, radius: float) -> Array:
 
 def _jkr_by_depth(depth: Array, values: Values, radius: float) -> Array:
     case = _two(values, radius)
-    end = jkr.instability(**case)
-    top = np.sqrt(radius * max(float(depth.max()), 0.0)) + 3 * float(end.contact_radius)
-    a = np.linspace(float(end.contact_radius), _ABOVE * top, _POINTS)
-    d, P = np.asarray(jkr.depth(a, **case)), np.asarray(jkr.force(a, **case))
-    return _interpolated(depth, d, P)
+    # below the instability of a rigid drive the force is that at it
+    stable = np.maximum(depth, jkr.instability(**case).depth)
+    return np.asarray(jkr.force(jkr.contact_radius_at_depth(stable, **case), **case))
 
 
 def _dmt_by_depth(depth: Array, values: Values, radius: float) -> Array:

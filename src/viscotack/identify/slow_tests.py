@@ -368,14 +368,14 @@ def identify_slow(
         raise InputError("Carpick's equation has no depth; fit another model, or contact radii")
     solid, of_solid = _at_temperature(material, test.temperature)
     modulus = contact_modulus or of_solid
-    sigma = _sigma(test)
-    bests = [_found(_objective(model, test, sigma, modulus)) for model in chosen]
+    sigma = sigma_of(test)
+    bests = [_found(objective_of(model, test, sigma, modulus)) for model in chosen]
     # the scatter of the best model replaces the noise if it is larger
     least = min(best.misfit for best in bests)
     size = float(max(np.sqrt(least / max(test.force.size - 3, 1)), 1e-6))
     rows = []
     for model, near in zip(chosen, bests, strict=True):
-        objective = _objective(model, test, size * sigma, modulus)
+        objective = objective_of(model, test, size * sigma, modulus)
         best = objective.best(near=near)
         criterion = best.misfit + len(objective.parameters) * float(np.log(test.force.size))
         rows.append((criterion, model, objective, best))
@@ -436,7 +436,7 @@ def _same_pull(fit: SlowTestFit, solid: Material | None) -> SamePull | None:
         return replace(found, error=str(error))
 
 
-def _sigma(test: SlowTest) -> Array:
+def sigma_of(test: SlowTest) -> Array:
     """Return the uncertainty of each force [N], including that of its radius or depth."""
     if not test.at_noise:
         return np.full(test.force.size, test.force_noise)
@@ -445,9 +445,10 @@ def _sigma(test: SlowTest) -> Array:
     return np.hypot(test.force_noise, test.at_noise * smooth.deriv()(test.at))
 
 
-def _objective(
+def objective_of(
     model: ElasticModel, test: SlowTest, sigma: Array, modulus: tuple[float, float] | None
 ) -> Objective:
+    """Return residuals over their standard deviations, and the unknowns, of a model."""
     w, E = _start(test, None if modulus is None else modulus[0])
     prior = None if modulus is None else (modulus[0], modulus[1] / modulus[0])
     parameters = [
@@ -461,17 +462,18 @@ def _objective(
         parameters.append(Parameter("zero", -scale, scale, 0.01 * scale, logarithmic=False))
 
     def residuals(values: Mapping[str, float]) -> Array:
-        return (_force(model, test, values) - test.force) / sigma
+        return (force_of(model, test, values) - test.force) / sigma
 
     return Objective(residuals, tuple(parameters))
 
 
 def fitted_force(fit: ModelFit, test: SlowTest) -> Array:
     """Return the forces of a fitted model at the radii or depths of a test [N]."""
-    return _force(MODELS[fit.model], test, fit.values)
+    return force_of(MODELS[fit.model], test, fit.values)
 
 
-def _force(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> Array:
+def force_of(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> Array:
+    """Return the forces of a model at the radii or depths of a test [N]."""
     if test.against == "radius":
         return model.by_radius(test.at, values, test.radius)
     assert model.by_depth is not None, "models without a depth were rejected"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack.identify import (
+    CurveGroup,
     EdgeFit,
     Posterior,
     RateForecast,
@@ -32,6 +33,7 @@ _SCALES = {
     "strengthening": ("strength over that at rest", 1.0),
     "exponent": ("exponent $n$", 1.0),
 }
+_SHOWN = 40  # largest number of drawn curves of one speed
 _CURVES = 6  # largest number of speeds with a curve
 _MOST = 20.0  # largest difference of the information criterion of a model that is drawn
 
@@ -58,6 +60,46 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
         what = "contact radius" if test.against == "radius" else "depth"
         below.set(xlabel=f"{what} [{far_unit}]", ylabel="residual / noise")
         above.legend()
+    return figure
+
+
+def draw_curves(groups: Sequence[CurveGroup]) -> "Figure":
+    """Draw the fitted curves of each speed, and work and modulus of every curve with their mean."""
+    fits = [fit for group in groups for fit in group.curves]
+    with drawing(11.0, 6.4) as figure:
+        panels = figure.subplot_mosaic([["curves", "work"], ["curves", "modulus"]])
+        far, far_unit = axis_unit([np.ptp(fit.test.at) for fit in fits], "m")
+        load, load_unit = axis_unit([fit.cycle.pull_off_force.value for fit in fits], "N")
+        curves = panels["curves"]
+        for number, group in enumerate(groups):
+            colour = f"C{number % 10}"
+            speed = readable(group.speed, "m/s", digits=3)
+            for index, fit in enumerate(group.curves[:_SHOWN]):
+                test, x = fit.test, (fit.test.at - fit.best.values.get("zero", 0.0)) / far
+                curves.plot(x, test.force / load, ".", ms=2, color=colour, alpha=0.4)
+                order = np.argsort(x)
+                label = None if index else f"{speed}: {len(group.curves)} curves"
+                curves.plot(x[order], fit.force[order] / load, lw=1.0, color=colour, label=label)
+        what = "contact radius" if fits[0].test.against == "radius" else "fitted depth"
+        curves.set(xlabel=f"{what} [{far_unit}]", ylabel=f"force [{load_unit}]")
+        curves.legend(fontsize="small")
+        for name, quantity, unit in (
+            ("work", "work_of_adhesion", "J/m^2"),
+            ("modulus", "contact_modulus", "Pa"),
+        ):
+            axes, number = panels[name], 0
+            size, said = axis_unit([getattr(fit, quantity).value for fit in fits], unit)
+            for colour, group in enumerate(groups):
+                at = np.arange(number, number := number + len(group.curves)) + 1
+                values = [getattr(fit, quantity) for fit in group.curves]
+                y, bars = (np.array([[x.value, x.uncertainty] for x in values]) / size).T
+                axes.errorbar(at, y, yerr=bars, fmt="o", ms=3, color=f"C{colour % 10}")
+                mean = getattr(group, quantity)
+                axes.plot(at[[0, -1]], [mean.value / size] * 2, "k-", lw=1.0)
+                if mean.low is not None:
+                    axes.fill_between(at[[0, -1]], mean.low / size, mean.high / size, alpha=0.2)
+            axes.set_ylabel(f"{name} [{said.replace('^2', '$^2$')}]")
+        panels["modulus"].set_xlabel("curve")
     return figure
 
 

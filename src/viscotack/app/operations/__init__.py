@@ -101,6 +101,9 @@ SECTIONS: Mapping[str, Mapping[str, Listed]] = {
         "identify approach": Listed(
             "identify_approach", "Bound the range of attraction by the approach."
         ),
+        "identify curves": Listed(
+            "identify_curves", "Fit work of adhesion and modulus to every curve of a folder."
+        ),
         "identify dwell": Listed("identify_dwell", "Identify the growth with contact time."),
         "forecast": Listed("forecast", "Forecast pull-off forces from a measured rate series."),
         "next-test": Listed("next_test", "Rank tests by how much each narrows a forecast."),

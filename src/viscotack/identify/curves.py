@@ -1,0 +1,194 @@
+r"""Fit an elastic contact to every curve of a folder: work of adhesion and modulus, with scatter.
+
+Each retraction gives the work of adhesion, the contact modulus and, against depth, the unknown zero
+of the depth, by least squares. Their standard errors are those of the linearised model,
+:math:`s^2 (J^T J)^{-1}` with the scatter s of the residuals: they contain the noise of one curve
+only. Curves of equal temperature and speed are averaged; the interval of a mean is Student's, from
+the scatter between the curves.
+
+The work is that of the fastest place of the edge: of a viscoelastic solid it grows with speed and
+is an upper bound of the work of adhesion (:func:`viscotack.identify.identify_slow`).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import t
+
+from viscotack.arrays import Array
+from viscotack.errors import InputError
+from viscotack.lab.tack import Cycle
+from viscotack.lab.tack.cycle import Measured
+from viscotack.lab.tack.repeats import same_speeds, temperature_of
+
+from .contacts import MODELS
+from .likelihood import Best
+from .slow_tests import SlowTest, force_of, objective_of, sigma_of, slow_test
+
+
+@dataclass(frozen=True, eq=False)
+class CurveFit:
+    """Elastic contact fitted to one retraction.
+
+    Attributes
+    ----------
+    cycle : Cycle
+        The curve.
+    model : str
+        "jkr" or "dmt".
+    test : SlowTest
+        Its fitted points.
+    best : Best
+        Fitted values.
+    work_of_adhesion, contact_modulus : Measured
+        [J/m2] and [Pa], with the standard error of the fit.
+    scatter : float
+        Standard deviation of the residuals [N].
+    """
+
+    cycle: Cycle
+    model: str
+    test: SlowTest
+    best: Best
+    work_of_adhesion: Measured
+    contact_modulus: Measured
+    scatter: float
+
+    @property
+    def force(self) -> Array:
+        """Fitted forces at the points of the test [N]."""
+        return force_of(MODELS[self.model], self.test, self.best.values)
+
+
+@dataclass(frozen=True)
+class Mean:
+    """Mean of repeated curves, their standard deviation, and the interval of the mean.
+
+    The deviation and the ends are None for a single curve.
+    """
+
+    value: float
+    deviation: float | None
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class CurveGroup:
+    """Curves of one temperature [K] and speed [m/s], and their means [J/m2], [Pa] and [N]."""
+
+    curves: tuple[CurveFit, ...]
+    temperature: float | None
+    speed: float
+    work_of_adhesion: Mean
+    contact_modulus: Mean
+    pull_off_force: Mean
+
+
+def fit_curves(
+    cycles: Sequence[Cycle],
+    radius: float,
+    *,
+    model: str = "jkr",
+    contact_modulus: tuple[float, float] | None = None,
+) -> tuple[tuple[CurveFit, ...], tuple[str, ...]]:
+    """Fit JKR or DMT to the retraction of every cycle.
+
+    Parameters
+    ----------
+    cycles : sequence of Cycle
+        Evaluated cycles of tack tests or force curves.
+    radius : float
+        Radius of the sphere [m].
+    model : {"jkr", "dmt"}
+        Elastic contact, of a large or a small Tabor number.
+    contact_modulus : (float, float), optional
+        Known E0* and its standard uncertainty [Pa]; fitted without a prior by default.
+
+    Returns
+    -------
+    fits : tuple of CurveFit
+        Of the curves that can be fitted.
+    refused : tuple of str
+        The others, each with its reason.
+
+    Raises
+    ------
+    InputError
+        If the model is another one.
+    """
+    if model not in ("jkr", "dmt"):
+        raise InputError(f"model must be jkr or dmt, got {model!r}", field="model")
+    fits, refused = [], []
+    for cycle in cycles:
+        try:
+            fits.append(_fitted(cycle, radius, model, contact_modulus))
+        except InputError as error:
+            refused.append(f"{Path(cycle.source.path).name}: cycle {cycle.number}: {error}")
+    return tuple(fits), tuple(refused)
+
+
+def _fitted(
+    cycle: Cycle, radius: float, model: str, modulus: tuple[float, float] | None
+) -> CurveFit:
+    test = slow_test(cycle, radius)
+    sigma = sigma_of(test)
+    first = objective_of(MODELS[model], test, sigma, modulus).best()
+    # the scatter of the residuals replaces the noise if it is larger
+    size = max(np.sqrt(first.misfit / max(test.force.size - 3, 1)), 1e-6)
+    objective = objective_of(MODELS[model], test, size * sigma, modulus)
+    best = objective.best(near=first)
+    errors = np.sqrt(np.diag(objective.covariance(best)))
+    found = {}
+    for parameter, error in zip(objective.parameters, errors, strict=True):
+        value = best.values[parameter.name]
+        found[parameter.name] = Measured(value, float(error) * value)
+    return CurveFit(
+        cycle,
+        model,
+        test,
+        best,
+        found["work_of_adhesion"],
+        found["contact_modulus"],
+        float(size * np.mean(sigma)),
+    )
+
+
+def group_curves(fits: Sequence[CurveFit], level: float = 0.9) -> tuple[CurveGroup, ...]:
+    """Return the means of the curves of each temperature and speed, coldest and slowest first.
+
+    Parameters
+    ----------
+    fits : sequence of CurveFit
+        Of :func:`fit_curves`.
+    level : float
+        Confidence level of the intervals of the means.
+    """
+    if not 0 < level < 1:
+        raise InputError(f"level must lie between 0 and 1, got {level!r}", field="level")
+    groups = []
+    for same in same_speeds([fit.cycle for fit in fits]):
+        # in the order of the files, which shows a drift
+        curves = tuple(fit for fit in fits if any(fit.cycle is cycle for cycle in same))
+        groups.append(
+            CurveGroup(
+                curves,
+                temperature_of(same),
+                float(np.mean([one.speed.value for one in same])),
+                _mean([fit.work_of_adhesion.value for fit in curves], level),
+                _mean([fit.contact_modulus.value for fit in curves], level),
+                _mean([one.pull_off_force.value for one in same], level),
+            )
+        )
+    return tuple(groups)
+
+
+def _mean(values: Sequence[float], level: float) -> Mean:
+    mean = float(np.mean(values))
+    if len(values) == 1:
+        return Mean(mean, None, None, None)
+    deviation = float(np.std(values, ddof=1))
+    half = float(t.ppf((1 + level) / 2, len(values) - 1)) * deviation / np.sqrt(len(values))
+    return Mean(mean, deviation, mean - half, mean + half)
