@@ -15,7 +15,6 @@ from test_window_file import CONTACT, PULL, SMALL
 from viscotack.app.cli import application
 from viscotack.app.operations import ask
 from viscotack.design.window import (
-    ContactScatter,
     aged,
     opening_chance,
     read_window,
@@ -30,28 +29,27 @@ PASSPORT = Path(__file__).parent / "data" / "passport_pdms.toml"
 def test_the_chance_of_two_elastic_contacts_is_that_of_the_ratio_of_their_works(first, second):
     stamp = contact(ELASTIC, work=0.2)
     base = with_work(stamp, 0.21)
-    found = opening_chance(stamp, base, ContactScatter(first, second))
+    found = opening_chance(stamp, base, works=(first, second))
     # the gap is kept, so that only the range of the forces differs a little
     expected = NormalDist().cdf(log(1.05) / sqrt(first**2 + second**2))
-    assert found.first == pytest.approx(expected, abs=0.015)
-    assert found.critical_work == pytest.approx(1.05, rel=5e-3)
+    assert found.value == pytest.approx(expected, abs=0.015)
     # both contacts are uncertain by 0.5 % of their table, which may add up
     deviate, spread = NormalDist().inv_cdf, sqrt(first**2 + second**2)
-    off = [spread * (deviate(x) - deviate(found.first)) for x in found.interval]
+    off = [spread * (deviate(x) - deviate(found.value)) for x in (found.low, found.high)]
     assert off == pytest.approx([-0.01, 0.01], rel=0.03)
 
 
 @pytest.mark.parametrize("seed", [1])
 def test_the_chance_by_critical_works_is_the_share_of_drawn_elastic_pairs(seed):
     stamp = contact(ELASTIC, work=0.2)
-    pair, scatter = (stamp, with_work(stamp, 0.21)), ContactScatter(0.1, 0.1, 0.1)
     drawn = np.exp(0.1 * np.random.default_rng(seed).standard_normal((300, 3)))
     opened = [
         vt.which_opens(*(contact(ELASTIC, work=w, force=2e-3 * P) for w in (0.2 * x, 0.21 * y)))
         for x, y, P in drawn
     ]
     share = [each.nominal for each in opened].count(0) / 300
-    chance = opening_chance(*pair, scatter).first
+    base = with_work(stamp, 0.21)
+    chance = opening_chance(stamp, base, works=(0.1, 0.1), preload=0.1).value
     assert share == pytest.approx(chance, abs=3 * sqrt(chance * (1 - chance) / 300))
 
 
@@ -125,7 +123,7 @@ AGEING = SMALL.replace(
 def test_a_stamp_that_ages_prints_after_a_short_dwell_and_holds_after_a_long_one(folder):
     Path("aged.toml").write_text(AGEING.replace('"1 um/s..100 um/s"', '"10 um/s"'))
     stated = read_window("aged.toml")
-    works = [each.stamp.traction.work_of_adhesion for _, _, each in stated.variants]
+    works = [each.stamp.traction.work_of_adhesion for each in stated]
     assert works == pytest.approx([0.05002, 0.05 * (5 - 4 * np.exp(-1)), 0.25], rel=1e-4)
     record = ask("window", file="aged.toml").record()
     words = {cell["dwell_s"]: cell["word"] for cell in record["cells"]}

@@ -54,83 +54,71 @@ class OfWindow(Request):
 
         file = caller.file(self.file)
         stated = read_window(file, also=caller.also, beside=caller.within(file).file)
-        files = stated.variants or ((None, None, stated),)
-        maps, chances = [], []
-        for number, (_, _, each) in enumerate(files):
+        maps = []
+        for number, each in enumerate(stated):
 
             def tell(share: float, done: int = number) -> None:
-                caller.tell({"share": (done + share) / len(files)})
+                caller.tell({"share": (done + share) / len(stated)})
 
             maps.append(
                 window(
-                    **_contacts(each),
+                    each.stamp,
+                    donor=each.donor,
+                    receiver=each.receiver,
+                    speeds=each.speeds,
+                    preloads=each.preloads,
+                    stiffness=each.stiffness,
+                    scatter=each.scatter,
                     simulate=self.simulate,
                     accuracy=self.accuracy,
                     time_limit=self.time_limit,
                     progress=tell,
                 )
             )
-            chances.append(_chances(each, maps[-1]))
+        scattered = stated[0].scatter is not None
         cells: list[dict[str, Any]] = []
         critical: list[dict[str, Any]] = []
-        for place, found, known in zip(files, maps, chances, strict=True):
-            at = _place(*place)
-            rows = [_cell(cell) | _yields(known, i) for i, cell in enumerate(found.cells)]
-            cells += [at | row for row in rows]
-            critical += [at | _critical(each) for each in found.critical_speeds]
-        first = _place(*files[0])
-        columns = [*first, *_CELL, *(() if stated.scatter is None else _YIELD)]
+        for each, found in zip(stated, maps, strict=True):
+            at = _place(each)
+            cells += [at | _cell(x) | (_yields(x) if scattered else {}) for x in found.cells]
+            critical += [at | _critical(x) for x in found.critical_speeds]
+        first = _place(stated[0])
+        columns = [*first, *_CELL, *(_YIELD if scattered else ())]
         return Answer(
-            tuple(maps) if stated.variants else maps[0],
+            tuple(maps) if len(maps) > 1 else maps[0],
             record=lambda: {"cells": cells, "critical_speeds": critical},
             words=lambda: _shown(cells, critical),
             files={
                 "csv": rows_as_csv(cells, columns),
                 "critical": rows_as_csv(critical, [*first, *_CRITICAL]),
             },
-            pictures={"plot": lambda: draw_window(*maps, titles=[_title(*x) for x in files])},
+            pictures={"plot": lambda: draw_window(*maps, titles=[_title(x) for x in stated])},
         )
 
 
-def _place(temperature: float | None, dwell: float | None, _: Any) -> dict[str, float]:
+def _place(stated: Any) -> dict[str, float]:
     """Return temperature and dwell of a map as columns."""
-    both = {"temperature_K": temperature, "dwell_s": dwell}
+    both = {"temperature_K": stated.temperature, "dwell_s": stated.dwell}
     return {name: value for name, value in both.items() if value is not None}
 
 
-def _title(temperature: float | None, dwell: float | None, _: Any) -> str:
+def _title(stated: Any) -> str:
     """Return temperature and dwell of a map in words."""
-    words = [] if temperature is None else [f"at {temperature - 273.15:.4g} degC"]
+    T, dwell = stated.temperature, stated.dwell
+    words = [] if T is None else [f"at {T - 273.15:.4g} degC"]
     return ", ".join(words + ([] if dwell is None else [f"after {readable(dwell, 's')}"]))
 
 
-def _contacts(stated: Any) -> dict[str, Any]:
-    """Return the contacts, speeds and preloads of a file as options of a map."""
-    names = ("stamp", "donor", "receiver", "speeds", "preloads", "stiffness")
-    return {name: getattr(stated, name) for name in names}
-
-
-def _chances(stated: Any, found: Any) -> tuple[Any, ...]:
-    """Return the yield of each cell of a map; nothing without scatter."""
-    from viscotack.design.window import window_yield
-
-    if stated.scatter is None:
-        return ()
-    options = _contacts(stated) | {"speeds": found.speeds, "preloads": found.preloads}
-    return window_yield(**options, scatter=stated.scatter)
-
-
-def _yields(chances: tuple[Any, ...], number: int) -> dict[str, Any]:
+def _yields(cell: Any) -> dict[str, Any]:
     """Return the columns of a cell with its yield."""
-    if not chances:
-        return {}
-    one = chances[number]
-    (low, high), (least, most) = one.pick_interval or _NONE, one.print_interval or _NONE
-    values = one.pick, low, high, one.print, least, most, one.transfer
-    return dict(zip(_YIELD, values, strict=True))
+    values = [
+        None if chance is None else getattr(chance, end)
+        for chance in (cell.pick, cell.print)
+        for end in ("value", "low", "high")
+    ]
+    return dict(zip(_YIELD, [*values, cell.transfer], strict=True))
 
 
-_NONE = (None, None)
 _YIELD = ("pick_probability", "pick_low", "pick_high", "print_probability", "print_low")
 _YIELD += ("print_high", "transfer_probability")
 _OF_BASE = ("opens", "tension_N", "held", "method")

@@ -7,14 +7,7 @@ derivation is in docs/pick_and_print.md.
 
 from viscotack.simulate.in_series import SeriesOpening
 
-from .chances import (
-    CellYield,
-    ContactScatter,
-    OpeningChance,
-    WindowScatter,
-    opening_chance,
-    window_yield,
-)
+from .chances import Chance, WindowScatter, opening_chance
 from .opening import aged, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
@@ -22,10 +15,8 @@ from .window_file import WindowFile, read_window
 
 __all__ = [
     "Cell",
-    "CellYield",
-    "ContactScatter",
+    "Chance",
     "CriticalSpeed",
-    "OpeningChance",
     "SeriesOpening",
     "SeriesResult",
     "Window",
@@ -37,5 +28,4 @@ __all__ = [
     "simulate_in_series",
     "which_opens",
     "window",
-    "window_yield",
 ]

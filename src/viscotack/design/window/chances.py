@@ -15,23 +15,18 @@ range open by their pull-off forces, which are proportional to the works, so the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import exp, inf, sqrt
+from math import exp, inf, isinf, sqrt
 from statistics import NormalDist
 from typing import Annotated, Any
 
-import numpy as np
-
-from viscotack.cards import Quantity
-from viscotack.errors import InputError
+from viscotack.cards import Quantity, conform
 from viscotack.model.problem import Problem
 from viscotack.model.protocol import AtForce
 from viscotack.simulate.in_series import SeriesOpening, opening_by_cracks
 
-from .opening import check_pair, posed
-from .picking import DONOR, RECEIVER
+from .opening import check_pair
 
 # Tolerance of a critical work, relative, and standard deviations to which it is searched.
 _CLOSE, _FAR = 2e-3, 4.0
@@ -39,72 +34,52 @@ _CLOSE, _FAR = 2e-3, 4.0
 _PART = 0.5
 # Largest slope of the critical work that is expected, for the range of the search.
 _STEEP = 1.5
+_Share = Annotated[
+    float, Quantity("1", "s", "relative standard deviation", least=0, most=0.5, example="0.1")
+]
 
 
 @dataclass(frozen=True)
-class ContactScatter:
-    """Relative standard deviations of the works of two contacts in series and of the preload.
+class WindowScatter:
+    """Relative standard deviations of the works of stamp, donor and receiver, and of the preload.
 
-    Parameters
-    ----------
-    first, second : float
-        Of the works of adhesion, from 0 to 0.5.
-    preload : float
-        Of the preload, from 0 to 0.5.
-
-    Examples
-    --------
-    >>> ContactScatter(first=0.1).preload
-    0.0
+    Each lies between 0 and 0.5.
     """
 
-    first: float = 0.0
-    second: float = 0.0
-    preload: float = 0.0
+    stamp: _Share = 0.0
+    donor: _Share = 0.0
+    receiver: _Share = 0.0
+    preload: _Share = 0.0
 
     def __post_init__(self) -> None:
-        deviations = (self.first, self.second, self.preload)
-        if not all(0 <= x <= 0.5 for x in deviations) or not any(deviations):
-            raise InputError(
-                "relative standard deviations of works and preload must lie between 0 and 0.5, and "
-                f"one of them above 0, got {deviations}"
-            )
+        conform(self)
 
 
 @dataclass(frozen=True)
-class OpeningChance:
-    """Probability that the first of two contacts in series opens.
+class Chance:
+    """Probability, and its interval by the bands of the strengths of both contacts."""
 
-    Attributes
-    ----------
-    first : float
-        Probability that the first contact opens.
-    interval : tuple of float
-        The same with the bands of the strengths of both contacts.
-    critical_work : float
-        Factor on the work of the first contact above which the second opens; 0 or inf if it lies
-        outside the scatter.
-    """
-
-    first: float
-    interval: tuple[float, float]
-    critical_work: float
+    value: float
+    low: float
+    high: float
 
     @property
-    def reverse(self) -> tuple[float, tuple[float, float]]:
-        """Probability that the second contact opens, with its interval."""
-        return 1 - self.first, (1 - self.interval[1], 1 - self.interval[0])
+    def reverse(self) -> Chance:
+        """Probability of the opposite."""
+        return Chance(1 - self.value, 1 - self.high, 1 - self.low)
 
 
-def opening_chance(first: Problem, second: Problem, scatter: ContactScatter) -> OpeningChance:
+def opening_chance(
+    first: Problem, second: Problem, *, works: tuple[float, float], preload: float = 0.0
+) -> Chance:
     """Return the probability that the first of two contacts in series opens, by critical works.
 
     Parameters
     ----------
     first, second : Problem
         Both contacts, as for :func:`viscotack.which_opens`.
-    scatter : ContactScatter
-        Scatter of works and preload.
+    works, preload : float
+        Relative standard deviations of both works of adhesion and of the preload.
 
     Raises
     ------
@@ -115,139 +90,23 @@ def opening_chance(first: Problem, second: Problem, scatter: ContactScatter) -> 
     """
     check_pair(first, second)
     opens = partial(_opens, first, second)
-    preload = scatter.preload
-    reach = _FAR * sqrt(scatter.first**2 + _STEEP**2 * scatter.second**2 + preload**2)
+    reach = _FAR * sqrt(works[0] ** 2 + _STEEP**2 * works[1] ** 2 + preload**2)
     middle = opens(0.0, 0.0, 0.0)
     center = _critical(opens, reach)
-    if center in (-inf, inf):
+    if isinf(center):
         chance = float(center > 0)
-        return OpeningChance(chance, (chance, chance), exp(center) if center < 0 else inf)
-    variance = scatter.first**2
-    for place, deviation in ((0, scatter.second), (1, preload)):
+        ends = (chance, chance) if middle.opened is not None else (0.0, 1.0)
+        return Chance(chance, *ends)
+    variance = works[0] ** 2
+    for name, deviation in (("y", works[1]), ("p", preload)):
         if deviation > 0:
             step = _PART * deviation
-            ends = [_critical(opens, reach, **{"yp"[place]: sign * step}) for sign in (-1.0, 1.0)]
-            known = [each if np.isfinite(each) else center for each in ends]
-            variance += ((known[1] - known[0]) / (2 * step) * deviation) ** 2
+            ends = [_critical(opens, reach, **{name: sign * step}) for sign in (-1.0, 1.0)]
+            low, high = (center if isinf(each) else each for each in ends)
+            variance += ((high - low) / (2 * step) * deviation) ** 2
     band = sum(middle.bands or ())
-    at = [
-        center / sqrt(variance),
-        (center - band) / sqrt(variance),
-        (center + band) / sqrt(variance),
-    ]
-    chance, low, high = (NormalDist().cdf(z) for z in at)
-    return OpeningChance(chance, (low, high), exp(center))
-
-
-_Share = Annotated[float, Quantity("1", "s", "relative standard deviation", least=0, example="0.1")]
-
-
-@dataclass(frozen=True)
-class WindowScatter:
-    """Relative standard deviations of the works of stamp, donor and receiver, and of the preload.
-
-    Examples
-    --------
-    >>> WindowScatter(stamp=0.1).of("donor")
-    ContactScatter(first=0.0, second=0.1, preload=0.0)
-    """
-
-    stamp: _Share = 0.0
-    donor: _Share = 0.0
-    receiver: _Share = 0.0
-    preload: _Share = 0.0
-
-    def of(self, base: str) -> ContactScatter:
-        """Return the scatter of the pair of a base, "donor" or "receiver", and the stamp."""
-        return ContactScatter(getattr(self, base), self.stamp, self.preload)
-
-
-@dataclass(frozen=True)
-class CellYield:
-    """Yield of one speed and preload of a map.
-
-    Attributes
-    ----------
-    speed, preload : float
-        Speed of the drive [m/s] and common force of the relaxed start [N].
-    pick, print : float or None
-        Probability that the stamp picks from the donor, and that it prints on the receiver; None
-        without a donor or a receiver, or if steady cracks do not cover the contacts.
-    pick_interval, print_interval : tuple of float, or None
-        The same with the bands of the strengths.
-    why : str
-        Reason for None.
-    """
-
-    speed: float
-    preload: float
-    pick: float | None
-    pick_interval: tuple[float, float] | None
-    print: float | None
-    print_interval: tuple[float, float] | None
-    why: str
-
-    @property
-    def transfer(self) -> float | None:
-        """Probability of both, of independent contacts; None if one is unknown."""
-        return None if self.pick is None or self.print is None else self.pick * self.print
-
-
-def window_yield(
-    stamp: Problem,
-    *,
-    donor: Problem | None = None,
-    receiver: Problem | None = None,
-    speeds: Sequence[float],
-    preloads: Sequence[float],
-    stiffness: float | None = None,
-    scatter: WindowScatter,
-    progress: Callable[[float], None] = lambda share: None,
-) -> tuple[CellYield, ...]:
-    """Return the probabilities to pick and to print at speeds and preloads.
-
-    Parameters
-    ----------
-    stamp, donor, receiver, speeds, preloads, stiffness
-        As for :func:`viscotack.window`.
-    scatter : WindowScatter
-        Scatter of works and preload.
-    progress : callable
-        Called with the completed share.
-
-    Returns
-    -------
-    tuple of CellYield
-        All speeds of the first preload, then of the next.
-    """
-    places = [(F, V) for F in preloads for V in speeds]
-    cells = []
-    for number, (preload, speed) in enumerate(places):
-        how = {"preload": preload, "speed": speed, "stiffness": stiffness}
-        chances, reasons = {}, []
-        for name, base in ((DONOR, donor), (RECEIVER, receiver)):
-            if base is None:
-                continue
-            try:
-                pair = posed(base, **how), posed(stamp, **how)
-                chances[name] = opening_chance(*pair, scatter.of(name))
-            except InputError as reason:
-                reasons.append(f"{name}: {reason}")
-        pick, receives = chances.get(DONOR), chances.get(RECEIVER)
-        prints = None if receives is None else receives.reverse
-        cells.append(
-            CellYield(
-                speed,
-                preload,
-                None if pick is None else pick.first,
-                None if pick is None else pick.interval,
-                None if prints is None else prints[0],
-                None if prints is None else prints[1],
-                "; ".join(reasons),
-            )
-        )
-        progress((number + 1) / len(places))
-    return tuple(cells)
+    chances = (NormalDist().cdf((center + off) / sqrt(variance)) for off in (0.0, -band, band))
+    return Chance(*chances)
 
 
 def _critical(opens: Any, reach: float, y: float = 0.0, p: float = 0.0) -> float:

@@ -18,6 +18,7 @@ from viscotack.model.problem import Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.simulate.in_series import CRACKS, SIMULATION, SeriesOpening
 
+from .chances import Chance, WindowScatter, opening_chance
 from .opening import posed, which_opens
 
 STAMP, DONOR, RECEIVER = "stamp", "donor", "receiver"
@@ -38,12 +39,25 @@ class Cell:
     donor, receiver : SeriesOpening or None
         Which contact opens at the donor and on the receiver, 0 being that of donor or receiver and
         1 that of the stamp; None without one.
+    pick, print : Chance or None
+        Probability that the stamp picks from the donor, and that it prints on the receiver; None
+        without scatter, without a donor or a receiver, or if steady cracks do not cover the
+        contacts.
     """
 
     speed: float
     preload: float
     donor: SeriesOpening | None
     receiver: SeriesOpening | None
+    pick: Chance | None = None
+    print: Chance | None = None
+
+    @property
+    def transfer(self) -> float | None:
+        """Probability to pick and to print, of independent contacts; None if one is unknown."""
+        if self.pick is None or self.print is None:
+            return None
+        return self.pick.value * self.print.value
 
     @property
     def word(self) -> str:
@@ -125,6 +139,7 @@ def window(
     speeds: Sequence[float],
     preloads: Sequence[float],
     stiffness: float | None = None,
+    scatter: WindowScatter | None = None,
     simulate: bool = False,
     accuracy: float = DEFAULT_ACCURACY,
     time_limit: float | None = None,
@@ -141,6 +156,8 @@ def window(
         Speeds of the drive [m/s] and common forces of the relaxed start [N].
     stiffness : float or None
         Of the machine [N/m]; None for a rigid one.
+    scatter : WindowScatter, optional
+        Scatter of works and preload, for the probabilities to pick and to print.
     simulate : bool
         Simulate the cells that steady cracks do not decide; each takes seconds.
     accuracy : float
@@ -189,35 +206,43 @@ def window(
     if len(V) * len(F) > _MOST_CELLS:
         raise InputError(f"a map has at most {_MOST_CELLS:,} cells, got {len(V) * len(F):,}")
 
+    def pair(base: Problem, preload: float, speed: float) -> tuple[Problem, Problem]:
+        how = {"preload": preload, "speed": speed, "stiffness": stiffness}
+        return posed(base, **how), posed(stamp, **how)
+
     def opening(base: Problem, preload: float, speed: float) -> SeriesOpening:
-        first, second = (
-            posed(each, preload=preload, speed=speed, stiffness=stiffness) for each in (base, stamp)
-        )
-        return which_opens(
-            first, second, simulate=simulate, accuracy=accuracy, time_limit=time_limit
-        )
+        how = {"simulate": simulate, "accuracy": accuracy, "time_limit": time_limit}
+        try:
+            return which_opens(*pair(base, preload, speed), **how)
+        except InputError as reason:  # no relaxed contact exists
+            return SeriesOpening(why=str(reason))
+
+    def chance(name: str, preload: float, speed: float) -> Chance | None:
+        if scatter is None or name not in known:
+            return None
+        works = getattr(scatter, name), scatter.stamp
+        try:
+            both = pair(known[name], preload, speed)
+            return opening_chance(*both, works=works, preload=scatter.preload)
+        except InputError:
+            return None
 
     rows, criticals = [], []
     for number, preload in enumerate(F):
         found: dict[str, list[SeriesOpening]] = {}
         for name, base in known.items():
-            at = partial(_tried, partial(opening, base, preload))
+            at = partial(opening, base, preload)
             found[name] = [at(speed) for speed in V]
             criticals += _critical_speeds(at, name, preload, V, found[name])
         for i, speed in enumerate(V):
             answers = {name: each[i] for name, each in found.items()}
-            rows.append(Cell(speed, preload, answers.get(DONOR), answers.get(RECEIVER)))
+            pick, keep = (chance(name, preload, speed) for name in (DONOR, RECEIVER))
+            prints = None if keep is None else keep.reverse
+            both = answers.get(DONOR), answers.get(RECEIVER)
+            rows.append(Cell(speed, preload, *both, pick, prints))
         if progress is not None:
             progress((number + 1) / len(F))
     return Window(V, F, tuple(rows), tuple(criticals))
-
-
-def _tried(opening: Callable[[float], SeriesOpening], speed: float) -> SeriesOpening:
-    """Return the contact that opens; undecided with the reason where no relaxed contact exists."""
-    try:
-        return opening(speed)
-    except InputError as reason:
-        return SeriesOpening(why=str(reason))
 
 
 def _ascending(name: str, values: Sequence[float]) -> tuple[float, ...]:

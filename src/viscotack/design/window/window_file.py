@@ -8,7 +8,7 @@ perhaps temperatures and dwells, [scatter] the scatter of works and preload.
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -23,7 +23,7 @@ from viscotack.model.problem.tables import Read, Reading, read_as
 from viscotack.model.protocol.moves import Stiffness
 from viscotack.model.traction import ages
 
-from ..files import at, contact, ends, opened
+from ..files import contact, ends, opened
 from .chances import WindowScatter
 from .opening import aged
 from .picking import DONOR, RECEIVER, STAMP
@@ -63,20 +63,20 @@ class _Pull:
 
 @dataclass(frozen=True)
 class WindowFile:
-    """Contents of a file.
+    """One map of a file: the arguments of :func:`viscotack.window`.
 
     Attributes
     ----------
     stamp, donor, receiver : Problem or None
-        The contacts, at the first temperature and after the first dwell.
+        The contacts.
     speeds, preloads : tuple of float
         Speeds [m/s] and preloads [N].
     stiffness : float or None
         Of the machine [N/m].
     scatter : WindowScatter or None
         Scatter of works and preload.
-    variants : tuple of (float or None, float or None, WindowFile)
-        Temperature [K] and dwell [s] of each map, with the file there; empty without both.
+    temperature, dwell : float or None
+        Temperature [K] and dwell [s] of the contacts, where the file states some.
     """
 
     stamp: Problem
@@ -86,7 +86,8 @@ class WindowFile:
     preloads: tuple[float, ...]
     stiffness: float | None
     scatter: WindowScatter | None = None
-    variants: tuple[tuple[float | None, float | None, "WindowFile"], ...] = ()
+    temperature: float | None = None
+    dwell: float | None = None
 
 
 def read_window(
@@ -94,8 +95,8 @@ def read_window(
     *,
     also: Iterable[Any] = (),
     beside: Callable[[str], Path] | None = None,
-) -> WindowFile:
-    """Read a window from a TOML file.
+) -> tuple[WindowFile, ...]:
+    """Read a window from a TOML file: a map for each temperature and dwell.
 
     Parameters
     ----------
@@ -120,13 +121,9 @@ def read_window(
     names = [name for name in (STAMP, DONOR, RECEIVER) if name in tables]
     if STAMP not in names or len(names) == 1:
         raise InputError(f"{path}: a window needs [stamp], and [donor], [receiver] or both")
-    for base in names[1:]:
-        if scatter is not None:
-            with at(f"{path}, [scatter]"):
-                scatter.of(base)
     if pull.temperatures != (None,):
         _check_shifted(reading.where, tables, names)
-    variants = []
+    maps = []
     for temperature, dwell in product(pull.temperatures, pull.dwells):
         contacts = {
             name: contact(
@@ -149,14 +146,9 @@ def read_window(
                 )
             contacts = {name: aged(each, dwell) for name, each in contacts.items()}
         bases = contacts.get(DONOR), contacts.get(RECEIVER)
-        file = WindowFile(
-            contacts[STAMP], *bases, pull.speeds, pull.preloads, pull.stiffness, scatter
-        )
-        variants.append((temperature, dwell, file))
-    first = variants[0][-1]
-    if pull.temperatures == (None,) == pull.dwells:
-        return first
-    return replace(first, variants=tuple(variants))
+        drive = pull.speeds, pull.preloads, pull.stiffness
+        maps.append(WindowFile(contacts[STAMP], *bases, *drive, scatter, temperature, dwell))
+    return tuple(maps)
 
 
 def _has_passport(tables: Any) -> bool:
