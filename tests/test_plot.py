@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from picture_units import in_si
 from synthetic import PULL_OFF_DEPTH, SI, jkr_result
 from viscotack.plot.simulation import draw_force
-from viscotack.plot.style import axis_unit, log_axis_unit, plain_ticks, save_figure
+from viscotack.plot.style import label_in_si, save_figure
 
 
 def curve(axes):
@@ -37,21 +37,19 @@ def test_a_problem_in_si_is_drawn_with_readable_units():
     unit = SI.scales()
     assert axes.get_xlabel() == "depth [µm]"
     assert axes.get_ylabel() == "force [mN]"
-    np.testing.assert_allclose(curve(axes).get_xdata(), result.depth * unit.length * 1e6)
-    np.testing.assert_allclose(curve(axes).get_ydata(), result.force * unit.force * 1e3)
+    assert in_si(axes.xaxis, curve(axes).get_xdata()) == pytest.approx(result.depth * unit.length)
+    assert in_si(axes.yaxis, curve(axes).get_ydata()) == pytest.approx(result.force * unit.force)
     assert mark(axes).get_label() == "pull-off, 3.72 mN"
-    assert mark(axes).get_ydata() == pytest.approx(-3.7248, rel=1e-4)
+    assert in_si(axes.yaxis, mark(axes).get_ydata()) == pytest.approx(-3.7248e-3, rel=1e-4)
 
 
 @pytest.mark.parametrize("speeds", [[1e-9, 1e-7], [1e-6, 1e-3], [1e-6, 1.0], [4e-3, 5e-3]])
 def test_a_tick_times_the_unit_of_its_axis_is_the_data(speeds):
     forces = [5e-6, 2e-2]
     axes = Figure().subplots()
-    (speed, speed_unit), (force, force_unit) = log_axis_unit(speeds, "m/s"), axis_unit(2e-2, "N")
-    axes.semilogx(np.divide(speeds, speed), np.divide(forces, force), label="simulation")
-    plain_ticks(axes)
-    axes.set_xlabel(f"speed [{speed_unit}]")
-    axes.set_ylabel(f"force [{force_unit}]")
+    axes.semilogx(speeds, forces, label="simulation")
+    label_in_si(axes.xaxis, "speed", "m/s")
+    label_in_si(axes.yaxis, "force", "N")
     assert in_si(axes.xaxis, curve(axes).get_xdata()) == pytest.approx(speeds)
     assert in_si(axes.yaxis, curve(axes).get_ydata()) == pytest.approx(forces)
 

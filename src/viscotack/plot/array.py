@@ -7,7 +7,7 @@ import numpy as np
 from viscotack.design.arrays import ArrayPull, PadArray
 from viscotack.design.arrays.load import Hold
 
-from .style import BLUE, ORANGE, axis_unit, drawing
+from .style import BLUE, ORANGE, drawing, label_in_si, said
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,29 +50,24 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
     >>> draw_array(array, found).axes[0].get_xlabel()
     'travel of the drive [µm]'
     """
-    travel, length = axis_unit(found.drive[-1], "m")
-    unit, force_unit = axis_unit(found.force, "N")
     places = np.array(array.positions, dtype=float)
-    across, place_unit = axis_unit(max(float(np.ptp(places)), 1e-9), "m")
     turn = np.full(len(places), np.nan)
     for number, (when, _) in enumerate(found.jumps):
         turn[np.isclose(found.released, when, rtol=1e-6, atol=1e-9 * -found.drive[-1])] = number + 1
     with drawing(10.0, 4.6) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.35, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(-found.drive / travel, found.force / unit, color=BLUE)
-        low, high = (-end / unit for end in found.interval)
-        left.axhspan(low, high, color=BLUE, alpha=0.15, lw=0, label="pull-off, interval")
+        left.plot(-found.drive, found.force, color=BLUE)
+        low, high = found.interval
+        left.axhspan(-low, -high, color=BLUE, alpha=0.15, lw=0, label="pull-off, interval")
         if load is not None:
-            left.axhline(-load.force / unit, color=ORANGE, ls="--", label="load")
-        left.set_xlabel(f"travel of the drive [{length}]")
-        left.set_ylabel(f"force on the array [{force_unit}]")
-        left.set_title(
-            f"{len(places)} pads: {found.pull_off_force / unit:.3g} {force_unit}, "
-            f"load sharing {found.load_sharing:.2f}"
-        )
+            left.axhline(-load.force, color=ORANGE, ls="--", label="load")
+        label_in_si(left.xaxis, "travel of the drive", "m")
+        label_in_si(left.yaxis, "force on the array", "N")
+        force = said(found.pull_off_force, "N")
+        left.set_title(f"{len(places)} pads: {force}, load sharing {found.load_sharing:.2f}")
         left.legend(loc="best", frameon=False)
-        x, y = (places / across).T
+        x, y = places.T
         touched = ~np.isnan(turn)
         if not touched.all():
             style = {"s": 260, "facecolors": "none", "edgecolors": "0.5", "label": "no contact"}
@@ -90,6 +85,7 @@ def draw_array(array: PadArray, found: ArrayPull, *, load: Hold | None = None) -
         right.set_aspect("equal")
         right.margins(0.15)
         right.grid(False)
-        right.set(xlabel=f"x [{place_unit}]", ylabel=f"y [{place_unit}]")
+        label_in_si(right.xaxis, "x", "m")
+        label_in_si(right.yaxis, "y", "m")
         right.set_title("order in which the pads detach")
     return figure

@@ -6,7 +6,7 @@ import numpy as np
 
 from viscotack.design.control import ForceTable, Released
 
-from .style import BLUE, ORANGE, axis_unit, drawing
+from .style import BLUE, ORANGE, drawing, label_in_si, said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,8 +34,6 @@ def draw_control(table: ForceTable, released: Released | None = None) -> "Figure
     """
     from matplotlib import colormaps
 
-    N, newton = axis_unit(table.pull_off_force, "N")
-    m, metre = axis_unit(table.travel, "m")
     count = 1 if released is None else 2
     with drawing(5.4 * count, 4.4) as figure:
         axes = figure.subplots(1, count, squeeze=False)[0]
@@ -43,28 +41,28 @@ def draw_control(table: ForceTable, released: Released | None = None) -> "Figure
         colours = colormaps["viridis"](np.linspace(0, 0.9, len(some)))
         for i, colour in zip(some, colours, strict=True):
             travel = np.interp(table.share, [0, 1, 2, 3], [0.0, *table.travel[i]])
-            speed, unit = axis_unit(table.speed[i], "m/s")
-            label = f"{table.speed[i] / speed:.3g} {unit}"
-            axes[0].plot(travel / m, table.force[i] / N, color=colour, lw=1, label=label)
+            label = said(float(table.speed[i]), "m/s")
+            axes[0].plot(travel, table.force[i], color=colour, lw=1, label=label)
         axes[0].axhline(0, color="0.6", lw=0.6)
-        axes[0].set(xlabel=f"travel of the indenter [{metre}]", ylabel=f"force [{newton}]")
         if released is not None:
             gone = table.start_depth - released.depth
-            axes[0].plot(gone / m, released.force / N, color=ORANGE, lw=2, label="release")
-            _draw_ticks(axes[1], released, N, newton)
+            axes[0].plot(gone, released.force, color=ORANGE, lw=2, label="release")
+            _draw_ticks(axes[1], released)
+        label_in_si(axes[0].xaxis, "travel of the indenter", "m")
+        label_in_si(axes[0].yaxis, "force", "N")
         axes[0].legend(fontsize="x-small", handlelength=1.2, title="speed", title_fontsize="small")
     return figure
 
 
-def _draw_ticks(axes: "Axes", released: Released, N: float, newton: str) -> None:
+def _draw_ticks(axes: "Axes", released: Released) -> None:
     """Draw force and speed of the drive by time."""
-    s, second = axis_unit(released.time, "s")
-    v, speed = axis_unit(released.drive_speed, "m/s")
-    axes.plot(released.time / s, released.force / N, color=ORANGE, label="force")
-    axes.axhline(-released.wanted / N, color="0.4", ls=":", lw=1, label="wanted")
-    axes.set(xlabel=f"time [{second}]", ylabel=f"force [{newton}]")
+    axes.plot(released.time, released.force, color=ORANGE, label="force")
+    axes.axhline(-released.wanted, color="0.4", ls=":", lw=1, label="wanted")
     axes.legend(loc="best", fontsize="small")
     other = axes.twinx()
     other.grid(False)
-    other.step(released.time / s, -released.drive_speed / v, where="post", color=BLUE, lw=1)
-    other.set_ylabel(f"speed of the drive, away [{speed}]", color=BLUE)
+    other.step(released.time, -released.drive_speed, where="post", color=BLUE, lw=1)
+    other.yaxis.label.set_color(BLUE)
+    label_in_si(axes.xaxis, "time", "s")
+    label_in_si(axes.yaxis, "force", "N")
+    label_in_si(other.yaxis, "speed of the drive, away", "m/s")

@@ -11,7 +11,7 @@ from viscotack.design.fast import Force
 from viscotack.design.margins import pad_of
 from viscotack.errors import InputError
 
-from .style import BLUE, ORANGE, axis_unit, drawing, log_axis_unit, plain_ticks
+from .style import BLUE, ORANGE, drawing, label_in_si
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,32 +62,30 @@ def _draw_forces(axes: "Axes", found: Design, stated: DesignFile) -> None:
     known = speeds.values()
     ends = (min(known) / _WIDER, max(known) * _WIDER) if known else (1e-6, 1e-3)
     points = np.geomspace(*ends, _SPEEDS).tolist()
-    factor, speed_unit = log_axis_unit(ends, "m/s")
     forces = [found.fast.force(replace(pad, speed=v)) for v in points]
     curve = [(v, f) for v, f in zip(points, forces, strict=True) if isinstance(f, Force)]
-    largest = max(force.value for name, force in best.forces.items() if name != "work")
-    N, (unit, newton) = best.choice.pads, axis_unit(largest, "N")
+    N = best.choice.pads
     if curve:
-        v = [v / factor for v, _ in curve]
+        v = [v for v, _ in curve]
         low, value, high = (
-            [N * getattr(f, end) / unit for _, f in curve] for end in ("low", "value", "high")
+            [N * getattr(f, end) for _, f in curve] for end in ("low", "value", "high")
         )
         axes.fill_between(v, low, high, color="0.75", lw=0, label="90 % interval")
         axes.plot(v, value, color="0.25", label=f"{N} pad{'s' * (N > 1)}, {found.tier}")
     for target, speed in speeds.items():
-        axes.axvline(speed / factor, color=_COLOURS[target], lw=0.8, ls=":")
+        axes.axvline(speed, color=_COLOURS[target], lw=0.8, ls=":")
         wanted = getattr(stated.targets, target)
         if wanted is not None:
             words = f"{target}, {'at least' if target == 'hold' else 'at most'}"
-            axes.axhline(wanted / unit, color=_COLOURS[target], ls="--", label=words)
+            axes.axhline(wanted, color=_COLOURS[target], ls="--", label=words)
         value = None if run is None else run.forces.get(target)
         if value is not None:
             label = f"{target}, simulated"
-            axes.plot(speed / factor, value / unit, "o", color=_COLOURS[target], label=label)
+            axes.plot(speed, value, "o", color=_COLOURS[target], label=label)
     axes.set(xscale="log", yscale="log")
-    plain_ticks(axes)
     moved = " of the stated material" if stated.conditions.shifts else ""
-    axes.set(xlabel=f"speed{moved} [{speed_unit}]", ylabel=f"pull-off force [{newton}]")
+    label_in_si(axes.xaxis, f"speed{moved}", "m/s")
+    label_in_si(axes.yaxis, "pull-off force", "N")
     met = "met" if best.margin >= 0 else "not met"
     axes.set_title(f"worst target {np.expm1(best.margin):+.0%}: {met}")
     axes.legend(**_BELOW, ncols=3)

@@ -20,7 +20,7 @@ from viscotack.lab.tack import Cycle
 from viscotack.lab.tack.repeats import same_speeds, temperature_of
 from viscotack.units import readable
 
-from .style import axis_unit, drawing, log_axis_unit, plain_ticks
+from .style import drawing, label_in_si, said
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,22 +43,20 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
     test = fit.test
     with drawing(8.4, 7.0) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
-        far, far_unit = axis_unit(test.at, "m")
-        load, load_unit = axis_unit(test.force, "N")
-        x = test.at / far
+        x = test.at
         order = np.argsort(x)
-        above.plot(x, test.force / load, "o", ms=3, color="0.4", label="measured")
+        above.plot(x, test.force, "o", ms=3, color="0.4", label="measured")
         for one in fit.fits:
             if one.criterion > fit.best.criterion + _MOST:
                 continue
             force = fitted_force(one, test)
-            (line,) = above.plot(x[order], force[order] / load, label=one.model.upper())
+            (line,) = above.plot(x[order], force[order], label=one.model.upper())
             rest = (test.force - force) / test.force_noise
             below.plot(x, rest, "o", ms=3, color=line.get_color())
         below.axhline(0.0, color="0.6", lw=0.8)
-        above.set_ylabel(f"force, compression positive [{load_unit}]")
-        what = "contact radius" if test.against == "radius" else "depth"
-        below.set(xlabel=f"{what} [{far_unit}]", ylabel="residual / noise")
+        label_in_si(above.yaxis, "force, compression positive", "N")
+        label_in_si(below.xaxis, "contact radius" if test.against == "radius" else "depth", "m")
+        below.set_ylabel("residual / noise")
         above.legend()
     return figure
 
@@ -107,14 +105,13 @@ def draw_dwells(fit: DwellFit) -> "Figure":
     """Draw pull-off force against contact time: measured, straight line in ln t, and law."""
     with drawing(8.0, 5.4) as figure:
         axes = figure.subplots()
-        load, load_unit = axis_unit(fit.forces, "N")
-        axes.semilogx(fit.times, np.array(fit.forces) / load, "o", color="0.4", label="measured")
+        axes.semilogx(fit.times, fit.forces, "o", color="0.4", label="measured")
         at = np.geomspace(fit.times[0], fit.times[-1], 200)
-        axes.semilogx(at, fit.line(at) / load, "--", label="straight in the logarithm of the time")
+        axes.semilogx(at, fit.line(at), "--", label="straight in the logarithm of the time")
         if fit.law is not None:
-            axes.semilogx(at, fit.force(at) / load, label=fit.law.replace("-", " "))
-        plain_ticks(axes)
-        axes.set(xlabel="time in contact [s]", ylabel=f"pull-off force [{load_unit}]")
+            axes.semilogx(at, fit.force(at), label=fit.law.replace("-", " "))
+        label_in_si(axes.xaxis, "time in contact", "s")
+        label_in_si(axes.yaxis, "pull-off force", "N")
         axes.legend()
     return figure
 
@@ -125,25 +122,22 @@ def draw_rate_series(
     """Draw pull-off force against speed: measured, fitted, and forecast with its band."""
     with drawing(8.0, 5.4) as figure:
         axes = figure.subplots()
-        fastest, speed_unit = log_axis_unit([one.speed for one in fit.series], "m/s")
         measured = [one.force.value for one in fit.series]
-        load, load_unit = axis_unit(measured, "N")
-        speed = [one.speed / fastest for one in fit.series]
-        bars = [one.force.uncertainty / load for one in fit.series]
+        speed = [one.speed for one in fit.series]
+        bars = [one.force.uncertainty for one in fit.series]
         style = {"fmt": "o", "color": "0.3", "label": "measured", "zorder": 3}
-        axes.errorbar(speed, np.array(measured) / load, yerr=bars, **style)
+        axes.errorbar(speed, measured, yerr=bars, **style)
         work = readable(fit.work_of_adhesion, "J/m^2", digits=3).replace("^2", "$^2$")
         interface = f"{work}, {_second(fit)}"
-        fitted = [force / load for force in fit.forces]
-        axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
+        axes.plot(speed, fit.forces, "x", ms=9, zorder=4, label=f"fit: {interface}")
         if forecast is not None:
-            _band(axes, forecast, fastest, load)
+            _band(axes, forecast)
         axes.set(xscale="log", yscale="log")
-        plain_ticks(axes)
         name, at = "true speed of retraction", fit.passport.temperature
         if at is not None and any(one.shift != 1.0 for one in fit.series):
             name = f"speed $a_T v$ at {at - 273.15:.3g} °C"
-        axes.set(xlabel=f"{name} [{speed_unit}]", ylabel=f"pull-off force [{load_unit}]")
+        label_in_si(axes.xaxis, name, "m/s")
+        label_in_si(axes.yaxis, "pull-off force", "N")
         axes.legend()
     return figure
 
@@ -162,28 +156,25 @@ def draw_fitted_curves(fit: RateSeriesFit, cycles: Sequence[Cycle]) -> "Figure":
     groups = same_speeds(cycles)
     with drawing(8.4, 7.0) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
-        load, load_unit = axis_unit([one.force.value for one in fit.series], "N")
         pairs = [_fitted_pair(fit, int(i), groups) for i in chosen]
-        far, far_unit = axis_unit([np.ptp(fitted[0]) for _, fitted in pairs], "m")
         colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(pairs)))
         for i, colour, (measured, fitted) in zip(chosen, colours, pairs, strict=True):
             one = fit.series[i]
-            label = (
-                f"{one.conditions(3)}: "
-                f"{readable(one.force.value, 'N', digits=3)}, fit "
-                f"{readable(fit.forces[i], 'N', digits=3)}"
-            ).replace(" u", " µ")
+            measured_force, fitted_force = said(one.force.value, "N"), said(fit.forces[i], "N")
+            where = one.conditions(3).replace(" u", " µ")
+            label = f"{where}: {measured_force}, fit {fitted_force}"
             travel, force = measured
-            above.plot(travel / far, force / load, lw=1.0, color=colour, label=label)
-            above.plot(fitted[0] / far, fitted[1] / load, "--", color=colour)
+            above.plot(travel, force, lw=1.0, color=colour, label=label)
+            above.plot(*fitted, "--", color=colour)
             # the steep end, where travels that differ little give large differences, is left out
             last = fitted[0][np.argmin(fitted[1])]
             inside = (travel >= fitted[0][0]) & (travel <= last)
             rest = force[inside] - np.interp(travel[inside], *fitted)
-            below.plot(travel[inside] / far, rest / load, lw=1.0, color=colour)
+            below.plot(travel[inside], rest, lw=1.0, color=colour)
         below.axhline(0.0, color="0.6", lw=0.8)
-        above.set_ylabel(f"force, compression positive [{load_unit}]")
-        below.set(xlabel=f"travel from zero force [{far_unit}]", ylabel=f"difference [{load_unit}]")
+        label_in_si(above.yaxis, "force, compression positive", "N")
+        label_in_si(below.xaxis, "travel from zero force", "m")
+        label_in_si(below.yaxis, "difference", "N")
         above.legend(fontsize="small", loc="lower left")
     return figure
 
@@ -233,11 +224,10 @@ def _second(fit: RateSeriesFit | EdgeFit) -> str:
     return "range not identifiable"
 
 
-def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> None:
+def _band(axes: Any, forecast: RateForecast) -> None:
     order = np.argsort(forecast.speed)
-    x = forecast.speed[order] / fastest
-    low, high, middle = (
-        each[order] / load for each in (forecast.low, forecast.high, forecast.force)
+    x, low, high, middle = (
+        each[order] for each in (forecast.speed, forecast.low, forecast.high, forecast.force)
     )
     where = f"forecast at {readable(forecast.preload, 'N', digits=3)}"
     if forecast.temperature is not None:

@@ -7,7 +7,7 @@ import numpy as np
 from viscotack.identify import NextTests, Trial
 from viscotack.units import readable
 
-from .style import drawing, log_axis_unit, plain_ticks
+from .style import drawing, label_in_si
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,15 +31,14 @@ def draw_next_tests(found: NextTests) -> "Figure":
         groups: dict[str, list[tuple[float, float]]] = {}
         for one in found.ranked:
             groups.setdefault(_condition(one.trial), []).append((one.trial.speed, one.left))
-        factor, unit = log_axis_unit([one.trial.speed for one in found.ranked], "m/s")
         for name, rows in groups.items():
             v, deviation = np.array(sorted(rows)).T
-            left.plot(v / factor, 100 * deviation, "o-", ms=4, label=name)
+            left.plot(v, 100 * deviation, "o-", ms=4, label=name)
         left.axhline(100 * found.now, color="0.4", ls="--", label="now")
-        left.set(xscale="log", xlabel=f"speed of the test [{unit}]")
+        left.set_xscale("log")
+        label_in_si(left.xaxis, "speed of the test", "m/s")
         left.set_ylabel("standard deviation after it [%]")
         left.set_ylim(0, None)
-        plain_ticks(left)
         left.legend(fontsize=8, loc="lower left")
         steps = [found.now, *(one.left for one in found.sequence)]
         right.plot(range(len(steps)), 100 * np.array(steps), "o-")

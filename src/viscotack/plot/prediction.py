@@ -15,7 +15,7 @@ from viscotack.model.problem.outputs import PLANE
 from viscotack.prediction.prediction import Prediction
 from viscotack.result import Result
 
-from .style import axis_unit, drawing
+from .style import drawing, label_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,16 +59,10 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     if curve is None:
         raise InputError(f"the theory {prediction.method!r} has no force curve to draw")
     scales, kind = prediction.problem.scales(), prediction.problem.groups().outputs
-    drawn = [kind.of(name).unit for name in ("depth", "force")]
-    what = "mean stress" if kind is PLANE else "force"
-    if scales is None:
-        length, load = 1.0, 1.0
-        units = [f"/ {unit.drawn}" for unit in drawn]
-    else:
-        length, load = scales.length, getattr(scales, drawn[1].scale)
-        far, metre = axis_unit(length * curve.depth, drawn[0].si)
-        most, newton = axis_unit(load * curve.force, drawn[1].si)
-        length, load, units = length / far, load / most, [f"[{metre}]", f"[{newton}]"]
+    along, across = kind.of("depth"), kind.of("force")
+    length, load = (
+        1.0 if scales is None else getattr(scales, x.unit.scale) for x in (along, across)
+    )
     with drawing() as figure:
         axes = figure.subplots()
         axes.axhline(0, color="0.6", lw=1, zorder=0)
@@ -87,7 +81,8 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
             place = {"mfc": "none", "color": "C0", "markevery": 0.04, "zorder": 1}
             depth, force = simulated.depth * length, simulated.force * load
             axes.plot(depth, force, "o", label="simulation", **place)
-        axes.set(xlabel=f"depth {units[0]}", ylabel=f"{what} {units[1]}")
+        label_of(axes.xaxis, along, scales is not None)
+        label_of(axes.yaxis, across, scales is not None)
         axes.legend()
     return figure
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from viscotack.theory.punch import REGIMES, RegimeMap
 
-from .style import axis_unit, drawing, log_axis_unit, plain_ticks
+from .style import drawing, label_in_si, said
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -52,19 +52,18 @@ def draw_regimes(found: RegimeMap) -> "Figure":
     from matplotlib.patches import Patch
 
     number = np.argmax(found.regime[..., None] == np.array(REGIMES), axis=-1)
-    v, v_unit = log_axis_unit(found.speed, "m/s")
-    b, b_unit = log_axis_unit(found.thickness, "m")
-    p, p_unit = axis_unit(np.nanmedian(found.stress), "Pa")
-    speed, thickness, stress = found.speed / v, found.thickness / b, found.stress / p
+    speed, thickness = found.speed, found.thickness
     with drawing() as figure:
         axes = figure.subplots()
         axes.set(xscale="log", yscale="log")
         axes.contourf(speed, thickness, number, levels=(-0.5, 0.5, 1.5, 2.5), colors=_COLOURS)
-        lines = axes.contour(speed, thickness, stress, levels=10, colors="0.3", linewidths=1.2)
-        axes.clabel(lines, fmt=f"%.3g {p_unit}", fontsize=10)
-        plain_ticks(axes)
+        lines = axes.contour(
+            speed, thickness, found.stress, levels=10, colors="0.3", linewidths=1.2
+        )
+        axes.clabel(lines, fmt=lambda x: said(x, "Pa"), fontsize=10)
         axes.tick_params(pad=8)
-        axes.set(xlabel=f"retraction speed [{v_unit}]", ylabel=f"thickness [{b_unit}]")
+        label_in_si(axes.xaxis, "retraction speed", "m/s")
+        label_in_si(axes.yaxis, "thickness", "m")
         patches = zip(REGIMES, _COLOURS, strict=True)
         handles = [Patch(fc=colour, ec="0.3", label=words) for words, colour in patches]
         axes.legend(handles=handles[::-1], loc="lower right", frameon=True)

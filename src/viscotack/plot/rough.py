@@ -14,9 +14,11 @@ from viscotack.simulate.rough.problem import RoughProblem
 from viscotack.simulate.rough.result import FieldMap, RoughResult
 from viscotack.simulate.rough.superposition import Superposition
 
-from .style import BLUE, ORANGE, axis_unit, drawing, style
+from .style import BLUE, ORANGE, drawing, label_in_si, said, style
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colorbar import Colorbar
     from matplotlib.figure import Figure
 
 # Frames of a film in a second, and dots per inch.
@@ -106,58 +108,57 @@ def draw_superposition(problem: RoughProblem, found: Superposition) -> "Figure":
         Left the force, compression positive, right the heights with the summits.
     """
     surface, curve = problem.surface, found.curve
-    length, length_unit = axis_unit(curve.position, "m")
-    force, force_unit = axis_unit(curve.force, "N")
-    height, height_unit = axis_unit(float(np.ptp(surface.heights)) or 1e-9, "m")
-    side, side_unit = axis_unit(surface.size, "m")
     with drawing(10.0, 4.4) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(curve.position / length, curve.force / force, color=BLUE)
-        left.set(xlabel=f"position of the plate [{length_unit}]", ylabel=f"force [{force_unit}]")
-        left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
-        rows, columns = (each / side for each in surface.size)
-        image = right.imshow(surface.heights / height, cmap="cividis", extent=(0, columns, rows, 0))
-        x, y = found.asperities.positions.T / side
+        left.plot(curve.position, curve.force, color=BLUE)
+        label_in_si(left.xaxis, "position of the plate", "m")
+        label_in_si(left.yaxis, "force", "N")
+        left.set_title(f"pull-off force {said(found.pull_off_force, 'N')}")
+        rows, columns = surface.size
+        image = right.imshow(surface.heights, cmap="cividis", extent=(0, columns, rows, 0))
+        x, y = found.asperities.positions.T
         right.plot(y, x, ".", color=ORANGE, ms=3)
         right.grid(False)
-        right.set(xlabel=f"x [{side_unit}]", ylabel=f"y [{side_unit}]")
         right.set_title(f"{len(x)} asperities, {found.touching} in contact")
-        figure.colorbar(image, ax=right, label=f"height [{height_unit}]")
+        _label_map(right, figure.colorbar(image, ax=right), "height", "m")
     return figure
+
+
+def _label_map(axes: "Axes", bar: "Colorbar", words: str, unit: str) -> None:
+    """Label the sides of a map and its colours."""
+    label_in_si(axes.xaxis, "x", "m")
+    label_in_si(axes.yaxis, "y", "m")
+    label_in_si(bar.ax.yaxis, words, unit)
 
 
 def _figure(found: RoughResult) -> tuple["Figure", Callable[[FieldMap], None]]:
     """Return the figure, and a function that shows a map in it."""
-    length, length_unit = axis_unit(found.depth, "m")
-    force, force_unit = axis_unit(found.force, "N")
-    stress, stress_unit = axis_unit(found.strongest.pressure, "Pa")
     rows, columns = found.strongest.pressure.shape
-    side, side_unit = axis_unit(found.pixel * max(rows, columns), "m")
     with drawing(10.0, 4.4) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
         left.axhline(0, color="0.6", lw=0.8)
-        left.plot(found.depth / length, found.force / force, color=BLUE)
+        left.plot(found.depth, found.force, color=BLUE)
         (mark,) = left.plot([], [], "o", color=ORANGE, zorder=3)
-        left.set(xlabel=f"depth [{length_unit}]", ylabel=f"force [{force_unit}]")
         share = left.twinx()
         part = 100 * found.area / found.nominal_area
-        share.plot(found.depth / length, part, color="0.55", lw=1.0, ls="--")
+        share.plot(found.depth, part, color="0.55", lw=1.0, ls="--")
         share.set_ylabel("map in contact [%], dashed")
         share.set_ylim(0, None)
         share.grid(False)
-        left.set_title(f"pull-off force {found.pull_off_force / force:.3g} {force_unit}")
-        most = float(np.quantile(np.abs(found.strongest.pressure), 0.999)) / stress
-        extent = (0, columns * found.pixel / side, 0, rows * found.pixel / side)
+        label_in_si(left.xaxis, "depth", "m")
+        label_in_si(left.yaxis, "force", "N")
+        left.set_title(f"pull-off force {said(found.pull_off_force, 'N')}")
+        most = float(np.quantile(np.abs(found.strongest.pressure), 0.999))
+        extent = (0, columns * found.pixel, 0, rows * found.pixel)
         colours = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "interpolation": "nearest"}
-        image = right.imshow(found.strongest.pressure / stress, extent=extent, **colours)
+        image = right.imshow(found.strongest.pressure, extent=extent, **colours)
         right.grid(False)
-        right.set(xlabel=f"x [{side_unit}]", ylabel=f"y [{side_unit}]")
         right.set_title("pressure at the point")
-        figure.colorbar(image, ax=right, label=f"pressure [{stress_unit}]")
+        _label_map(right, figure.colorbar(image, ax=right), "pressure", "Pa")
 
     def show(shown: FieldMap) -> None:
-        image.set_data(shown.pressure / stress)
-        mark.set_data([shown.depth / length], [shown.force / force])
+        image.set_data(shown.pressure)
+        mark.set_data([shown.depth], [shown.force])
 
     return figure, show

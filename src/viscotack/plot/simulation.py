@@ -6,11 +6,11 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.model.problem.outputs import Unit
+from viscotack.model.problem.outputs import Series
 from viscotack.result import Outcome, Result
 from viscotack.result.cycles import pull_offs
 
-from .style import BLUE, ORANGE, axis_unit, drawing
+from .style import BLUE, ORANGE, drawing, label_of, said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,8 +106,6 @@ def draw_overview(result: Result) -> "Figure":
         _curve(axes[0, 1], result, "contact_radius", "force")
         _curve(axes[1, 0], result, "time", "contact_radius")
         _curve(axes[1, 1], result, "time", "edge_speed")
-        if np.any(result.edge_speed > 0):
-            axes[1, 1].set_yscale("log", nonpositive="mask")
         axes[0, 0].legend()
         figure.suptitle(result.status, x=0.01, ha="left")
     return figure
@@ -186,26 +184,31 @@ def draw_energy(result: Result) -> "Figure":
         raise InputError("the result contains no energies to draw; repeat the simulation")
     energy = result.energy
     moved = bool(result.groups.moves)
-    along, _, label = _series(result, "time" if moved else "depth")
-    kind = result.problem.outputs
-    factor, unit = _drawn(result, energy.drive, kind.energy_factor(result.groups), kind.energy)
-    scales = result.scales
-    unit_of_time, second = (1.0, "/ time unit") if scales is None else (scales.time, "[s]")
+    kind, scales = result.problem.outputs, result.scales
+    column = kind.of("time" if moved else "depth")
+    joule, second = (
+        (1.0, 1.0) if scales is None else (getattr(scales, kind.energy.scale), scales.time)
+    )
+    factor = kind.energy_factor(result.groups) * joule
     with drawing(13.0, 5.2) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
+        along = _drawn(result, column)
         left.plot(along, energy.drive * factor, color="k", label="drive work")
         for name, words in _ENERGIES.items():
             values = getattr(energy, name)
             series = (values - values[0]) * factor
             if np.any(series != 0):
                 left.plot(along, series, label=words)
-        left.set(xlabel=label, ylabel=f"energy {unit}")
+        label_of(left.xaxis, column, scales is not None)
+        label_of(left.yaxis, Series("", "energy", kind.energy), scales is not None)
         left.legend()
-        times, heat = energy.mode_time * unit_of_time, energy.mode_heat * factor
+        times, heat = energy.mode_time * second, energy.mode_heat * factor
         right.vlines(times, 0, heat, color="C2", lw=6)
-        right.set(xscale="log", xlabel=f"retardation time {second}")
-        right.set_ylabel(f"heat of each mode {unit}")
+        right.set(
+            xscale="log", xlabel="retardation time" + (" / time unit" if scales is None else " [s]")
+        )
         right.set_ylim(bottom=0)
+        label_of(right.yaxis, Series("", "heat of each mode", kind.energy), scales is not None)
         if not len(times):
             right.text(0.5, 0.5, "elastic: no heat", transform=right.transAxes, ha="center")
     return figure
@@ -220,8 +223,8 @@ def _single(result: Result, x: str, y: str) -> "Figure":
 
 
 def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
-    horizontal, xfactor, xlabel = _series(result, x)
-    vertical, yfactor, ylabel = _series(result, y)
+    columns = [result.problem.outputs.of(name) for name in (x, y)]
+    horizontal, vertical = (_drawn(result, column) for column in columns)
     # the steps with a value, and one between them where the line breaks
     known = np.isfinite(horizontal) & np.isfinite(vertical)
     later = np.flip(np.logical_or.accumulate(np.flip(known)))
@@ -230,43 +233,35 @@ def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
     axes.plot(horizontal[drawn], vertical[drawn], "-o", **style)
     if y == "force":
         axes.axhline(0, color="0.6", lw=1, zorder=0)
-        _mark_pull_off(axes, result, x, xfactor, yfactor, ylabel)
-    axes.set(xlabel=xlabel, ylabel=ylabel)
+        _mark_pull_off(axes, result, *columns)
+    if y == "edge_speed" and np.any(result.edge_speed > 0):
+        axes.set_yscale("log", nonpositive="mask")
+    for axis, column in zip((axes.xaxis, axes.yaxis), columns, strict=True):
+        label_of(axis, column, result.scales is not None)
 
 
-def _mark_pull_off(
-    axes: "Axes", result: Result, x: str, xfactor: float, yfactor: float, ylabel: str
-) -> None:
+def _mark_pull_off(axes: "Axes", result: Result, along: Series, force: Series) -> None:
     """Mark the pull-off of every cycle that has one; the label gives the last value."""
     if result.outcome is Outcome.STOPPED:
         return
     found = [end for end in pull_offs(result) if end is not None]
     if not found:
         return  # nothing to mark
-    force = [-end.force * yfactor for end in found]
-    unit = ylabel.rpartition(" [")[2].rstrip("]")
-    last = abs(force[-1])
-    value = f"{last:.4g}" if result.scales is None else f"{last:.3g} {unit}"
+    forces = [-end.force * _factor(result, force) for end in found]
+    last = abs(forces[-1])
+    value = f"{last:.4g}" if result.scales is None else said(last, force.unit.si)
     label = f"pull-off, {value}" if len(found) == 1 else f"pull-offs, the last {value}"
-    places = [getattr(end, x) * xfactor for end in found]
-    axes.plot(places, force, "s", color="C1", ms=9, label=label, zorder=3)
+    places = [getattr(end, along.source) * _factor(result, along) for end in found]
+    axes.plot(places, forces, "s", color="C1", ms=9, label=label, zorder=3)
 
 
-def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:
-    """Return a scaled series, its scale factor, and the axis label."""
-    values, column = getattr(result, name), result.problem.outputs.of(name)
-    factor = column.factor(result.groups)
-    factor, unit = _drawn(result, values, factor, column.unit)
-    return values * factor, factor, f"{column.words} {unit}"
+def _drawn(result: Result, column: Series) -> npt.NDArray[np.float64]:
+    """Return a series as it is drawn, in SI where the problem is."""
+    return getattr(result, column.source) * _factor(result, column)
 
 
-def _drawn(
-    result: Result, values: npt.NDArray[np.float64], factor: float, unit: Unit
-) -> tuple[float, str]:
-    """Factor and unit with which numbers of a result are drawn."""
+def _factor(result: Result, column: Series) -> float:
     scales = result.scales
-    if scales is None:
-        return factor, f"/ {unit.drawn}"
-    factor *= getattr(scales, unit.scale)
-    prefix, name = axis_unit(values * factor, unit.si)
-    return factor / prefix, f"[{name}]"
+    return column.factor(result.groups) * (
+        1.0 if scales is None else getattr(scales, column.unit.scale)
+    )

@@ -7,18 +7,17 @@ import io
 import os
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
+from math import sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import numpy.typing as npt
-
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
-from viscotack.units import prefixed
+from viscotack.model.problem.outputs import Series
+from viscotack.units import prefixed, readable
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 # Blue and orange of lines that mean one thing in several figures: force and load, hold and release.
@@ -41,34 +40,37 @@ def drawing(width: float = 7.2, height: float = 5.0, **settings: Any) -> Iterato
         yield Figure(figsize=(width, height))
 
 
-def axis_unit(values: npt.ArrayLike, unit: str) -> tuple[float, str]:
-    """Return the SI unit with the prefix for an axis of these values: its size, and its name."""
-    factor, name = prefixed(float(np.nanmax(np.abs(values), initial=0.0)), unit)
-    return factor, name.replace("u", "µ")
+def label_in_si(axis: "Axis", words: str, unit: str) -> float:
+    """Label an axis whose data are in SI and drawn by words and the unit with its prefix.
+
+    Ticks are plain numbers in that unit, also on a logarithmic axis. Returns the size of the unit.
+    """
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+
+    low, high = sorted(axis.get_view_interval())
+    is_log = axis.get_scale() == "log"
+    size, name = prefixed(sqrt(low * high) if is_log else max(abs(low), abs(high)), unit)
+    if is_log and high > 10 * low:
+        axis.set_major_locator(LogLocator(subs=(1.0,) if high > 100 * low else (1.0, 2.0, 5.0)))
+    elif is_log:
+        axis.set_major_locator(MaxNLocator(5))
+    axis.set_minor_formatter(NullFormatter())
+    axis.set_major_formatter(lambda x, _: f"{x / size:.6g}".replace("-", "\N{MINUS SIGN}"))
+    axis.set_label_text(f"{words} [{name.replace('u', 'µ')}]" if name != "1" else words)
+    return size
 
 
-def log_axis_unit(values: npt.ArrayLike, unit: str) -> tuple[float, str]:
-    """Return the same for a logarithmic axis, by the middle of its positive values."""
-    x = np.asarray(values, dtype=float)
-    x = x[x > 0]
-    return axis_unit(float(np.sqrt(x.min() * x.max())) if x.size else 1.0, unit)
+def label_of(axis: "Axis", series: Series, in_si: bool) -> None:
+    """Label an axis by the words of a series, with its unit in SI or that of its groups."""
+    if in_si:
+        label_in_si(axis, series.words, series.unit.si)
+    else:
+        axis.set_label_text(f"{series.words} / {series.unit.drawn}")
 
 
-def plain_ticks(axes: "Axes") -> None:
-    """Label logarithmic axes, whose data are drawn, by plain numbers instead of powers of ten."""
-    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
-
-    for axis in (axes.xaxis, axes.yaxis):
-        if axis.get_scale() != "log":
-            continue
-        low, high = axis.get_view_interval()
-        if high > 10 * low:
-            subs = (1.0,) if high > 100 * low else (1.0, 2.0, 5.0)
-            axis.set_major_locator(LogLocator(subs=subs))
-        else:
-            axis.set_major_locator(MaxNLocator(5))
-        axis.set_major_formatter(StrMethodFormatter("{x:.6g}"))
-        axis.set_minor_formatter(NullFormatter())
+def said(value: float, unit: str) -> str:
+    """Return a quantity in SI with three digits, such as "1.33 µm/s"."""
+    return readable(value, unit, digits=3).replace(" u", " µ")
 
 
 def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:

@@ -8,9 +8,8 @@ import numpy as np
 from viscotack.lab.tack import Cycle
 from viscotack.lab.tack.repeats import same_speeds, same_temperatures, temperature_of
 from viscotack.model.materials.shift import Shift
-from viscotack.units import readable
 
-from .style import axis_unit, drawing, log_axis_unit, plain_ticks
+from .style import drawing, label_in_si, said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,9 +40,6 @@ def _curves(axes: "Axes", cycles: Sequence[Cycle], most: int) -> None:
     groups = same_speeds(cycles)
     rows = [(number, cycle) for number, same in enumerate(groups) for cycle in same]
     chosen = [rows[i] for i in _evenly(len(rows), most)]
-    shown = [cycle for _, cycle in chosen]
-    forces, force_unit = axis_unit([c.pull_off_force.value for c in shown], "N")
-    depths, depth_unit = axis_unit([np.ptp(c.depth[c.retraction]) for c in shown], "m")
     # the last colours are too light for lines
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(groups)))
     for number, cycle in chosen:
@@ -51,15 +47,16 @@ def _curves(axes: "Axes", cycles: Sequence[Cycle], most: int) -> None:
         every = max((back.stop - back.start) // _POINTS, 1)
         colour = colours[number]
         depth, force = cycle.depth[back][::every], cycle.force[back][::every]
-        axes.plot(depth / depths, force / forces, lw=1.0, color=colour)
-        at = cycle.depth_at_pull_off.value / depths, -cycle.pull_off_force.value / forces
+        axes.plot(depth, force, lw=1.0, color=colour)
+        at = cycle.depth_at_pull_off.value, -cycle.pull_off_force.value
         axes.plot(*at, "o", ms=4, color=colour)
     several = len(same_temperatures(cycles)) > 1
     for number in _evenly(len(groups), _LEGEND):
         axes.plot([], [], color=colours[number], label=_label(groups[number], several))
     axes.legend(fontsize="small")
     axes.axhline(0.0, color="0.6", lw=0.8)
-    axes.set(xlabel=f"depth [{depth_unit}]", ylabel=f"force, compression positive [{force_unit}]")
+    label_in_si(axes.xaxis, "depth", "m")
+    label_in_si(axes.yaxis, "force, compression positive", "N")
 
 
 def _evenly(count: int, most: int) -> list[int]:
@@ -79,8 +76,7 @@ def _label(same: Sequence[Cycle], several: bool) -> str:
     """
     speed = float(np.mean([cycle.speed.value for cycle in same]))
     force = float(np.mean([cycle.pull_off_force.value for cycle in same]))
-    words = f"{readable(speed, 'm/s', digits=3)}: {readable(force, 'N', digits=3)}"
-    words = (f"{_celsius(same)}, " * several + words).replace(" u", " µ")
+    words = f"{_celsius(same)}, " * several + f"{said(speed, 'm/s')}: {said(force, 'N')}"
     return words if len(same) == 1 else f"{words} ({len(same)} tests)"
 
 
@@ -89,16 +85,13 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle], shift: Shift | None) -> No
 
     groups = same_temperatures(cycles)
     factors = [_factor(same, shift) for same in groups]
-    force, unit = axis_unit([cycle.pull_off_force.value for cycle in cycles], "N")
-    pairs = list(zip(groups, factors, strict=True))
-    speed, speed_unit = log_axis_unit([a * c.speed.value for same, a in pairs for c in same], "m/s")
     colours = colormaps["plasma"](np.linspace(0.0, 0.85, len(groups)))
-    for (same, factor), colour in zip(pairs, colours, strict=True):
+    for same, factor, colour in zip(groups, factors, colours, strict=True):
         axes.errorbar(
-            [factor * cycle.speed.value / speed for cycle in same],
-            [cycle.pull_off_force.value / force for cycle in same],
-            xerr=[factor * cycle.speed.uncertainty / speed for cycle in same],
-            yerr=[cycle.pull_off_force.uncertainty / force for cycle in same],
+            [factor * cycle.speed.value for cycle in same],
+            [cycle.pull_off_force.value for cycle in same],
+            xerr=[factor * cycle.speed.uncertainty for cycle in same],
+            yerr=[cycle.pull_off_force.uncertainty for cycle in same],
             fmt="o",
             ms=4,
             lw=1.0,
@@ -107,14 +100,14 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle], shift: Shift | None) -> No
         )
     if all(cycle.speed.value > 0 for cycle in cycles):
         axes.set_xscale("log")
-        plain_ticks(axes)
     if len(groups) > 1:
         axes.legend(fontsize="small")
     axes.set_ylim(bottom=0.0)
     name = "true speed of retraction"
     if shift is not None:
         name = f"speed $a_T v$ at {shift.reference_temperature - 273.15:.3g} °C"
-    axes.set(xlabel=f"{name} [{speed_unit}]", ylabel=f"pull-off force [{unit}]")
+    label_in_si(axes.xaxis, name, "m/s")
+    label_in_si(axes.yaxis, "pull-off force", "N")
 
 
 def _factor(same: Sequence[Cycle], shift: Shift | None) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.design.window import CriticalSpeed, Window
 
-from .style import axis_unit, drawing, log_axis_unit, plain_ticks
+from .style import drawing, label_in_si
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +65,7 @@ def draw_window(*maps: Window, titles: Sequence[str] = ()) -> "Figure":
             _draw_map(axes, found)
         for axes, title in zip(panels, titles, strict=False):
             axes.set_title(title)
-        panels[0].set_ylabel(f"preload [{axis_unit(maps[0].preloads, 'N')[1]}]")
+        label_in_si(panels[0].yaxis, "preload", "N")
         present = {cell.word for found in maps for cell in found.cells}
         handles: list[Patch | Line2D] = [
             Patch(fc=colour, ec="0.3", label=word)
@@ -86,13 +86,11 @@ def _draw_map(axes: "Axes", found: Window) -> None:
     """Draw one map with its critical speeds."""
     from matplotlib.colors import ListedColormap
 
-    speed, speed_unit = log_axis_unit(found.speeds, "m/s")
-    load, _ = axis_unit(found.preloads, "N")
     words = list(_COLOURS)
     number = np.array([words.index(cell.word) for cell in found.cells])
     axes.pcolormesh(
-        _edges(found.speeds) / speed,
-        _edges(found.preloads) / load,
+        _edges(found.speeds),
+        _edges(found.preloads),
         number.reshape(len(found.preloads), len(found.speeds)),
         cmap=ListedColormap(list(_COLOURS.values())),
         vmin=-0.5,
@@ -104,9 +102,8 @@ def _draw_map(axes: "Axes", found: Window) -> None:
     for base, style in _LINES.items():
         known = [each for each in found.critical_speeds if each.base == base]
         if known:
-            _draw_critical(axes, known, style, speed, load)
-    plain_ticks(axes)
-    axes.set_xlabel(f"speed of the drive [{speed_unit}]")
+            _draw_critical(axes, known, style)
+    label_in_si(axes.xaxis, "speed of the drive", "m/s")
     axes.grid(False)
 
 
@@ -124,17 +121,15 @@ def _edges(values: Sequence[float]) -> Array:
     return np.exp(edges) if positive else edges
 
 
-def _draw_critical(
-    axes: "Axes", known: list[CriticalSpeed], style: str, speed: float, load: float
-) -> None:
+def _draw_critical(axes: "Axes", known: list[CriticalSpeed], style: str) -> None:
     """Draw critical speeds with their intervals, one line for each change of contact."""
     for change in {(each.below, each.above) for each in known}:
         line = [each for each in known if (each.below, each.above) == change]
         x = np.array([each.speed for each in line])
         y = np.array([each.preload for each in line])
-        axes.plot(x / speed, y / load, style, marker="o", ms=5, color="0.1")
+        axes.plot(x, y, style, marker="o", ms=5, color="0.1")
         low, high = (
             np.array([each.speed if (end := each.interval[k]) is None else end for each in line])
             for k in (0, 1)
         )
-        axes.fill_betweenx(y / load, low / speed, high / speed, color="0.1", alpha=0.18, lw=0)
+        axes.fill_betweenx(y, low, high, color="0.1", alpha=0.18, lw=0)
