@@ -19,10 +19,10 @@ from viscotack.design import (
 )
 from viscotack.design.confirming import simulate
 from viscotack.design.fast import SURROGATES, THEORIES, FastTier, Force, Pad
-from viscotack.design.front import nondominated
 from viscotack.design.holding import held_load
 from viscotack.design.margins import Candidate, Judge
-from viscotack.design.yields import allowances, share_of
+from viscotack.design.searching import nondominated
+from viscotack.design.slopes import allowances, share_of
 from viscotack.theory import lennard_jones
 
 RUBBER = RetardationPowerLaw(

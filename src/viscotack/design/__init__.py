@@ -4,10 +4,10 @@ The search uses the fast tiers with their intervals, and a simulation of the bes
 decides. docs/design.md describes file, method and limits.
 """
 
-from .confirming import Simulated
 from .design_file import DesignFile, read_design
-from .finding import Candidate, Design, find_design
+from .finding import Design, find_design
 from .limits import Limit
+from .margins import Candidate, Simulated
 from .space import Bounds, Choice, Conditions, DesignSpace, Targets
 
 __all__ = [

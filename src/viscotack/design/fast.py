@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from math import hypot
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -82,18 +82,6 @@ class Pad:
     bonded: bool = False
 
 
-class Forces(Protocol):
-    """What predicts the forces of pads."""
-
-    def force(self, pad: Pad, /) -> Force | str:
-        """Return the force of a pad, or a reason."""
-        ...
-
-    def held(self, pad: Pad, time: float, /) -> Force | str:
-        """Return the dead load that a pad holds for a time [s], or a reason."""
-        ...
-
-
 @dataclass(frozen=True, eq=False)
 class FastTier:
     """Predictions of pads, each computed once.
@@ -106,11 +94,14 @@ class FastTier:
         The interface.
     budget : float
         Largest cost of a tier [s], as for :func:`viscotack.predict`.
+    between : callable, optional
+        Interpolates the force of a pad in place of a tier.
     """
 
     materials: Mapping[str, Material]
     traction: Any
     budget: float
+    between: Callable[[Pad], Force | str] | None = None
     known: dict[Pad, Force | str] = field(default_factory=dict, repr=False)
     loads: dict[tuple[Pad, float], Force | str] = field(default_factory=dict, repr=False)
     computed: Computed = field(default_factory=Computed, repr=False)
@@ -141,6 +132,8 @@ class FastTier:
 
     def force(self, pad: Pad) -> Force | str:
         """Return the force of a pad, or the reason why no tier within the budget predicts it."""
+        if self.between is not None:
+            return self.between(pad)
         if pad not in self.known:
             try:
                 problem = self.problem(pad)

@@ -10,9 +10,9 @@ designs by these are simulated too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil, exp, inf, log
+from math import ceil, exp, log
 from typing import Any
 
 import numpy as np
@@ -23,32 +23,24 @@ from viscotack.model.materials import Material
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.units import readable
 
-from .confirming import Simulated, simulate
-from .fast import SURROGATES, THEORIES, FastTier, Forces
-from .front import front_of
-from .interpolating import interpolation
+from .confirming import simulate
+from .fast import SURROGATES, THEORIES, FastTier
+from .interpolating import interpolated
 from .limits import SPEEDS, Limit, solid_limits, wanted
 from .margins import Candidate, Judge
-from .searching import NONE, Effort, search
+from .searching import NONE, Effort, front_of, search
+from .slopes import allowances, binding, share_of, slopes_of
 from .space import (
     HOLD,
-    HOLD_SPEED,
-    INTERFACE,
     LOAD,
-    MODULUS,
-    PADS,
-    PRELOAD,
     RATIO,
     RELEASE,
-    RELEASE_SPEED,
-    UNITS,
     WORK,
     Choice,
     Conditions,
     DesignSpace,
     Targets,
 )
-from .yields import Slopes, allowances, gain, share_of
 
 # Sizes of searches: of all targets together, of one alone, and of all ends of a front.
 _EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 2.4)
@@ -63,9 +55,6 @@ _SAMPLED, _ROUNDS = 3.3, 4
 _TRIED, _COVERED = 16, 0.25
 # Distance of candidates in some variable, over its range.
 _APART = 0.15
-# Step of logarithms for slopes, part of a range within which a variable is at its end, largest
-# difference of margins that bind together, and least slope of a bound that binds.
-_STEP, _AT_END, _TOGETHER, _SLOPE = 0.02, 5e-3, 0.02, 1e-3
 
 
 @dataclass(frozen=True)
@@ -77,8 +66,6 @@ class Design:
     candidates : tuple of Candidate
         Best designs by the fast tier, best first; those that were simulated are ordered by their
         simulated margin.
-    simulated : tuple of (Simulated or None)
-        Simulation of each.
     meets : bool or None
         Whether the first design meets every target: by simulation; None without one, unless the
         fast tier excludes it.
@@ -91,9 +78,6 @@ class Design:
     front : tuple of Candidate
         Designs of which none is better in every target, by the less favourable ends of their
         intervals; empty for a single target.
-    yields : tuple of (float or None)
-        Share of the parts of each candidate that meets the targets, by its simulated forces or
-        else by the fast tier; None without tolerances.
     limits : tuple of Limit
         What the solid permits, and if the targets are out of reach, what the best designs reach of
         each target alone.
@@ -102,15 +86,12 @@ class Design:
     """
 
     candidates: tuple[Candidate, ...]
-    simulated: tuple[Simulated | None, ...]
     meets: bool | None
     binding: tuple[str, ...]
     elasticities: Mapping[str, Mapping[str, float | None]]
     limits: tuple[Limit, ...]
     fast: FastTier
     front: tuple[Candidate, ...] = ()
-    yields: tuple[float | None, ...] = ()
-    judge: Judge = field(default_factory=lambda: Judge(Targets(ratio=1.0)))
 
     @property
     def predictions(self) -> int:
@@ -182,12 +163,10 @@ def find_design(
     judge = Judge(targets, conditions or Conditions(), space.bonded)
     if not materials:
         raise InputError("a design needs at least one material")
-    for name, needed in (
-        (HOLD_SPEED, judge.targets.needs_hold),
-        (RELEASE_SPEED, judge.targets.needs_release),
-    ):
-        if needed and getattr(space, name) is None:
-            raise InputError(f"the targets need bounds of the {name}")
+    if targets.needs_hold and space.hold_speed is None:
+        raise InputError("the targets need bounds of the hold_speed")
+    if targets.needs_release and space.release_speed is None:
+        raise InputError("the targets need bounds of the release_speed")
     work = _Search.begun(materials, traction, space, judge, seed)
     fast, by_surrogates = work.fast, work.fast.budget == SURROGATES
     several = len(targets.stated) > 1
@@ -216,47 +195,17 @@ def find_design(
     with limited(time_limit):
         tested = work.simulated(candidates, seen, confirm, accuracy, progress)
     tested.sort(key=lambda each: each.rank)
-    best = tested[0].candidate
+    best = tested[0]
     slopes = slopes_of(best.choice, fast, judge)
     return Design(
-        candidates=tuple(each.candidate for each in tested),
-        simulated=tuple(each.run for each in tested),
-        meets=tested[0].meets,
-        binding=_binding(best, space, slopes),
+        candidates=tuple(tested),
+        meets=best.meets(judge.conditions.share),
+        binding=binding(best, space, slopes),
         elasticities=slopes,
         limits=limits,
         fast=fast,
         front=front_of(seen.values()) if several else (),
-        yields=tuple(each.part for each in tested),
-        judge=judge,
     )
-
-
-@dataclass(frozen=True)
-class _Tested:
-    """A candidate with its simulation, and the share of the parts that meet the targets."""
-
-    candidate: Candidate
-    run: Simulated | None
-    part: float | None
-    wanted: float
-
-    @property
-    def meets(self) -> bool | None:
-        """Whether every target is met by simulation; None if that is open."""
-        if self.run is None:
-            return None if self.candidate.is_possible else False
-        if self.run.meets is None or not self.wanted:
-            return self.run.meets
-        return None if self.part is None else self.part >= self.wanted
-
-    @property
-    def rank(self) -> tuple[float, float]:
-        """Order of a candidate: by its simulated yield and margin, then the others."""
-        margin = None if self.run is None else self.run.margin
-        if margin is None:
-            return inf, -self.candidate.margin
-        return -round(self.part or 0.0, 3), -margin
 
 
 @dataclass(frozen=True, eq=False)
@@ -301,12 +250,12 @@ class _Search:
         return min(margin - self.needed[name] for name, margin in margins.items())
 
     def over_needed(self, one: Candidate) -> float:
-        """Return the rating of a candidate by its smallest margin over what is needed."""
+        """Return the rating of a candidate."""
         return self.rated(one.margins)
 
     def searched(
         self,
-        forces: Forces,
+        forces: FastTier,
         rate: Callable[[Candidate], float],
         material: str,
         seed: int,
@@ -347,7 +296,7 @@ class _Search:
             tried = {choice: self.judge.judged(choice, self.fast) for choice in choices}
             seen |= {choice: found for choice, found in tried.items() if not isinstance(found, str)}
             tell((number + 1) / (_ROUNDS + 1))
-            between = interpolation(self.fast, material)
+            between = interpolated(self.fast, material)
             if between is None or number == _ROUNDS:
                 break
             likely = self.searched(between, self.over_needed, material, self.seed + number)
@@ -373,14 +322,6 @@ class _Search:
                 found.append(each)
         return tuple(found)
 
-    def tested(self, one: Candidate, run: Simulated | None) -> _Tested:
-        """Return a candidate with its simulation and yield, by simulated forces if there are."""
-        deviations, part = self.judge.conditions.deviations, None
-        if deviations:
-            margins = one.margins if run is None or not run.margins else run.margins
-            part = share_of(margins, slopes_of(one.choice, self.fast, self.judge), deviations)
-        return _Tested(one, run, part, self.judge.conditions.share)
-
     def simulated(
         self,
         candidates: tuple[Candidate, ...],
@@ -388,49 +329,58 @@ class _Search:
         confirm: int,
         accuracy: float,
         progress: Callable[[float], None],
-    ) -> list[_Tested]:
+    ) -> list[Candidate]:
         """Return candidates with their simulations, until one meets the targets.
 
         The next one is the best by corrected predictions, which a further search adds to those that
         were seen, or else the next candidate.
         """
-        tested: list[_Tested] = []
+        tested: list[Candidate] = []
+        share = self.judge.conditions.share
         waiting = [each for each in candidates[:confirm] if each.is_possible]
         most = len(waiting) + _CORRECTED if waiting else 0
-        while len(tested) < most and not (tested and tested[-1].meets):
-            known = [(x.candidate, x.run) for x in tested if x.run is not None and x.run.margins]
+        while len(tested) < most and not (tested and tested[-1].meets(share)):
+            known = [each for each in tested if each.run is not None and each.run.margins]
             likely = []
             if known:
 
-                def rate(one: Candidate, known: list[tuple[Candidate, Simulated]] = known) -> float:
+                def rate(one: Candidate, known: list[Candidate] = known) -> float:
                     return self.rated(self.corrected(one, known))
 
                 if self.fast.budget == SURROGATES:
-                    material = known[-1][0].choice.material
+                    material = known[-1].choice.material
                     seen |= self.searched(self.fast, rate, material, self.seed, effort=_REACH)
                 likely = [max(seen.values(), key=rate)]
-            done = {each.candidate.choice for each in tested}
+            done = {each.choice for each in tested}
             fresh = [each for each in (*likely, *waiting) if each.choice not in done]
             if not fresh:
                 break
             run = simulate(fresh[0], self.fast, self.judge, accuracy=accuracy)
-            tested.append(self.tested(fresh[0], run))
+            tested.append(self.shared(replace(fresh[0], run=run)))
             progress(0.6 + 0.4 * len(tested) / most)
-        done = {each.candidate.choice for each in tested}
-        return [*tested, *(self.tested(x, None) for x in candidates if x.choice not in done)]
+        done = {each.choice for each in tested}
+        return [*tested, *(self.shared(x) for x in candidates if x.choice not in done)]
 
-    def corrected(
-        self, one: Candidate, known: list[tuple[Candidate, Simulated]]
-    ) -> dict[str, float]:
+    def shared(self, one: Candidate) -> Candidate:
+        """Return a candidate with the share of parts that meet the targets, by its simulation."""
+        deviations = self.judge.conditions.deviations
+        if not deviations:
+            return one
+        margins = one.margins if one.run is None or not one.run.margins else one.run.margins
+        slopes = slopes_of(one.choice, self.fast, self.judge)
+        return replace(one, share=share_of(margins, slopes, deviations))
+
+    def corrected(self, one: Candidate, known: list[Candidate]) -> dict[str, float]:
         """Return the margins by predictions times the ratio of the nearest simulation to its."""
 
         def distance(other: Candidate) -> float:
             ratios = (x.value / other.forces[name].value for name, x in one.forces.items())
             return sum(log(ratio) ** 2 for ratio in ratios)
 
-        near, run = min(known, key=lambda pair: distance(pair[0]))
+        near = min(known, key=distance)
+        assert near.run is not None, "the known ones were simulated"
         forces = {
-            name: x.value * run.forces[name] / near.forces[name].value
+            name: x.value * near.run.forces[name] / near.forces[name].value
             for name, x in one.forces.items()
         }
         return self.judge.margins(one.choice, forces)
@@ -442,16 +392,16 @@ class _Search:
             time = self.judge.targets.holding_time if target == LOAD else None
             judge = replace(self.judge, targets=Targets(**{target: 1.0}, holding_time=time))
 
-            def alone(choice: Choice, forces: Forces, judge: Judge = judge) -> float:
+            def alone(choice: Choice, forces: FastTier, judge: Judge = judge) -> float:
                 """Return ln of the force or ratio by the favourable ends; NONE without one."""
                 one = judge.judged(choice, forces)
                 return NONE if isinstance(one, str) else max(min(one.best_margins.values()), NONE)
 
             tried = []
             for name in self.fast.materials:
-                forces: Forces = self.fast
+                forces: FastTier = self.fast
                 if self.fast.budget != SURROGATES:
-                    forces = interpolation(self.fast, name) or self.fast
+                    forces = interpolated(self.fast, name) or self.fast
                 rating = partial(alone, forces=forces)
                 choice = search(rating, self.space, name, effort=_REACH, seed=self.seed)
                 # of a theory, if it predicts what the interpolation suggests
@@ -482,63 +432,3 @@ def _of_speeds(best: Choice, target: str) -> str:
         f"{readable(best.preload, 'N', digits=3)}"
     )
     return ", ".join([" and ".join(words), pads] if words else [pads])
-
-
-# What matters ---------------------------------------------------------------------------------
-
-# Speed on which a force depends.
-_OWN = {HOLD: HOLD_SPEED, WORK: HOLD_SPEED, RELEASE: RELEASE_SPEED}
-
-
-def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
-    """Return d ln P/d ln x of the forces of a design by central differences of the fast tier."""
-    if MODULUS in judge.conditions.deviations and choice.modulus is None:
-        modulus = getattr(fast.materials[choice.material], "rubbery_modulus", None)
-        choice = replace(choice, modulus=modulus)
-    ends: dict[str, list[Any]] = {}
-    for name in UNITS:
-        if name != PADS and (value := getattr(choice, name)) is not None:
-            both = (replace(choice, **{name: value * exp(step)}) for step in (-_STEP, _STEP))
-            ends[name] = [judge.forces(each, fast) for each in both]
-    for name in INTERFACE:
-        if (value := getattr(fast.traction, name, None)) is not None:
-            laws = (replace(fast.traction, **{name: value * exp(x)}) for x in (-_STEP, _STEP))
-            tiers = (FastTier(fast.materials, law, fast.budget) for law in laws)
-            ends[name] = [judge.forces(choice, each) for each in tiers]
-    forces = judge.forces(choice, fast)
-    slopes: dict[str, dict[str, float | None]] = {}
-    for force in () if isinstance(forces, str) else forces:
-        own: dict[str, float | None] = {}
-        for name, (low, high) in ends.items():
-            if name in (HOLD_SPEED, RELEASE_SPEED) and name != _OWN.get(force):
-                continue
-            # none where no tier predicts
-            slope = None
-            if not isinstance(low, str) and not isinstance(high, str):
-                slope = log(high[force].value / low[force].value) / (2 * _STEP)
-            own[name] = slope
-            if name == PRELOAD:
-                # N pads under the preload F are N times one under F/N
-                own[PADS] = None if slope is None else 1 - slope
-        slopes[force] = own
-    return slopes
-
-
-def _binding(best: Candidate, space: DesignSpace, slopes: Slopes) -> tuple[str, ...]:
-    """Return the targets with the smallest margin, and the bounds beyond which it would grow."""
-    worst = [x for x, margin in best.margins.items() if margin <= best.margin + _TOGETHER]
-    bounds = []
-    for name, (low, high), place in zip(
-        space.free, space.ends(), space.places(best.choice).tolist(), strict=True
-    ):
-        # where several targets bind they share the gain
-        more = sum(gain(target, name, slopes) or 0.0 for target in worst)
-        near = _AT_END * (high - low)
-        if more > _SLOPE and place >= high - near:
-            bounds.append(f"{name} at most")
-        elif more < -_SLOPE and place <= low + near:
-            bounds.append(f"{name} at least")
-    if space.area is not None and best.choice.pads == space.most_pads(best.choice.radius):
-        more = sum(gain(x, PADS, slopes) or 0.0 for x in worst)
-        bounds += ["area at most"] if more > _SLOPE else []
-    return (*worst, *bounds)

@@ -6,8 +6,7 @@ designs, and the theory then predicts each of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import RBFInterpolator
@@ -23,24 +22,8 @@ _NUMBERS = 3 + len(OF_PADS)
 _MORE = 2
 
 
-@dataclass(frozen=True, eq=False)
-class Interpolation:
-    """Forces of pads of one material by interpolation.
-
-    Attributes
-    ----------
-    force : callable
-        Returns the interpolated force of a pad, or the reason of the nearest known pad.
-    held : callable
-        Returns the dead load that a pad holds for a time [s]: of the theories, which are fast.
-    """
-
-    force: Callable[[Pad], Force | str]
-    held: Callable[[Pad, float], Force | str]
-
-
-def interpolation(fast: FastTier, material: str) -> Interpolation | None:
-    """Return the interpolation between the known pads of a material; None for too few of them."""
+def interpolated(fast: FastTier, material: str) -> FastTier | None:
+    """Return a tier that interpolates between the known pads of a material; None for too few."""
     known = {pad: force for pad, force in fast.known.items() if pad.material == material}
     answered = {
         pad: force for pad, force in known.items() if not isinstance(force, str) and force.low > 0
@@ -70,7 +53,8 @@ def interpolation(fast: FastTier, material: str) -> Interpolation | None:
         value, low, high = (pad.radius * np.exp(logarithms)).tolist()
         return Force(value, low, high, method)
 
-    return Interpolation(force, fast.held)
+    # loads that are held come from theories that are fast
+    return replace(fast, between=force)
 
 
 def _logarithms(pad: Pad) -> Array:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf, log
 
-from .fast import Force, Forces, Pad
+from .fast import FastTier, Force, Pad
 from .space import (
     HOLD,
     LOAD,
@@ -22,8 +22,43 @@ from .space import (
 
 
 @dataclass(frozen=True)
+class Simulated:
+    """Simulated forces of a design.
+
+    Attributes
+    ----------
+    forces : mapping of str to float
+        Of all pads, with the names of :class:`Candidate`: "hold", "release" [N] and "work"
+        [J], and as "dead_load" the load held for the time [N], by the simulated time under the
+        predicted load and the slope of the theory. Those of failed runs are missing.
+    margins : mapping of str to float
+        Margins of the targets by the simulated forces; empty if a run failed.
+    why : str
+        Reason of a failed run.
+    time : float or None
+        Simulated time to detachment under the predicted dead load [s]; None if there is none, or
+        if it is longer than ten holding times.
+    """
+
+    forces: Mapping[str, float]
+    margins: Mapping[str, float]
+    why: str = ""
+    time: float | None = None
+
+    @property
+    def margin(self) -> float | None:
+        """Margin of the worst target; None if a run failed."""
+        return min(self.margins.values(), default=None)
+
+    @property
+    def meets(self) -> bool | None:
+        """Whether every target is met; None if a run failed."""
+        return None if self.margin is None else self.margin >= 0
+
+
+@dataclass(frozen=True)
 class Candidate:
-    """A design with its forces by the fast tier.
+    """A design with its forces by the fast tier, and its simulation.
 
     Attributes
     ----------
@@ -38,12 +73,19 @@ class Candidate:
         less favourable ends of the intervals; positive if the target is met.
     best_margins : mapping of str to float
         The same by the more favourable ends.
+    run : Simulated or None
+        Its simulation.
+    share : float or None
+        Share of the parts that meet the targets, by simulated forces or else by the fast tier;
+        None without tolerances.
     """
 
     choice: Choice
     forces: Mapping[str, Force]
     margins: Mapping[str, float]
     best_margins: Mapping[str, float]
+    run: Simulated | None = None
+    share: float | None = None
 
     @property
     def margin(self) -> float:
@@ -58,6 +100,22 @@ class Candidate:
         """
         both = ((self.margins[name], high) for name, high in self.best_margins.items())
         return all(high + (high - low) / 2 >= 0 for low, high in both)
+
+    def meets(self, share: float) -> bool | None:
+        """Whether every target is met, in a share of the parts, by simulation; None if open."""
+        if self.run is None:
+            return None if self.is_possible else False
+        if self.run.meets is None or not share:
+            return self.run.meets
+        return None if self.share is None else self.share >= share
+
+    @property
+    def rank(self) -> tuple[float, float]:
+        """Order of a candidate: by its simulated yield and margin, then the others."""
+        margin = None if self.run is None else self.run.margin
+        if margin is None:
+            return inf, -self.margin
+        return -round(self.share or 0.0, 3), -margin
 
 
 def pad_of(choice: Choice, speed: float, *, bonded: bool = False) -> Pad:
@@ -88,7 +146,7 @@ class Judge:
             if needed[name] and speed is not None
         }
 
-    def forces(self, choice: Choice, fast: Forces) -> dict[str, Force] | str:
+    def forces(self, choice: Choice, fast: FastTier) -> dict[str, Force] | str:
         """Return the forces of a design at the worst conditions, or why none is predicted."""
         found: dict[str, Force] = {}
         for name, pads in self.pads(choice).items():
@@ -110,7 +168,7 @@ class Judge:
             found[LOAD] = held
         return {name: force.times(choice.pads) for name, force in found.items()}
 
-    def judged(self, choice: Choice, fast: Forces) -> Candidate | str:
+    def judged(self, choice: Choice, fast: FastTier) -> Candidate | str:
         """Return a design with its forces and margins, or why no tier predicts a force."""
         forces = self.forces(choice, fast)
         if isinstance(forces, str):

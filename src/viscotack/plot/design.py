@@ -49,7 +49,7 @@ def draw_design(found: Design, stated: DesignFile) -> "Figure":
 
 
 def _draw_forces(axes: "Axes", found: Design, stated: DesignFile) -> None:
-    best, run = found.best, found.simulated[0]
+    best, run = found.best, found.best.run
     # of the stated material that is like the worst of the conditions
     speeds: dict[str, float] = {}
     for name, speed, worst in (

@@ -71,10 +71,7 @@ class OfDesign(Request):
             time_limit=self.time_limit,
             progress=lambda share: caller.tell({"share": share}),
         )
-        rows = [
-            _row(one, run, part)
-            for one, run, part in zip(found.candidates, found.simulated, found.yields, strict=True)
-        ]
+        rows = [_row(one) for one in found.candidates]
         front = [_front_row(one) for one in found.front]
         warned = [_cautions(one.choice, stated) for one in found.candidates]
         return Answer(
@@ -110,15 +107,16 @@ def _forces_row(one: Any) -> dict[str, Any]:
     return row
 
 
-def _row(one: Any, run: Any, part: float | None) -> dict[str, Any]:
+def _row(one: Any) -> dict[str, Any]:
     """Return the row of a design."""
+    run = one.run
     row = read(one.choice, *_CHOICE) | _forces_row(one)
     for name, unit in _FORCES.items():
         row[f"simulated_{name}_{unit}"] = None if run is None else run.forces.get(name)
     row["simulated_time_s"] = None if run is None else run.time
     row["margin"] = one.margin
     row["simulated_margin"] = None if run is None else run.margin
-    row["yield"] = part
+    row["yield"] = one.share
     row["meets"] = None if run is None else run.meets
     return row | {"why": "" if run is None else run.why}
 
@@ -175,7 +173,7 @@ _VERDICTS = {
 def _shown(found: Any, rows: list[dict[str, Any]], warned: list[list[str]]) -> dict[str, Any]:
     """Return what the text says of a record: the front has a table of its own."""
     words = [_VERDICTS[found.meets], *(_limit_words(each) for each in found.excluded)]
-    if found.meets is False and not found.excluded and found.simulated[0] is None:
+    if found.meets is False and not found.excluded and found.best.run is None:
         words.append(
             "each target alone is within reach, but no design between the bounds meets all"
         )
