@@ -13,7 +13,8 @@ import viscotack as vt
 from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.app.operations import ask
-from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array, read_array
+from viscotack.design import read_array
+from viscotack.design.arrays import Hold, PadArray, grid, holding, pull_array
 from viscotack.design.holding import held_load
 from viscotack.errors import InputError
 from viscotack.model.traction import GentSchultz

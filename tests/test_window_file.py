@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from picture_units import in_si
 from viscotack.app.cli import application
 from viscotack.app.operations import ask
-from viscotack.design.window import read_window
+from viscotack.design import read_window
 from viscotack.errors import InputError
 from viscotack.plot.window import draw_window
 

@@ -14,11 +14,8 @@ from test_window import ELASTIC, contact, with_work
 from test_window_file import CONTACT, PULL, SMALL
 from viscotack.app.cli import application
 from viscotack.app.operations import ask
-from viscotack.design.window import (
-    aged,
-    opening_chance,
-    read_window,
-)
+from viscotack.design import read_window
+from viscotack.design.window import aged, opening_chance
 from viscotack.model.materials.passport_file import read_passport
 from viscotack.model.traction import SaturatingAgeing
 

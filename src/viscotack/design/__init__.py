@@ -4,13 +4,14 @@ The search uses the fast tiers with their intervals, and a simulation of the bes
 decides. docs/design.md describes file, method and limits.
 """
 
-from .design_file import DesignFile, read_design
+from .files import ArrayFile, DesignFile, WindowFile, read_array, read_design, read_window
 from .finding import Design, find_design
 from .limits import Limit
 from .margins import Candidate, Simulated
 from .space import Bounds, Choice, Conditions, DesignSpace, Targets
 
 __all__ = [
+    "ArrayFile",
     "Bounds",
     "Candidate",
     "Choice",
@@ -21,6 +22,9 @@ __all__ = [
     "Limit",
     "Simulated",
     "Targets",
+    "WindowFile",
     "find_design",
+    "read_array",
     "read_design",
+    "read_window",
 ]

@@ -14,7 +14,6 @@ from viscotack.simulate import solve
 
 from .fast import FastTier, Pad
 from .margins import Candidate, Judge, Simulated, pad_of
-from .space import HOLD, LOAD, RELEASE, WORK
 
 # A dead load is applied within this part of the holding time; the simulation lasts this
 # number of holding times.
@@ -41,22 +40,22 @@ def simulate(candidate: Candidate, fast: FastTier, judge: Judge, *, accuracy: fl
     for name, pads in judge.pads(choice).items():
         # of several speeds that with the worst prediction
         known = [(x, pad) for pad in pads if not isinstance(x := fast.force(pad), str)]
-        select, end = (min, "low") if name == HOLD else (max, "high")
+        select, end = (min, "low") if name == "hold" else (max, "high")
         _, pad = select(known, key=lambda pair, end=end: getattr(pair[0], end))
         found = _pulled(fast.problem(pad), accuracy)
         if isinstance(found, str):
             reasons.append(f"{name}: {found}")
             continue
-        if judge.targets.work is None or name == RELEASE:
-            found = {name: found[HOLD]}
+        if judge.targets.work is None or name == "release":
+            found = {name: found["hold"]}
         forces |= {key: choice.pads * value for key, value in found.items()}
     time = None
     if judge.targets.holding_time is not None:
         held = _held(candidate, fast, judge, accuracy)
         if isinstance(held, str):
-            reasons.append(f"{LOAD}: {held}")
+            reasons.append(f"dead_load: {held}")
         else:
-            forces[LOAD], time = held
+            forces["dead_load"], time = held
     margins = {} if reasons else judge.margins(choice, forces)
     return Simulated(forces, margins, "; ".join(reasons), time)
 
@@ -69,8 +68,8 @@ def _pulled(problem: Problem, accuracy: float) -> dict[str, float] | str:
             return found.status
         unit = problem.outputs.observables["work_to_pull_off"].unit
         return {
-            HOLD: pull_off(found).force * problem.scales().force,
-            WORK: work_to_pull_off(found) * getattr(problem.scales(), unit.scale),
+            "hold": pull_off(found).force * problem.scales().force,
+            "work": work_to_pull_off(found) * getattr(problem.scales(), unit.scale),
         }
     except InputError as reason:
         return str(reason)
@@ -89,7 +88,7 @@ def _held(
     wanted = judge.conditions.holding_time(choice.material, targets.holding_time)
     pad: Pad = pad_of(choice, 1.0, bonded=judge.bonded)
     problem = fast.problem(pad)
-    load, longest = candidate.forces[LOAD].value / choice.pads, _LONGEST * wanted
+    load, longest = candidate.forces["dead_load"].value / choice.pads, _LONGEST * wanted
     moves = (LoadTo(-load, duration=_APPLIED * wanted), Dwell(longest, hold="force"))
     held = Retraction(problem.protocol.start, None, moves)  # type: ignore[arg-type]
     try:

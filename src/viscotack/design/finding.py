@@ -26,21 +26,11 @@ from viscotack.units import readable
 from .confirming import simulate
 from .fast import SURROGATES, THEORIES, FastTier
 from .interpolating import interpolated
-from .limits import SPEEDS, Limit, solid_limits, wanted
+from .limits import Limit, solid_limits, wanted
 from .margins import Candidate, Judge
 from .searching import NONE, Effort, front_of, search
 from .slopes import allowances, binding, share_of, slopes_of
-from .space import (
-    HOLD,
-    LOAD,
-    RATIO,
-    RELEASE,
-    WORK,
-    Choice,
-    Conditions,
-    DesignSpace,
-    Targets,
-)
+from .space import Choice, Conditions, DesignSpace, Targets
 
 # Sizes of searches: of all targets together, of one alone, and of all ends of a front.
 _EFFORT, _REACH, _END = Effort(3.3, 5.5), Effort(3.3, 2), Effort(2, 2.4)
@@ -389,7 +379,7 @@ class _Search:
         """Return the largest or smallest force or ratio between the bounds, each target alone."""
         found = []
         for target, value in wanted(self.judge.targets).items():
-            time = self.judge.targets.holding_time if target == LOAD else None
+            time = self.judge.targets.holding_time if target == "dead_load" else None
             judge = replace(self.judge, targets=Targets(**{target: 1.0}, holding_time=time))
 
             def alone(choice: Choice, forces: FastTier, judge: Judge = judge) -> float:
@@ -408,8 +398,8 @@ class _Search:
                 most = alone(choice, self.fast)
                 tried.append((rating(choice) if most <= NONE else most, choice))
             most, best = max(tried, key=lambda pair: pair[0])
-            reach = exp(-most) if target == RELEASE else exp(most)
-            found.append(Limit(target, value, reach, SPEEDS, _of_speeds(best, target)))
+            reach = exp(-most) if target == "release" else exp(most)
+            found.append(Limit(target, value, reach, "speeds", _of_speeds(best, target)))
         return tuple(found)
 
 
@@ -423,9 +413,9 @@ def _drawn(space: DesignSpace, material: str, count: int, seed: int) -> list[Cho
 def _of_speeds(best: Choice, target: str) -> str:
     """Return the design that reaches most, in words."""
     words = []
-    if target in (HOLD, WORK, RATIO):
+    if target in ("hold", "work", "ratio"):
         words.append(f"a hold speed of {readable(best.hold_speed or 0.0, 'm/s', digits=3)}")
-    if target in (RELEASE, RATIO):
+    if target in ("release", "ratio"):
         words.append(f"a release speed of {readable(best.release_speed or 0.0, 'm/s', digits=3)}")
     pads = (
         f"pads: {best.pads}, R = {readable(best.radius, 'm', digits=3)}, preload "

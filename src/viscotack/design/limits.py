@@ -25,11 +25,10 @@ from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 from viscotack.units import readable
 
 from .fast import FastTier, Pad
-from .space import HOLD, LOAD, RATIO, RELEASE, WORK, DesignSpace, Targets
+from .space import DesignSpace, Targets
 
 # Number of radii at which bounds are computed.
 _RADII = 33
-SOLID, SPEEDS = "solid", "speeds"
 # Preload of a pad of which only the groups are needed [N].
 _LIGHT = 1e-12
 
@@ -61,17 +60,17 @@ class Limit:
     @property
     def excludes(self) -> bool:
         """Whether the target is out of reach."""
-        return self.wanted < self.reach if self.target == RELEASE else self.wanted > self.reach
+        return self.wanted < self.reach if self.target == "release" else self.wanted > self.reach
 
 
 def wanted(targets: Targets) -> dict[str, float]:
     """Return the targets with the ratio that hold and release imply."""
     known = {
-        HOLD: targets.hold,
-        RELEASE: targets.release,
-        RATIO: targets.least_ratio,
-        WORK: targets.work,
-        LOAD: targets.dead_load,
+        "hold": targets.hold,
+        "release": targets.release,
+        "ratio": targets.least_ratio,
+        "work": targets.work,
+        "dead_load": targets.dead_load,
     }
     return {name: value for name, value in known.items() if value is not None}
 
@@ -86,11 +85,11 @@ def solid_limits(fast: FastTier, space: DesignSpace, targets: Targets) -> tuple[
     each = [_of_material(name, fast, space) for name in fast.materials]
     found = []
     for target, value in wanted(targets).items():
-        if target == WORK:
+        if target == "work":
             continue
-        select = min if target == RELEASE else max
+        select = min if target == "release" else max
         reach, why = select((one[target] for one in each), key=lambda pair: pair[0])
-        found.append(Limit(target, value, reach, SOLID, why))
+        found.append(Limit(target, value, reach, "solid", why))
     return tuple(found)
 
 
@@ -131,4 +130,4 @@ def _of_material(name: str, fast: FastTier, space: DesignSpace) -> Mapping[str, 
                 f"{fast_one / slow:.3g} for the range of attraction",
             ),
         )
-    return {HOLD: most, RELEASE: least, RATIO: ratio, LOAD: most}
+    return {"hold": most, "release": least, "ratio": ratio, "dead_load": most}

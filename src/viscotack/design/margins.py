@@ -7,18 +7,7 @@ from dataclasses import dataclass
 from math import inf, log
 
 from .fast import FastTier, Force, Pad
-from .space import (
-    HOLD,
-    LOAD,
-    OF_PADS,
-    PRELOAD,
-    RATIO,
-    RELEASE,
-    WORK,
-    Choice,
-    Conditions,
-    Targets,
-)
+from .space import OF_PADS, Choice, Conditions, Targets
 
 
 @dataclass(frozen=True)
@@ -135,8 +124,8 @@ class Judge:
 
     def pads(self, choice: Choice) -> dict[str, tuple[Pad, ...]]:
         """Return one pad at each hold and release speed, as far as targets need them."""
-        speeds = {HOLD: choice.hold_speed, RELEASE: choice.release_speed}
-        needed = {HOLD: self.targets.needs_hold, RELEASE: self.targets.needs_release}
+        speeds = {"hold": choice.hold_speed, "release": choice.release_speed}
+        needed = {"hold": self.targets.needs_hold, "release": self.targets.needs_release}
         return {
             name: tuple(
                 pad_of(choice, v, bonded=self.bonded)
@@ -154,18 +143,18 @@ class Judge:
             known = [x for x in some if not isinstance(x, str)]
             if len(known) < len(some):
                 return next(x for x in some if isinstance(x, str))
-            found[name] = _least(known) if name == HOLD else max(known, key=lambda x: x.high)
-            if name == HOLD and self.targets.work is not None:
+            found[name] = _least(known) if name == "hold" else max(known, key=lambda x: x.high)
+            if name == "hold" and self.targets.work is not None:
                 works = [x.work for x in known if x.work is not None]
                 if len(works) < len(known):
                     return f"the tier {known[0].method!r} has no interval of the work to pull-off"
-                found[WORK] = _least(works)
+                found["work"] = _least(works)
         if self.targets.holding_time is not None:
             time = self.conditions.holding_time(choice.material, self.targets.holding_time)
             held = fast.held(pad_of(choice, 1.0, bonded=self.bonded), time)
             if isinstance(held, str):
                 return held
-            found[LOAD] = held
+            found["dead_load"] = held
         return {name: force.times(choice.pads) for name, force in found.items()}
 
     def judged(self, choice: Choice, fast: FastTier) -> Candidate | str:
@@ -173,20 +162,20 @@ class Judge:
         forces = self.forces(choice, fast)
         if isinstance(forces, str):
             return forces
-        low = {name: x.high if name == RELEASE else x.low for name, x in forces.items()}
-        high = {name: x.low if name == RELEASE else x.high for name, x in forces.items()}
+        low = {name: x.high if name == "release" else x.low for name, x in forces.items()}
+        high = {name: x.low if name == "release" else x.high for name, x in forces.items()}
         margins, best = (self.margins(choice, x) for x in (low, high))
         return Candidate(choice, forces, margins, best)
 
     def margins(self, choice: Choice, forces: Mapping[str, float]) -> dict[str, float]:
         """Return the margin of each target for forces of all pads [N or J]."""
         over: Mapping[str, Callable[[float], float]] = {
-            HOLD: lambda wanted: _ln(forces[HOLD], wanted),
-            RELEASE: lambda wanted: -_ln(forces[RELEASE], wanted),
-            RATIO: lambda wanted: _ln(forces[HOLD], wanted) - _ln(forces[RELEASE], 1.0),
-            WORK: lambda wanted: _ln(forces[WORK], wanted),
-            LOAD: lambda wanted: _ln(forces[LOAD], wanted),
-            PRELOAD: lambda wanted: _ln(wanted, choice.preload),
+            "hold": lambda wanted: _ln(forces["hold"], wanted),
+            "release": lambda wanted: -_ln(forces["release"], wanted),
+            "ratio": lambda wanted: _ln(forces["hold"], wanted) - _ln(forces["release"], 1.0),
+            "work": lambda wanted: _ln(forces["work"], wanted),
+            "dead_load": lambda wanted: _ln(forces["dead_load"], wanted),
+            "preload": lambda wanted: _ln(wanted, choice.preload),
         }
         return {name: over[name](wanted) for name, wanted in self.targets.stated.items()}
 

@@ -14,7 +14,7 @@ import scipy.optimize
 from viscotack.arrays import Array
 
 from .margins import Candidate
-from .space import HOLD_SPEED, PADS, RELEASE_SPEED, Choice, DesignSpace
+from .space import Choice, DesignSpace
 
 # Rating of a design without a prediction or without room.
 NONE = -1e3
@@ -85,7 +85,7 @@ def search(
     found = scipy.optimize.differential_evolution(
         cost,
         ends,
-        integrality=[name == PADS for name in space.free],
+        integrality=[name == "pads" for name in space.free],
         x0=_likely(space, ends),
         popsize=members,
         maxiter=most,
@@ -102,12 +102,14 @@ def search(
 def _likely(space: DesignSpace, ends: list[tuple[float, float]]) -> Array:
     """Return where to begin: fast to hold, slow to release, and the middle of other ranges."""
     # just inside, because SciPy rejects ends that round-off moves out
-    share = {HOLD_SPEED: 0.999, RELEASE_SPEED: 0.001}
+    share = {"hold_speed": 0.999, "release_speed": 0.001}
     places = [
         low + share.get(name, 0.5) * (high - low)
         for name, (low, high) in zip(space.free, ends, strict=True)
     ]
-    return np.array([round(x) if n == PADS else x for n, x in zip(space.free, places, strict=True)])
+    return np.array(
+        [round(x) if n == "pads" else x for n, x in zip(space.free, places, strict=True)]
+    )
 
 
 def nondominated(values: Array) -> npt.NDArray[np.bool_]:

@@ -19,21 +19,7 @@ from viscotack.arrays import Array
 
 from .fast import FastTier
 from .margins import Candidate, Judge
-from .space import (
-    HOLD,
-    HOLD_SPEED,
-    INTERFACE,
-    MODULUS,
-    PADS,
-    PRELOAD,
-    RATIO,
-    RELEASE,
-    RELEASE_SPEED,
-    UNITS,
-    WORK,
-    Choice,
-    DesignSpace,
-)
+from .space import INTERFACE, VARIABLES, Choice, DesignSpace
 
 # Points, and where normal deviates are cut.
 _POINTS, _CUT = 2**12, 3.0
@@ -44,17 +30,17 @@ Slopes = Mapping[str, Mapping[str, float | None]]
 
 
 # Speed on which a force depends.
-_OWN = {HOLD: HOLD_SPEED, WORK: HOLD_SPEED, RELEASE: RELEASE_SPEED}
+_OWN = {"hold": "hold_speed", "work": "hold_speed", "release": "release_speed"}
 
 
 def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
     """Return d ln P/d ln x of the forces of a design by central differences of the fast tier."""
-    if MODULUS in judge.conditions.deviations and choice.modulus is None:
+    if "modulus" in judge.conditions.deviations and choice.modulus is None:
         modulus = getattr(fast.materials[choice.material], "rubbery_modulus", None)
         choice = replace(choice, modulus=modulus)
     ends: dict[str, list[Any]] = {}
-    for name in UNITS:
-        if name != PADS and (value := getattr(choice, name)) is not None:
+    for name in VARIABLES:
+        if name != "pads" and (value := getattr(choice, name)) is not None:
             both = (replace(choice, **{name: value * exp(step)}) for step in (-_STEP, _STEP))
             ends[name] = [judge.forces(each, fast) for each in both]
     for name in INTERFACE:
@@ -67,16 +53,16 @@ def slopes_of(choice: Choice, fast: FastTier, judge: Judge) -> Slopes:
     for force in () if isinstance(forces, str) else forces:
         own: dict[str, float | None] = {}
         for name, (low, high) in ends.items():
-            if name in (HOLD_SPEED, RELEASE_SPEED) and name != _OWN.get(force):
+            if name in ("hold_speed", "release_speed") and name != _OWN.get(force):
                 continue
             # none where no tier predicts
             slope = None
             if not isinstance(low, str) and not isinstance(high, str):
                 slope = log(high[force].value / low[force].value) / (2 * _STEP)
             own[name] = slope
-            if name == PRELOAD:
+            if name == "preload":
                 # N pads under the preload F are N times one under F/N
-                own[PADS] = None if slope is None else 1 - slope
+                own["pads"] = None if slope is None else 1 - slope
         slopes[force] = own
     return slopes
 
@@ -96,16 +82,16 @@ def binding(best: Candidate, space: DesignSpace, slopes: Slopes) -> tuple[str, .
         elif more < -_SLOPE and place <= low + near:
             bounds.append(f"{name} at least")
     if space.area is not None and best.choice.pads == space.most_pads(best.choice.radius):
-        more = sum(gain(x, PADS, slopes) or 0.0 for x in worst)
+        more = sum(gain(x, "pads", slopes) or 0.0 for x in worst)
         bounds += ["area at most"] if more > _SLOPE else []
     return (*worst, *bounds)
 
 
 def gain(target: str, name: str, slopes: Slopes) -> float | None:
     """Return the slope of the margin of a target by ln of a variable; None where unknown."""
-    if target == PRELOAD:
-        return -1.0 if name == PRELOAD else 0.0
-    of = {RELEASE: ((RELEASE, -1),), RATIO: ((HOLD, 1), (RELEASE, -1))}
+    if target == "preload":
+        return -1.0 if name == "preload" else 0.0
+    of = {"release": (("release", -1),), "ratio": (("hold", 1), ("release", -1))}
     total = 0.0
     for force, sign in of.get(target, ((target, 1),)):
         slope = slopes.get(force, {}).get(name, 0.0)

@@ -14,27 +14,22 @@ from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.model.geometry import Bonded
-from viscotack.model.problem.tables import Read
+from viscotack.model.problem.tables import Read, Reading
 
-from .files import ends
-
-HOLD, RELEASE, RATIO, WORK, LOAD = "hold", "release", "ratio", "work", "dead_load"
-RADIUS, PRELOAD, PADS = "radius", "preload", "pads"
-HOLD_SPEED, RELEASE_SPEED = "hold_speed", "release_speed"
-MODULUS, THICKNESS, EXPONENT, BACKING = "modulus", "thickness", "exponent", "backing"
-UNITS = {
-    RADIUS: "m",
-    PRELOAD: "N",
-    PADS: "1",
-    HOLD_SPEED: "m/s",
-    RELEASE_SPEED: "m/s",
-    MODULUS: "Pa",
-    THICKNESS: "m",
-    EXPONENT: "1",
-    BACKING: "N/m",
-}
+# Names of the variables of a design.
+VARIABLES = (
+    "radius",
+    "preload",
+    "pads",
+    "hold_speed",
+    "release_speed",
+    "modulus",
+    "thickness",
+    "exponent",
+    "backing",
+)
 # Variables that a design has without bounds: a sphere of the stated material on a half-space.
-OF_PADS = (MODULUS, THICKNESS, EXPONENT, BACKING)
+OF_PADS = ("modulus", "thickness", "exponent", "backing")
 INTERFACE = ("work_of_adhesion", "equilibrium_gap")
 MOST_PADS = 10_000
 # Largest relative standard deviation of a tolerance.
@@ -87,7 +82,7 @@ class Targets:
 
     def __post_init__(self) -> None:
         conform(self)
-        if not self.stated.keys() - {PRELOAD}:
+        if not self.stated.keys() - {"preload"}:
             raise InputError("a design needs a target: hold, release, ratio, work or dead_load")
         if (self.dead_load is None) != (self.holding_time is None):
             raise InputError("a dead_load needs its holding_time, and the other way round")
@@ -151,7 +146,7 @@ class Conditions:
         for name in ("hold_window", "release_window"):
             if not 1 <= getattr(self, name) < inf:
                 raise InputError(f"the {name} must be at least 1, got {getattr(self, name)!r}")
-        known = [name for name in (*UNITS, *INTERFACE) if name != PADS]
+        known = [name for name in (*VARIABLES, *INTERFACE) if name != "pads"]
         for name, value in self.deviations.items():
             if name not in known:
                 raise InputError(f"no scatter of {name!r:.60}; known are {', '.join(known)}")
@@ -169,7 +164,7 @@ class Conditions:
     def speeds(self, name: str, material: str, speed: float) -> tuple[float, ...]:
         """Return the ends of the speeds at which the stated material is like all conditions."""
         least, most = self.shifts.get(material, (1.0, 1.0))
-        if name == HOLD:
+        if name == "hold":
             ends = speed * least, speed * self.hold_window * most
         else:
             ends = speed / self.release_window * least, speed * most
@@ -205,6 +200,12 @@ class Bounds:
         """The largest value."""
         assert self.high is not None
         return self.high
+
+
+def ends(value: Any, reading: Reading, unit: str, example: str = "") -> list[float]:
+    """Return a quantity, or both ends of a range "1 mm..10 mm"."""
+    parts = value.split("..", 1) if isinstance(value, str) else [value]
+    return [reading.parsed(x.strip() if isinstance(x, str) else x, unit, example) for x in parts]
 
 
 @dataclass(frozen=True)
@@ -328,7 +329,7 @@ class DesignSpace:
     @property
     def variables(self) -> dict[str, Bounds]:
         """The variables with bounds, by their names."""
-        values = ((name, getattr(self, name)) for name in UNITS)
+        values = ((name, getattr(self, name)) for name in VARIABLES)
         return {name: each for name, each in values if each is not None}
 
     @property
@@ -349,22 +350,22 @@ class DesignSpace:
 
     def choice(self, material: str, places: Array) -> Choice:
         """Return the design at places in the ranges of the free variables (:meth:`ends`)."""
-        found: dict[str, float | None] = {name: None for name in UNITS}
+        found: dict[str, float | None] = {name: None for name in VARIABLES}
         found |= {name: each.low for name, each in self.variables.items()}
         for name, place in zip(self.free, places.tolist(), strict=True):
-            value, each = place if name == PADS else exp(place), self.variables[name]
+            value, each = place if name == "pads" else exp(place), self.variables[name]
             found[name] = min(max(value, each.low), each.top)
-        return Choice(material, **{**found, PADS: round(found[PADS] or 1)})  # type: ignore[arg-type]
+        return Choice(material, **{**found, "pads": round(found["pads"] or 1)})  # type: ignore[arg-type]
 
     def places(self, choice: Choice) -> Array:
         """Return the places of a design, the inverse of :meth:`choice`."""
         values = [(name, float(getattr(choice, name))) for name in self.free]
-        return np.array([x if name == PADS else log(x) for name, x in values])
+        return np.array([x if name == "pads" else log(x) for name, x in values])
 
     def ends(self) -> list[tuple[float, float]]:
         """Return the ranges of the free variables: logarithms, and the number of pads itself."""
         return [
-            (each.low, each.top) if name == PADS else (log(each.low), log(each.top))
+            (each.low, each.top) if name == "pads" else (log(each.low), log(each.top))
             for name, each in self.variables.items()
             if name in self.free
         ]

@@ -42,12 +42,12 @@ class OfArray(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Pull the array, and hold its load, telling ``share``."""
+        from viscotack.design import read_array
         from viscotack.design.arrays import (
             array_yield,
             holding,
             preload_after,
             pull_array,
-            read_array,
         )
         from viscotack.plot.array import draw_array
 

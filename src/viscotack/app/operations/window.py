@@ -47,7 +47,8 @@ class OfWindow(Request):
 
     def answer(self, caller: Caller) -> Answer:
         """Evaluate every speed and preload of each map, telling ``share``."""
-        from viscotack.design.window import read_window, window
+        from viscotack.design import read_window
+        from viscotack.design.window import window
         from viscotack.plot.window import draw_window
 
         from .parts.tables import rows_as_csv

@@ -4,13 +4,11 @@ All pads are of one kind, with their own heights and works of adhesion, on a bac
 tilt and curvature. Each follows the curve of one pad. The derivation is in docs/arrays.md.
 """
 
-from .array_file import ArrayFile, read_array
 from .load import Hold, Holding, holding, preload_after
 from .pulling import ArrayPull, Backing, PadArray, grid, pull_array
 from .scatter import ArrayYield, Scatter, array_yield
 
 __all__ = [
-    "ArrayFile",
     "ArrayPull",
     "ArrayYield",
     "Backing",
@@ -23,5 +21,4 @@ __all__ = [
     "holding",
     "preload_after",
     "pull_array",
-    "read_array",
 ]

@@ -16,7 +16,6 @@ not in the correction. Distances below :data:`LEAST_SPACING` radii are refused.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import pi
 from typing import Any
 
@@ -74,20 +73,13 @@ def interactions(places: Array, modulus: float, *, radius: float) -> Array:
     return 1 / (pi * modulus * distance)
 
 
-@dataclass(frozen=True, eq=False)
-class Coupled:
-    """Curve of the plate, and its positions at which each pad has detached [m]."""
-
-    plate: Curve
-    ends: Array
-
-
-def coupled(curves: Sequence[Curve], heights: Array, c: Array) -> Coupled:
+def coupled(curves: Sequence[Curve], heights: Array, c: Array) -> tuple[Curve, Array]:
     """Return the curve of pads on a rigid plate that interact through compliances c [m/N].
 
-    At each position z of the plate pads of heights h are at x with x + c F(x) = z + h. Equilibrium
-    is followed by Newton's method. Where its branch ends, pads flow to the next equilibrium against
-    the unbalanced displacement, as overdamped pads would.
+    With it are the positions of the plate at which each pad has detached [m]. At each position z of
+    the plate pads of heights h are at x with x + c F(x) = z + h. Equilibrium is followed by
+    Newton's method. Where its branch ends, pads flow to the next equilibrium against the unbalanced
+    displacement, as overdamped pads would.
     """
     pads = _Pads(curves)
     x: Array = pads.starts.copy()
@@ -115,7 +107,7 @@ def coupled(curves: Sequence[Curve], heights: Array, c: Array) -> Coupled:
         if len(positions) > _MOST_STEPS:
             raise InputError("the pads of this array do not detach; their base is too soft")
     total = sum(each.lost for each in curves) + max(lost, 0.0)
-    return Coupled(Curve(np.array(positions), np.array(forces), total), ends)
+    return Curve(np.array(positions), np.array(forces), total), ends
 
 
 class _Pads:

@@ -459,8 +459,7 @@ def _pulled(array: PadArray, pads: Family, preload: float) -> _Pulled:
         plate = side_by_side(curves)
         ends = np.array([each.end for each in curves])
     else:
-        both = coupled(curves, heights, c[np.ix_(touching, touching)])
-        plate, ends = both.plate, both.ends
+        plate, ends = coupled(curves, heights, c[np.ix_(touching, touching)])
     drive = plate.behind(backing.stiffness)
     released = np.full(len(array.positions), np.nan)
     released[touching] = drive.start - _drive_at(plate, backing.stiffness, ends)

@@ -11,7 +11,6 @@ from .chances import Chance, WindowScatter, opening_chance
 from .opening import aged, which_opens
 from .picking import Cell, CriticalSpeed, Window, window
 from .simulated import SeriesResult, simulate_in_series
-from .window_file import WindowFile, read_window
 
 __all__ = [
     "Cell",
@@ -20,11 +19,9 @@ __all__ = [
     "SeriesOpening",
     "SeriesResult",
     "Window",
-    "WindowFile",
     "WindowScatter",
     "aged",
     "opening_chance",
-    "read_window",
     "simulate_in_series",
     "which_opens",
     "window",

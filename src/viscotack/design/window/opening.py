@@ -9,7 +9,7 @@ from typing import Any
 from viscotack.errors import InputError, OutOfRange
 from viscotack.model.problem import Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.model.protocol import AtForce, Retraction
+from viscotack.model.protocol import AtForce
 from viscotack.model.traction import ages
 from viscotack.simulate.in_series import SIMULATION, SeriesOpening, opening_by_cracks
 
@@ -90,31 +90,9 @@ def which_opens(
     )
 
 
-def posed(
-    problem: Problem, *, preload: float, speed: float, stiffness: float | None = None
-) -> Problem:
-    """Return a contact with the protocol of a pair; its own protocol is not used.
-
-    Parameters
-    ----------
-    problem : Problem
-        A contact in SI.
-    preload : float
-        Common force of the relaxed start [N], positive in compression.
-    speed : float
-        Speed of the drive [m/s].
-    stiffness : float or None
-        Of the machine [N/m]; None for a rigid one.
-    """
-    protocol = Retraction(start=AtForce(preload), speed=speed, stiffness=stiffness)
-    return replace(problem, protocol=protocol)
-
-
 def check_pair(first: Problem, second: Problem) -> None:
     """Raise an InputError unless two problems are contacts of one object in a machine."""
     for problem in (first, second):
-        if not isinstance(problem, Problem):
-            raise TypeError(f"two contacts in series are Problems in SI, got {problem!r}")
         if problem.geometry.symmetry != "revolution":
             raise InputError(
                 f"two contacts in series need shapes of revolution, got a {problem.geometry.word} "

@@ -16,10 +16,11 @@ from math import isfinite, log, sqrt
 from viscotack.errors import InputError
 from viscotack.model.problem import Problem
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.model.protocol import AtForce, Retraction
 from viscotack.simulate.in_series import CRACKS, SIMULATION, SeriesOpening
 
 from .chances import Chance, WindowScatter, opening_chance
-from .opening import posed, which_opens
+from .opening import which_opens
 
 STAMP, DONOR, RECEIVER = "stamp", "donor", "receiver"
 PICK, PRINT, BOTH, NEITHER, UNDECIDED = "pick", "print", "pick and print", "neither", "undecided"
@@ -207,8 +208,8 @@ def window(
         raise InputError(f"a map has at most {_MOST_CELLS:,} cells, got {len(V) * len(F):,}")
 
     def pair(base: Problem, preload: float, speed: float) -> tuple[Problem, Problem]:
-        how = {"preload": preload, "speed": speed, "stiffness": stiffness}
-        return posed(base, **how), posed(stamp, **how)
+        pull = Retraction(start=AtForce(preload), speed=speed, stiffness=stiffness)
+        return replace(base, protocol=pull), replace(stamp, protocol=pull)
 
     def opening(base: Problem, preload: float, speed: float) -> SeriesOpening:
         how = {"simulate": simulate, "accuracy": accuracy, "time_limit": time_limit}
