@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscotack.arrays import Array
 from viscotack.lab.fit.observed import Observed
 from viscotack.lab.fit.report import FitReport
 from viscotack.model.materials.passport import Passport
@@ -72,13 +73,17 @@ def draw_fit(report: FitReport, passport: Passport | None = None) -> "Figure":
         elif passport is not None:
             _shifts(more[0], tabulated, passport.fitted_shift)
         _law(above, report)
-        _points(above, data)
+        _points(above, data, data.values)
         above.set(yscale="log", xscale="log")
         above.set_ylabel(
             "compliance [1/Pa]" if data.quantity == "creep" else "Young's modulus [Pa]"
         )
         above.legend(loc="best")
-        above.set_title(_title(report), fontsize=14)
+        above.set_title(
+            f"{report.model}: {report.constants} constants on {data.values.size} numbers, "
+            f"median error {100 * report.median_error:.2g} %",
+            fontsize=14,
+        )
         _residuals(below, report)
         below.set_xlabel("frequency [Hz]" if data.in_frequency else "time [s]")
     return figure
@@ -112,23 +117,18 @@ def _law(axes: "Axes", report: FitReport) -> None:
             axes.plot(_x(data, beyond), values, color=colour, ls=(0, (3, 2)), lw=1.4)
 
 
-def _points(axes: "Axes", data: Observed) -> None:
-    for i, part in enumerate(data.parts):
-        axes.plot(
-            _x(data, data.at), data.values[i], _MARKERS[i], mfc="white", mec=_COLOURS[i],
-            ms=_size(data), mew=1.4, ls="none", label=f"{_WORDS[part]}, measured",
-        )  # fmt: skip
+def _points(axes: "Axes", data: Observed, rows: Array, size: float = 1.0) -> None:
+    """Draw a row of numbers for each measured part as open markers."""
+    at, size = _x(data, data.at), size * (7.0 if data.at.size <= 60 else 4.0)
+    for part, row, marker, colour in zip(data.parts, rows, _MARKERS, _COLOURS, strict=False):
+        style = {"mfc": "white", "mec": colour, "ms": size, "mew": 1.4, "ls": "none"}
+        axes.plot(at, row, marker, label=f"{_WORDS[part]}, measured", **style)
 
 
 def _residuals(axes: "Axes", report: FitReport) -> None:
-    data = report.observed
     percent = 100 * np.expm1(report.residuals)
     axes.axhline(0, color="0.5", lw=1.2)
-    for i in range(len(data.parts)):
-        axes.plot(
-            _x(data, data.at), percent[i], _MARKERS[i], mfc="white", mec=_COLOURS[i],
-            ms=0.8 * _size(data), mew=1.2, ls="none",
-        )  # fmt: skip
+    _points(axes, report.observed, percent, 0.8)
     reach = 1.15 * float(np.max(np.abs(percent)))
     axes.set_ylim(-reach, reach)
     axes.set_ylabel("measured/\nfitted − 1 [%]")
@@ -147,18 +147,5 @@ def _shifts(axes: "Axes", shift: TabulatedShift, fitted: FittedShift | None) -> 
         zero = float(fitted.law.log10_shift(shift.reference_temperature))
         name = type(fitted.law).__name__
         axes.plot(inside - 273.15, values - zero, color=_COLOURS[1], label=name)
-    axes.set_xlabel("temperature [°C]")
-    axes.set_ylabel("$\\log_{10} a_T$")
+    axes.set(xlabel="temperature [°C]", ylabel="$\\log_{10} a_T$")
     axes.legend(loc="best")
-
-
-def _size(data: Observed) -> float:
-    return 7.0 if data.at.size <= 60 else 4.0
-
-
-def _title(report: FitReport) -> str:
-    numbers = report.observed.values.size
-    return (
-        f"{report.model}: {report.constants} constants on {numbers} numbers, "
-        f"median error {100 * report.median_error:.2g} %"
-    )
