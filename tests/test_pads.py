@@ -1,6 +1,7 @@
 """Tests of arrays of pads: limits, tilt, order of detachment, energy and yield."""
 
 from dataclasses import replace
+from math import erf, sqrt
 
 import numpy as np
 import pytest
@@ -11,15 +12,16 @@ from viscotack.simulate.force_curve import Curve
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
 ELASTIC = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
-SPEED, LOAD = 1e-5, 2e-3
+SPEED, LOAD, WORK = 1e-5, 2e-3, 0.15
 
 
+JKR = 1.5 * np.pi * 5e-3 * WORK
 LENS, PLACES = vt.Sphere(5e-3), grid(3, 4, 5e-3)
 
 
 def pad(material=ELASTIC, *, gap=1e-9, shape=LENS):
     return vt.Problem(
-        material, vt.LennardJones(0.15, gap), shape, vt.Retraction(vt.AtForce(LOAD), SPEED)
+        material, vt.LennardJones(WORK, gap), shape, vt.Retraction(vt.AtForce(LOAD), SPEED)
     )
 
 
@@ -81,9 +83,9 @@ def test_a_dead_load_of_equal_works_falls_when_the_weakest_pad_lets_go():
     assert found.largest_jump == 3
 
 
-def jkr_of_depth(count=20_000):
+def jkr_of_depth(count=20_000, w=WORK):
     """Stable branch of JKR's curve, force by depth, written out."""
-    E, R, w = ELASTIC.contact_modulus, 5e-3, 0.15
+    E, R = ELASTIC.contact_modulus, 5e-3
     least = (np.pi * w * R**2 / (8 * E)) ** (1 / 3)
     a = np.linspace(least, 8 * least, count)
     depth = a**2 / R - np.sqrt(2 * np.pi * w * a / E)
@@ -162,3 +164,47 @@ def test_a_preload_held_in_place_relaxes_to_the_contact_at_rest_there():
     soft = vt.PadArray(problem, grid(1, 2, 5e-3), backing=vt.Backing(pad_stiffness=300.0))
     assert left < preload_after(soft, 20.0, preload=2 * load, speed=1e-4) < 2 * load
     assert preload_after(vt.PadArray(pad(), [(0.0, 0.0)]), 1.0, preload=load, speed=1e-4) == load
+
+
+def direct_pull_off(heights, works):
+    """Sum JKR curves of pads on a rigid plate, all of which touch."""
+    levels = np.linspace(2e-5, -2e-5, 8000)
+    forces = np.zeros(levels.size)
+    for height, factor in zip(heights, works, strict=True):
+        depth, force = jkr_of_depth(4000, WORK * factor)
+        d = levels + height
+        forces += np.where(d >= depth[0], np.interp(d, depth, force), 0.0)
+    return -forces.min()
+
+
+def test_the_yield_is_the_count_of_arrays_that_are_pulled_directly():
+    scatter, load = vt.Scatter(height=2e-6, work=0.1, seed=3), 3.9 * JKR
+    found = vt.array_yield(
+        vt.PadArray(pad(), grid(2, 2, 5e-3)),
+        scatter,
+        load=load,
+        speed=1e-5,
+        preload=4 * LOAD,
+        draws=60,
+    )
+    direct = np.array([direct_pull_off(*scatter.drawn(4, i)) for i in range(60)])
+    assert found.forces == pytest.approx(np.sort(direct), rel=2e-3)
+    near = np.abs(direct / load - 1) < 2e-3
+    assert abs(found.share * 60 - np.count_nonzero(direct >= load)) <= np.count_nonzero(near)
+    assert 0.05 < found.share < 0.95
+    assert found.interval[0] < found.share < found.interval[1]
+
+
+def test_the_yield_of_one_pad_is_the_normal_distribution_of_its_work():
+    scatter = vt.Scatter(work=0.1, seed=5)
+    found = vt.array_yield(
+        vt.PadArray(pad(), [(0.0, 0.0)]),
+        scatter,
+        load=0.95 * JKR,
+        speed=1e-5,
+        preload=LOAD,
+        draws=400,
+    )
+    expected = 0.5 * (1 + erf(0.5 / sqrt(2)))
+    assert found.interval[0] < expected < found.interval[1]
+    assert np.median(found.forces) == pytest.approx(JKR, rel=0.01)

@@ -13,7 +13,7 @@ f. The bounds are those of simulations at all rates, not a proof.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import inf
 
@@ -65,14 +65,7 @@ class Limit:
 
 def wanted(targets: Targets) -> dict[str, float]:
     """Return the targets with the ratio that hold and release imply."""
-    known = {
-        "hold": targets.hold,
-        "release": targets.release,
-        "ratio": targets.least_ratio,
-        "work": targets.work,
-        "dead_load": targets.dead_load,
-    }
-    return {name: value for name, value in known.items() if value is not None}
+    return replace(targets, ratio=targets.least_ratio, preload=None).stated
 
 
 def solid_limits(fast: FastTier, space: DesignSpace, targets: Targets) -> tuple[Limit, ...]:

@@ -99,10 +99,6 @@ class ArrayYield:
     forces: Array
     load: float
 
-    def reached_by(self, part: float) -> float:
-        """Return the force [N] that a part of the arrays reach."""
-        return float(np.quantile(self.forces, 1 - part))
-
 
 def array_yield(
     array: PadArray,

@@ -133,7 +133,7 @@ def force_table(
         share=_shares(),
         force=np.array([x.force for x in pulls]),
         error=missed + max(x.error for x in pulls),
-        of=_words(problem),
+        of=f"{problem.geometry} on {problem.material}, {problem.traction}",
     )
 
 
@@ -207,8 +207,3 @@ def _miss(low: _Pull, middle: _Pull, high: _Pull) -> float:
     force = np.max(missed[held]) / middle.peak
     travel = np.max(np.abs((low.travel + high.travel) / 2 / middle.travel - 1)[:2])
     return float(max(force, travel))
-
-
-def _words(problem: Problem) -> str:
-    """Describe the contact in a line."""
-    return f"{problem.geometry} on {problem.material}, {problem.traction}"

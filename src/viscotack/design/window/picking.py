@@ -127,10 +127,6 @@ class Window:
     cells: tuple[Cell, ...]
     critical_speeds: tuple[CriticalSpeed, ...]
 
-    def at(self, speed: int, preload: int) -> Cell:
-        """Return the cell of the speed and the preload with these numbers."""
-        return self.cells[preload * len(self.speeds) + speed]
-
 
 def window(
     stamp: Problem,
