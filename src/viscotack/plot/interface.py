@@ -66,37 +66,35 @@ def draw_curves(groups: Sequence[CurveGroup]) -> "Figure":
     fits = [fit for group in groups for fit in group.curves]
     with drawing(11.0, 6.4) as figure:
         panels = figure.subplot_mosaic([["curves", "work"], ["curves", "modulus"]])
-        far, far_unit = axis_unit([np.ptp(fit.test.at) for fit in fits], "m")
-        load, load_unit = axis_unit([fit.cycle.pull_off_force.value for fit in fits], "N")
         curves = panels["curves"]
         for number, group in enumerate(groups):
             colour = f"C{number % 10}"
-            speed = readable(group.speed, "m/s", digits=3)
+            speed = said(group.speed, "m/s")
             for index, fit in enumerate(group.curves[:_SHOWN]):
-                test, x = fit.test, (fit.test.at - fit.best.values.get("zero", 0.0)) / far
-                curves.plot(x, test.force / load, ".", ms=2, color=colour, alpha=0.4)
+                test, x = fit.test, fit.test.at - fit.best.values.get("zero", 0.0)
+                curves.plot(x, test.force, ".", ms=2, color=colour, alpha=0.4)
                 order = np.argsort(x)
                 label = None if index else f"{speed}: {len(group.curves)} curves"
-                curves.plot(x[order], fit.force[order] / load, lw=1.0, color=colour, label=label)
+                curves.plot(x[order], fit.force[order], lw=1.0, color=colour, label=label)
         what = "contact radius" if fits[0].test.against == "radius" else "fitted depth"
-        curves.set(xlabel=f"{what} [{far_unit}]", ylabel=f"force [{load_unit}]")
+        label_in_si(curves.xaxis, what, "m")
+        label_in_si(curves.yaxis, "force", "N")
         curves.legend(fontsize="small")
         for name, quantity, unit in (
             ("work", "work_of_adhesion", "J/m^2"),
             ("modulus", "contact_modulus", "Pa"),
         ):
             axes, number = panels[name], 0
-            size, said = axis_unit([getattr(fit, quantity).value for fit in fits], unit)
             for colour, group in enumerate(groups):
                 at = np.arange(number, number := number + len(group.curves)) + 1
                 values = [getattr(fit, quantity) for fit in group.curves]
-                y, bars = (np.array([[x.value, x.uncertainty] for x in values]) / size).T
+                y, bars = np.array([[x.value, x.uncertainty] for x in values]).T
                 axes.errorbar(at, y, yerr=bars, fmt="o", ms=3, color=f"C{colour % 10}")
                 mean = getattr(group, quantity)
-                axes.plot(at[[0, -1]], [mean.value / size] * 2, "k-", lw=1.0)
+                axes.plot(at[[0, -1]], [mean.value] * 2, "k-", lw=1.0)
                 if mean.low is not None:
-                    axes.fill_between(at[[0, -1]], mean.low / size, mean.high / size, alpha=0.2)
-            axes.set_ylabel(f"{name} [{said.replace('^2', '$^2$')}]")
+                    axes.fill_between(at[[0, -1]], mean.low, mean.high, alpha=0.2)
+            label_in_si(axes.yaxis, name, unit)
         panels["modulus"].set_xlabel("curve")
     return figure
 

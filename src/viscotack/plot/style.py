@@ -56,7 +56,7 @@ def label_in_si(axis: "Axis", words: str, unit: str) -> float:
         axis.set_major_locator(MaxNLocator(5))
     axis.set_minor_formatter(NullFormatter())
     axis.set_major_formatter(lambda x, _: f"{x / size:.6g}".replace("-", "\N{MINUS SIGN}"))
-    axis.set_label_text(f"{words} [{name.replace('u', 'µ')}]" if name != "1" else words)
+    axis.set_label_text(f"{words} [{name.replace('u', 'µ').replace('^2', '$^2$')}]")
     return size
 
 
