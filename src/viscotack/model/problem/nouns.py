@@ -15,7 +15,7 @@ from typing import Any
 
 from viscotack.cards import check_carded
 from viscotack.errors import InputError
-from viscotack.files.bounded import LARGEST_TEXT, read_bytes
+from viscotack.files.text import read_bytes
 from viscotack.model.geometry import BODIES, SHAPES
 from viscotack.model.materials.words import MODELS
 from viscotack.model.traction import LAWS
@@ -115,7 +115,7 @@ def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
     """
     found: list[Any] = []
     for path in dict.fromkeys(Path(path).resolve() for path in paths):
-        found += _defined(path, sha256(read_bytes(path, LARGEST_TEXT)).hexdigest())
+        found += _defined(path, sha256(read_bytes(path)).hexdigest())
     return tuple(found)
 
 
