@@ -17,14 +17,14 @@ from viscotack.model.materials.constants import (
     RubberyModulus,
 )
 from viscotack.model.materials.interconversion import reciprocal
-from viscotack.model.materials.material import Complex, Real
+from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import Modes, compressed, maxwell, voigt
 
 _MOST_BRANCHES = 10_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Elastic:
+class Elastic(Solid):
     """Elastic solid, without memory.
 
     Parameters
@@ -46,23 +46,10 @@ class Elastic:
     rubbery_modulus: RubberyModulus
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-
     @property
     def glassy_modulus(self) -> float:
         """Short-time Young's modulus [Pa], here the rubbery one."""
         return self.rubbery_modulus
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, here 1."""
-        return 1.0
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
 
     @property
     def time_unit(self) -> float:
@@ -84,23 +71,13 @@ class Elastic:
         w = nonnegative("omega", omega, "rad/s")
         return like_input(np.full(w.shape, complex(self.rubbery_modulus)))
 
-    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return the complex compliance [1/Pa], real and constant, at frequencies [rad/s]."""
-        w = nonnegative("omega", omega, "rad/s")
-        return like_input(np.full(w.shape, complex(1 / self.rubbery_modulus)))
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the modes of an elastic solid: an empty set."""
-        checks.window(shortest=shortest, longest=longest, tolerance=tolerance)
-        return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
-
     def reduced(self) -> "Elastic":
         """Return the dimensionless solid: rubbery modulus 1, Poisson ratio 0."""
         return Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class StandardSolid:
+class StandardSolid(Solid):
     r"""Standard linear solid with one retardation time.
 
     .. math:: E_0 C(t) = 1 + (k - 1) e^{-t/\tau_0}, \quad k = E_0/E_\infty
@@ -134,25 +111,6 @@ class StandardSolid:
     tau0: RetardationTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        checks.stiffens(self)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
-    def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: the retardation time tau0."""
-        return self.tau0
-
     @property
     def relaxation_time(self) -> float:
         """Relaxation time k tau0 [s], never longer than the retardation time."""
@@ -183,11 +141,7 @@ class StandardSolid:
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
         return like_input(Cinf + (C0 - Cinf) * voigt(w * self.tau0))
 
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the single mode, or none if it relaxes before `shortest` [s]; see `Material`."""
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         k = self.modulus_ratio
         return compressed(
             k,
@@ -199,16 +153,9 @@ class StandardSolid:
             error=1e-15,
         )
 
-    def reduced(self) -> "StandardSolid":
-        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        glassy = self.glassy_modulus / self.rubbery_modulus
-        return StandardSolid(
-            rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
-        )
-
 
 @dataclass(frozen=True, kw_only=True)
-class Prony:
+class Prony(Solid):
     r"""Generalised Maxwell (Wiechert) solid: a spring in parallel with Maxwell branches.
 
     .. math:: R(t) = E_0 + \sum_i E_i e^{-t/\tau_i}
@@ -268,16 +215,6 @@ class Prony:
         return self.rubbery_modulus + sum(modulus for modulus, _ in self.branches)
 
     @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1)."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
     def time_unit(self) -> float:
         """Unit of dimensionless times [s]: the longest relaxation time."""
         return self.branches[-1][1]
@@ -300,19 +237,7 @@ class Prony:
         E, tau = np.array(self.branches).T
         return like_input(self.rubbery_modulus + maxwell(w[..., None] * tau) @ E)
 
-    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_modulus(omega)
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
-
-        The modes are exact, one per branch; modes outside the window are merged if the tolerance
-        allows it.
-        """
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         C, rate = self._retardation()
         return compressed(
             self.modulus_ratio,
