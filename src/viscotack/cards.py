@@ -313,6 +313,13 @@ def conform(noun: Any) -> None:
             object.__setattr__(noun, field.name, field.card.checked(field.name, value))
 
 
+class Checked:
+    """Base of frozen dataclasses whose numbers are checked against their cards, and no more."""
+
+    def __post_init__(self) -> None:
+        conform(self)
+
+
 def check_carded(noun: type) -> None:
     """Raise InputError if a field of a class has no card."""
     bare = [f.name for f in fields(noun) if f.name not in {*cards(noun), *cards(noun, Pairs)}]

@@ -18,7 +18,7 @@ import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity
 from viscotack.errors import InputError
 
 # Decades of radius [m] over which a shape of revolution is examined.
@@ -45,7 +45,7 @@ class Shape(Protocol):
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(Checked):
     """Rigid sphere, near its lowest point: the gap is that of a paraboloid.
 
     Parameters
@@ -68,9 +68,6 @@ class Sphere:
     symmetry: ClassVar[str] = "revolution"
 
     radius: Annotated[float, Quantity("m", "R", "sphere radius", above=0, example="5.19 mm")]
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m], r^2/(2 R)."""
@@ -115,7 +112,7 @@ def effective_sphere(first: Sphere, second: Sphere) -> Sphere:
 
 
 @dataclass(frozen=True)
-class FlatPunch:
+class FlatPunch(Checked):
     """Rigid flat punch, long in the third direction: plane strain.
 
     Parameters
@@ -136,9 +133,6 @@ class FlatPunch:
         float, Quantity("m", "a", "half width of the punch", above=0, example="1 mm")
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
     def reduced(self, along: float, height: float) -> "FlatPunch":
         """Return the punch with distances in `along` [m]; it has no height."""
         return FlatPunch(self.half_width / along)
@@ -150,7 +144,7 @@ class FlatPunch:
 
 
 @dataclass(frozen=True)
-class PowerLawProfile:
+class PowerLawProfile(Checked):
     """Rigid indenter of revolution with the profile z = A r^q.
 
     Parameters
@@ -188,9 +182,6 @@ class PowerLawProfile:
         ),
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
     def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m], A r^q."""
         return self.coefficient * np.asarray(position, dtype=float) ** self.exponent
@@ -216,7 +207,7 @@ class PowerLawProfile:
 
 
 @dataclass(frozen=True)
-class Cone:
+class Cone(Checked):
     """Rigid cone: the power law with exponent 1.
 
     Parameters
@@ -237,9 +228,6 @@ class Cone:
     slope: Annotated[
         float, Quantity("1", "A", "rise of the cone over its radius", above=0, example="0.1")
     ]
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     @property
     def coefficient(self) -> float:

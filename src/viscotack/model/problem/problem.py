@@ -207,16 +207,16 @@ class Problem:
         """Return the dimensionless problem, in the material's time unit."""
         unit: Any = self._scales
         units: Units = self._kind.to_groups(unit)
-        protocol = self.protocol
+        test = units.scaled(self.protocol)
         along, height = self._kind.lengths(self)
         return Groups(
             **self._kind.ratios(self),
             material=self.material.reduced(),
-            start=units.start(protocol.start),
-            rate=units.speed(protocol.speed),
+            start=test.start,
+            rate=test.speed,
             traction=reduced(self.traction, unit.time),
-            moves=units.moves(protocol.moves),
-            stiffness=units.stiffness(protocol.stiffness),
+            moves=test.moves,
+            stiffness=test.stiffness,
             geometry=self.geometry.reduced(along, height),
             body=self.body.reduced(along),
         )
@@ -415,6 +415,7 @@ class Groups:
         nu = checked_poisson_ratio(poisson_ratio)
         unit = self._kind.si_units(self, E, radius, **scale)
         units = Units(unit.length, unit.force, unit.contact_radius, T)
+        test = Retraction(self.start, self.rate, self.moves, self.stiffness)
         shape = self.geometry.reduced(1 / unit.along, 1 / unit.height)
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
@@ -422,7 +423,7 @@ class Groups:
             # keep the radius of a sphere exact
             geometry=Sphere(radius) if isinstance(shape, Sphere) and radius else shape,
             body=self.body.reduced(1 / unit.along),
-            protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
+            protocol=units.scaled(test),
         )
 
     @property

@@ -143,7 +143,7 @@ def _is_given(table: Any, key: str) -> bool:
 def table_of_protocol(test: Retraction, units: Mapping[str, str]) -> dict[str, Any]:
     """Return the table [protocol] of a test, with numbers in SI."""
     starts = {kind: key for key, kind in STARTS[units["force"]].items()}
-    (value,) = vars(test.start).values()
+    value = test.start.value
     if isinstance(test.start, Apart):
         found: dict[str, Any] = {"start": f"apart {value!r} {units['depth']}"}
     else:
@@ -179,11 +179,10 @@ def test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
 def table_of_groups(groups: Groups) -> dict[str, Any]:
     """Return the table [groups] of a dimensionless problem."""
     starts = {kind: key for key, kind in STARTS_IN_GROUPS.items()}
-    (value,) = vars(groups.start).values()
     size = {"tabor": groups.tabor} if groups.cohesion is None else {"cohesion": groups.cohesion}
     return {
         **size,
-        starts[type(groups.start)]: value,
+        starts[type(groups.start)]: groups.start.value,
         **_drive(groups.moves, PURE_NUMBERS, rate=groups.rate, stiffness=groups.stiffness),
     }
 
