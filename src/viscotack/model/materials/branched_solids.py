@@ -1,12 +1,13 @@
 """Linear viscoelastic solids with no branch, one branch, or a series of branches."""
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Pairs, conform
+from viscotack.cards import Pairs, cards, conform
 from viscotack.errors import InputError
 from viscotack.model.materials import checks
 from viscotack.model.materials.checks import like_input, nonnegative
@@ -207,7 +208,8 @@ class Prony(Solid):
 
     def __post_init__(self):
         conform(self)
-        checks.store(self, branches=_branches(self.branches))
+        card = cards(Prony, Pairs)["branches"].card
+        checks.store(self, branches=sorted_pairs("branches", self.branches, card))
 
     @property
     def glassy_modulus(self) -> float:
@@ -261,37 +263,30 @@ class Prony(Solid):
         return reciprocal(self.rubbery_modulus, E, 1 / tau)
 
 
-def _branches(given) -> tuple[tuple[float, float], ...]:
-    """Return checked (modulus [Pa], relaxation time [s]) pairs, sorted by time."""
-    advice = "give branches=[(modulus in Pa, relaxation time in s), ...]"
+def sorted_pairs(name: str, given: Any, card: Pairs) -> tuple[tuple[float, float], ...]:
+    """Return the checked pairs of a size and a time of a field, sorted by time."""
+    first, second = card.units
+    pairs: list[tuple[float, float]] = []
     try:
-        pairs = [tuple(pair) for pair in given]
-    except TypeError:
-        raise InputError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
-    if len(pairs) > _MOST_BRANCHES:
+        for size, time in given:
+            size = checks.positive(f"a number of {name}", size, first)
+            pairs.append((size, checks.positive(f"a time of {name}", time, second)))
+    except (TypeError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
         raise InputError(
-            f"a series has at most {_MOST_BRANCHES:,} branches, got {len(pairs):,}; ten per decade "
-            "of time are sufficient for any solid"
+            f"{name} must be pairs of numbers [{first}, {second}], {card.words}, got {given!r:.80}"
+        ) from None
+    if not 0 < len(pairs) <= _MOST_BRANCHES:
+        raise InputError(
+            f"{name} must be 1 to {_MOST_BRANCHES:,} pairs, got {len(pairs):,}; use Elastic for a "
+            "solid without any, and ten per decade of time are sufficient for any solid"
         )
-    if not pairs:
-        raise InputError("branches must not be empty; use Elastic for a solid without branches")
-    for pair in pairs:
-        if len(pair) != 2:
-            raise InputError(f"each branch must be a pair of numbers, got {pair!r}; {advice}")
-    checked = sorted(
-        (
-            (
-                checks.positive("the modulus of a branch", modulus, "Pa"),
-                checks.positive("the relaxation time of a branch", time, "s"),
-            )
-            for modulus, time in pairs
-        ),
-        key=lambda branch: branch[1],
-    )
-    for (_, time), (_, following) in zip(checked, checked[1:], strict=False):
+    pairs.sort(key=lambda pair: pair[1])
+    for (_, time), (_, following) in pairwise(pairs):
         if following < time * (1 + 1e-9):
             raise InputError(
-                "relaxation times of branches must differ by more than 1e-9 (relative), got "
-                f"{time!r} s and {following!r} s; merge the two branches by adding their moduli"
+                f"the times of {name} must differ by more than 1e-9 (relative), got {time!r} s and "
+                f"{following!r} s; merge the two by adding their sizes"
             )
-    return tuple(checked)
+    return tuple(pairs)
