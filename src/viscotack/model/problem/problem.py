@@ -199,7 +199,8 @@ class Problem:
         test = units.scaled(self.protocol)
         along, height = self._kind.lengths(self)
         return Groups(
-            **self._kind.ratios(self),
+            tabor=None if self._kind is plane else self.tabor,
+            cohesion=self.cohesion if self._kind is plane else None,
             material=self.material.reduced(),
             start=test.start,
             rate=test.speed,
@@ -477,6 +478,19 @@ def _check_poisson_ratio(body: Any, material: Any) -> None:
 
 def _check_reduced(groups: Any) -> None:
     """Raise an error for groups with parts that are not reduced, or without motion."""
+    plain = groups.in_plane_strain
+    if (groups.tabor is None) != plain or (groups.cohesion is None) == plain:
+        needs = (
+            "cohesion, sigma_0/E_0*, and no Tabor number"
+            if plain
+            else "Tabor number and no cohesion"
+        )
+        raise InputError(
+            f"a {groups.geometry.word} needs a {needs}: give for example "
+            f"{'cohesion=0.05' if plain else 'tabor=3.24'}, got cohesion={groups.cohesion} and "
+            f"tabor={groups.tabor}",
+            field="cohesion" if plain else "tabor",
+        )
     if groups.material.rubbery_modulus != 1 or groups.material.poisson_ratio != 0:
         raise InputError(
             "the material of dimensionless groups must have a rubbery modulus of 1 and a "
