@@ -1,16 +1,13 @@
 """Files that would take all memory or all time are refused before they are read."""
 
 import io
-import os
 import tracemalloc
 import zipfile
 
 import openpyxl
 import pytest
 
-from viscotack import load as load_result
 from viscotack.errors import InputError
-from viscotack.files.bounded import read_bytes
 from viscotack.files.text import read_text
 from viscotack.files.toml import read_toml
 from viscotack.lab.formats.file import load
@@ -63,18 +60,6 @@ def test_a_sheet_is_read_whatever_dimension_it_states(dimension, tmp_path):
     rows = cell("A1", "<is><t>xxx</t></is>", ' t="inlineStr"') + cell("C3", "<f>1+1</f><v>2</v>")
     file = workbook(tmp_path / "a.xlsx", rows, dimension)
     assert sheets(file) == {"a": [["xxx", "", ""], ["", "", ""], ["", "", "2.0"]]}
-
-
-READERS = [read_text, read_toml, load, load_result, lambda path: read_bytes(path, 10)]
-
-
-@pytest.mark.parametrize("read", READERS)
-def test_devices_and_pipes_are_not_read(read, tmp_path):
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    for path in ("/dev/zero", pipe):
-        with pytest.raises(InputError, match="is no regular file: it is a device, a pipe"):
-            read(path)
 
 
 def test_more_than_is_taken_is_not_read(tmp_path):

@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
+
 from viscotack import datasets, solve  # noqa: E402
-from viscotack.datasets.making import Targets, make  # noqa: E402
 from viscotack.model.problem.kinds import KINDS  # noqa: E402
 from viscotack.result.observables import (
     pull_off,
@@ -93,19 +93,3 @@ def test_rows_are_what_the_solver_gives(name):
         assert pull_off(result).force == pytest.approx(force, rel=row["force_error"], abs=0)
         work = row["work_to_pull_off"]
         assert work_to_pull_off(result) == pytest.approx(work, rel=row["work_error"], abs=0)
-
-
-@pytest.mark.slow
-def test_a_set_can_be_made_again_and_misses_are_run_finer(tmp_path):
-    import pyarrow.parquet as pq
-
-    whole = datasets.load("punch").slice(0, 4).to_pylist()
-    made = pq.read_table(make("punch", tmp_path / "a", cases=4)).to_pylist()
-    for row, stored in zip(made, whole, strict=True):
-        # how often a case was run again depends on what the solver of the day says of its errors
-        finest = row["accuracy"] == 2e-3 / 16
-        assert finest or row["force_error"] <= Targets().force
-        assert row["pull_off_stress"] == pytest.approx(stored["pull_off_stress"], rel=1e-3, abs=0)
-    strict = Targets(force=1e-5, work=1e-5)
-    made = pq.read_table(make("punch", tmp_path / "b", cases=2, targets=strict)).to_pylist()
-    assert [row["accuracy"] for row in made] == pytest.approx([2e-3 / 16] * 2)

@@ -15,8 +15,7 @@ from viscotack.model.materials import (
 )
 from viscotack.model.materials.conversion import slowed
 from viscotack.model.materials.passport import Evidence, Origin, Passport, _moved
-from viscotack.model.materials.passport_file import read_passport, write_passport
-from viscotack.model.materials.passport_tables import passport_text
+from viscotack.model.materials.passport_file import passport_text, read_passport, write_passport
 from viscotack.model.materials.passport_uncertainty import allowed, shift_error
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.model.problem.case_file import passport_of, read_case

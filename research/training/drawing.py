@@ -1,7 +1,7 @@
 """Lists of cases, drawn with fixed seeds: the sets `fresh`, `unseen`, `deep` and `sharp`.
 
 ``python -m research.training.drawing fresh --out fresh.csv`` writes a list, which
-``python -m viscotack.datasets fresh`` runs. Any beginning of the first two has cases of all its
+``python -m research.datasets fresh`` runs. Any beginning of the first two has cases of all its
 designs, as many for their number; those of `fresh` measure how wide intervals must be, those of
 `unseen` judge, and nothing is taken from them. The others are deep pulls about as fast as the bulk
 relaxes, of power laws (`deep`) and other solids (`sharp`): their force may have two maxima, and the

@@ -132,130 +132,66 @@ if TYPE_CHECKING:
     from viscotack.simulate.solving import solve as solve
     from viscotack.units import parse as parse
 
-    from . import bem as bem
     from . import campaign as campaign
     from . import datasets as datasets
     from . import lab as lab
-    from . import materials as materials
-    from . import operations as operations
+    from . import simulate as simulate
     from . import theory as theory
+    from .app import operations as operations
+    from .design import control as control
+    from .model import materials as materials
 
 # Module -> its public names, in the order in which data flow.
 _NAMES = {
-    "units": ("parse",),
-    "errors": ("InputError", "OutOfRange", "NotInstalled"),
-    "cards": ("Quantity",),
+    "units": "parse",
+    "errors": "InputError OutOfRange NotInstalled",
+    "cards": "Quantity",
     "model.traction": (
-        "Dugdale",
-        "Exponential",
-        "Eyring",
-        "GentSchultz",
-        "LennardJones",
-        "LogarithmicAgeing",
-        "SaturatingAgeing",
-        "Tabulated",
+        "Dugdale Exponential Eyring GentSchultz LennardJones LogarithmicAgeing SaturatingAgeing "
+        "Tabulated"
     ),
     "model.geometry": (
-        "Sphere",
-        "FlatPunch",
-        "Cone",
-        "PowerLawProfile",
-        "WavySphere",
-        "MeasuredProfile",
-        "Disc",
-        "Layer",
-        "Frictionless",
-        "HalfSpace",
-        "Bonded",
+        "Sphere FlatPunch Cone PowerLawProfile WavySphere MeasuredProfile Disc Layer Frictionless "
+        "HalfSpace Bonded"
     ),
     "model.protocol": (
-        "AtDepth",
-        "AtForce",
-        "AtRadius",
-        "Apart",
-        "Approach",
-        "Retract",
-        "MoveTo",
-        "Dwell",
-        "LoadTo",
-        "Retraction",
+        "AtDepth AtForce AtRadius Apart Approach Retract MoveTo Dwell LoadTo Retraction"
     ),
     "model.materials": (
-        "Elastic",
-        "StandardSolid",
-        "FractionalZener",
-        "Prony",
-        "RetardationPowerLaw",
-        "RelaxationPowerLaw",
+        "Elastic StandardSolid FractionalZener Prony RetardationPowerLaw RelaxationPowerLaw"
     ),
-    "model.problem": ("Problem", "Groups", "Scales", "PunchScales"),
-    "model.problem.record": ("to_dict", "from_dict", "run_id"),
-    "model.problem.case_file": ("read_case",),
-    "simulate": ("SimulationError",),
-    "simulate.solving": ("solve",),
-    "simulate.crack_contact": ("crack_contact", "CrackContact"),
-    "result": ("Result", "Energies", "Event", "Outcome", "save", "load", "columns", "write_csv"),
+    "model.problem": "Problem Groups Scales PunchScales",
+    "model.problem.record": "to_dict from_dict run_id",
+    "model.problem.case_file": "read_case",
+    "simulate": "SimulationError",
+    "simulate.solving": "solve",
+    "simulate.crack_contact": "crack_contact CrackContact",
+    "result": "Result Energies Event Outcome save load columns write_csv",
     "result.observables": (
-        "Observable",
-        "PullOff",
-        "pull_off",
-        "peaks",
-        "pull_off_force",
-        "depth_at_pull_off",
-        "contact_radius_at_pull_off",
-        "crack_speed_at_pull_off",
-        "work_to_pull_off",
-        "work_of_separation",
-        "pull_off_stress",
-        "ligament_at_pull_off",
-        "effective_surface_energy",
-        "summary",
+        "Observable PullOff pull_off peaks pull_off_force depth_at_pull_off "
+        "contact_radius_at_pull_off crack_speed_at_pull_off work_to_pull_off work_of_separation "
+        "pull_off_stress ligament_at_pull_off effective_surface_energy summary"
     ),
-    "result.cycles": ("Cycle", "cycles", "write_cycles"),
-    "result.dead_load": ("time_to_detachment",),
-    "result.edge_energy": ("EdgeEnergy", "edge_energy"),
-    "result.loops": ("Loop",),
+    "result.cycles": "Cycle cycles write_cycles",
+    "result.dead_load": "time_to_detachment",
+    "result.edge_energy": "EdgeEnergy edge_energy",
+    "result.loops": "Loop",
     "prediction": (
-        "advise",
-        "Advice",
-        "Estimate",
-        "predict",
-        "predict_table",
-        "Prediction",
-        "prediction_summary",
-        "threshold_contact_radius",
+        "advise Advice Estimate predict predict_table Prediction prediction_summary "
+        "threshold_contact_radius"
     ),
-    "plot.simulation": (
-        "draw_energy",
-        "draw_force",
-        "draw_radius",
-        "draw_overview",
-    ),
-    "plot.regimes": ("draw_regimes",),
-    "plot.style": ("save_figure",),
-    "plot.material": ("draw_fit",),
+    "plot.simulation": "draw_energy draw_force draw_radius draw_overview",
+    "plot.regimes": "draw_regimes",
+    "plot.style": "save_figure",
+    "plot.material": "draw_fit",
     "design.window": (
-        "which_opens",
-        "SeriesOpening",
-        "simulate_in_series",
-        "SeriesResult",
-        "window",
-        "Window",
-        "CriticalSpeed",
+        "which_opens SeriesOpening simulate_in_series SeriesResult window Window CriticalSpeed"
     ),
-    "design.arrays": (
-        "PadArray",
-        "Backing",
-        "pull_array",
-        "ArrayPull",
-        "Scatter",
-        "array_yield",
-        "ArrayYield",
-    ),
-    "design": ("find_design", "read_design", "Design", "DesignSpace", "Targets"),
-    "prediction.uncertainty": ("uncertainty", "Uncertainty"),
-    "plot.prediction": ("draw_prediction",),
-    "app.operations": ("ask",),
+    "design.arrays": "PadArray Backing pull_array ArrayPull Scatter array_yield ArrayYield",
+    "design": "find_design read_design Design DesignSpace Targets",
+    "prediction.uncertainty": "uncertainty Uncertainty",
+    "plot.prediction": "draw_prediction",
+    "app.operations": "ask",
 }
 # Room -> its module.
 _ROOMS = {
@@ -268,7 +204,7 @@ _ROOMS = {
     "operations": "app.operations",
     "control": "design.control",
 }
-_HOMES = {name: module for module, names in _NAMES.items() for name in names}
+_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]
 

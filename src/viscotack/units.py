@@ -27,33 +27,9 @@ _POWERS = {"G": 9, "M": 6, "k": 3, "": 0, "m": -3, "u": -6, "µ": -6, "μ": -6, 
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ])\^?(-?\d+)")
 
 # Largest first; "u" is what keyboards have for micro.
-_PREFIXES = (
-    (1e9, "G"),
-    (1e6, "M"),
-    (1e3, "k"),
-    (1.0, ""),
-    (1e-3, "m"),
-    (1e-6, "u"),
-    (1e-9, "n"),
-    (1e-12, "p"),
-)
+_PREFIXES = [(float(f"1e{power}"), p) for p, power in _POWERS.items() if p.isascii()]
 # The units that take a prefix; thousands of seconds are no ks, and no speed is in km/s.
-_PREFIXED = (
-    "N",
-    "N/m",
-    "Pa",
-    "J",
-    "J/m^2",
-    "J/m2",
-    "J/m",
-    "J/mol",
-    "m/N",
-    "N/s",
-    "Hz",
-    "s",
-    "m",
-    "m/s",
-)
+_PREFIXED = "N N/m Pa J J/m^2 J/m2 J/m J/mol m/N N/s Hz s m m/s".split()
 _NOT_ABOVE_ONE = ("s", "m", "m/s")
 # Beyond these no prefix makes a number readable.
 _SMALLEST, _LARGEST = 1e-15, 1e12

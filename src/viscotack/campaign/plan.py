@@ -3,11 +3,10 @@
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.model.problem import RoughCase
@@ -16,9 +15,9 @@ from viscotack.model.problem.changes import Column, columns_of
 from viscotack.model.problem.kinds import KINDS, Kind, kind_of_columns, kind_of_problem
 from viscotack.model.problem.nouns import own_nouns
 from viscotack.model.problem.record import from_dict, run_id, to_dict
+from viscotack.model.problem.tables import Reading, read_as
 from viscotack.simulate import has_start
 from viscotack.simulate.rough import read_rough_case
-from viscotack.units import parse
 
 from .case import CaseSettings
 from .design import fill, grid
@@ -157,7 +156,11 @@ def read_plan(
             raise InputError(f"unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}")
         if files := _permitted(path, tables, own):
             settings["own"] = files
-        settings = _settings(tables.get("settings", {}), settings)
+        given = tables.get("settings", {})
+        if not isinstance(given, dict) or "own" in given:
+            raise InputError(f"[settings] is a table without `own`, got {given!r:.60}")
+        reading = Reading(str(path), bare=True)
+        settings = read_as(CaseSettings, given | settings, reading, "settings")
         problem = None
         if "problem" in tables:
             if "kind" in tables:
@@ -471,16 +474,3 @@ def _read(kind: Kind, name: str, given: Any) -> Any:
     entry = kind.inputs[name]
     number = Column(name, entry, "", kind.in_si).read(given)
     return entry.card.checked(name, number, entry.unit)
-
-
-def _settings(given: Any, changed: Mapping[str, Any]) -> CaseSettings:
-    names = [field.name for field in fields(CaseSettings) if field.name != "own"]
-    if not isinstance(given, dict) or given.keys() - set(names):
-        raise InputError(f"[settings]: may have {', '.join(names)}, got {given!r}")
-    values = given | dict(changed)
-    with _placed("[settings]"):
-        for name, field in cards(CaseSettings).items():
-            if name in values:
-                with _placed(name):
-                    values[name] = parse(values[name], field.card.unit)
-        return CaseSettings(**values)

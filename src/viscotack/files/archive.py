@@ -1,5 +1,6 @@
-"""Arrays in NumPy archives (.npz)."""
+"""Arrays in NumPy archives (.npz), and the size of archives."""
 
+import zipfile
 from collections.abc import Callable
 from tokenize import TokenError
 from typing import IO, Any
@@ -9,7 +10,8 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 
-from .bounded import LARGEST_UNPACKED, check_unpacked
+# Largest size of an archive when unpacked: results with their fields, maps [bytes].
+LARGEST_UNPACKED = 1e9
 
 
 def read_arrays(
@@ -47,3 +49,19 @@ def read_arrays(
             return {name: parts[name] for name in parts.files}
     except (MemoryError, TokenError) as error:
         raise InputError(f"it is not a NumPy archive, or damaged: {error}") from None
+
+
+def check_unpacked(file: IO[bytes], most: float = LARGEST_UNPACKED) -> bool:
+    """Refuse a zip archive that unpacks to more bytes than `most`; whether it is an archive."""
+    if not zipfile.is_zipfile(file):
+        return False
+    try:
+        with zipfile.ZipFile(file) as archive:
+            size = sum(member.file_size for member in archive.infolist())
+    except zipfile.BadZipFile as error:
+        raise InputError(f"it is a damaged archive: {error}") from None
+    if size > most:
+        raise InputError(
+            f"it has {size / 1e6:.0f} MB when unpacked, more than the limit of {most / 1e6:.0f} MB"
+        )
+    return True

@@ -6,13 +6,12 @@ import os
 import re
 
 from viscotack.errors import InputError
+from viscotack.units import is_number
 
-from .bounded import LARGEST_TEXT, check_lines, read_bytes
-
+# Largest text that a user gives, such as a table of a million cases [bytes].
+LARGEST_TEXT = 100_000_000
 # Control characters except line ends and tabs, and those that change the writing direction.
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
-# Longest table that is kept as rows: its bytes and its lines.
-_LARGEST_TABLE, _MOST_ROWS = 20_000_000, 200_000
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 # Byte-order mark -> encoding.
 _MARKS = {
@@ -22,13 +21,25 @@ _MARKS = {
 }
 
 
+def read_bytes(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> bytes:
+    """Read a file of at most `most` bytes; FileNotFoundError without it, InputError of more."""
+    with open(path, "rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise InputError(
+            f"{os.fspath(path)} is larger than {most / 1e6:g} MB, the most that is read of such a "
+            "file"
+        )
+    return content
+
+
 def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
     r"""Read a text file in UTF-8, or in UTF-16 with byte-order mark; lines end in ``\n``.
 
     Parameters
     ----------
     path : path
-        A regular file.
+        The file.
     most : int
         Largest size that is read [bytes].
 
@@ -37,8 +48,7 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
     FileNotFoundError
         If the file does not exist.
     InputError
-        If it or a line is too large, it has another encoding or is not text. The message contains
-        the line.
+        If it is too large, has another encoding or is not text. The message contains the line.
     """
     content = read_bytes(path, most)
     if content.startswith((b"PK\x03\x04", b"\xd0\xcf\x11\xe0")):
@@ -46,7 +56,6 @@ def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
             f"{os.fspath(path)} is a workbook or an archive, and text is read here; save the sheet "
             "as CSV UTF-8 (comma delimited)"
         )
-    check_lines(path, content)
     encoding = next((e for mark, e in _MARKS.items() if content.startswith(mark)), "utf-8")
     try:
         text = content.decode(encoding)
@@ -86,46 +95,29 @@ def cell(text: str) -> str:
     "'=1+1"
     """
     text = harmless(text)
-    return f"'{text}" if text.startswith(_FORMULA) and not _is_number(text) else text
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return f"'{text}" if text.startswith(_FORMULA) and not is_number(text) else text
 
 
 def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Read the names in the first row of a CSV file, and the rows below with line numbers.
 
-    Each row is one line. Empty lines and lines that begin with ``#`` are skipped.
+    Empty lines and lines that begin with ``#`` are skipped.
 
     Raises
     ------
     FileNotFoundError
         If the file does not exist.
     InputError
-        If it is not a text file, or has more than 200,000 lines or 20 MB.
+        If it is not a text file.
     """
-    whole = read_text(path, _LARGEST_TABLE)
-    if (count := whole.count("\n")) > _MOST_ROWS:
-        raise InputError(
-            f"{os.fspath(path)} has {count:,} lines, more than the limit of {_MOST_ROWS:,}; keep "
-            "fewer rows"
-        )
-    rows = [
-        (line, _split(path, line, text))
-        for line, text in enumerate(whole.split("\n"), 1)
-        if text.strip() and not text.startswith("#")
-    ]
+    reader = csv.reader(read_text(path).splitlines(keepends=True))
+    try:
+        rows = [
+            (reader.line_num, row)
+            for row in reader
+            if any(map(str.strip, row)) and not row[0].startswith("#")
+        ]
+    except csv.Error as error:  # a cell of more than 131,072 characters
+        raise InputError(f"{os.fspath(path)}, line {reader.line_num}: {error}") from None
     header = [name.strip() for name in rows[0][1]] if rows else []
     return header, rows[1:]
-
-
-def _split(path: str | os.PathLike[str], line: int, text: str) -> list[str]:
-    try:
-        return next(csv.reader([text]))
-    except csv.Error as error:  # a cell of more than 131,072 characters
-        raise InputError(f"{os.fspath(path)}, line {line}: {error}") from None

@@ -12,8 +12,8 @@ from .text import read_text
 
 # Characters of a line that an error message shows.
 _SHOWN = 60
-# Longest file [characters].
-_MOST_TEXT = 1_500_000
+# Largest file [bytes].
+_MOST = 6_000_000
 _TWICE = ("cannot overwrite", "cannot declare", "cannot mutate")
 
 
@@ -32,25 +32,17 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     InputError
         If it is not TOML. The message contains the line.
     """
-    # a character has four bytes at most
-    return parse_toml(read_text(path, most=4 * _MOST_TEXT), path)
+    return parse_toml(read_text(path, most=_MOST), path)
 
 
 def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
     """Parse the text of a TOML file; errors as for `read_toml`."""
-    if len(text) > _MOST_TEXT:
-        raise InputError(
-            f"{os.fspath(path)} has {len(text):,} characters, more than the limit of "
-            f"{_MOST_TEXT:,}; move long tables into CSV files"
-        )
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         words, number = _place(str(error), text)
-    except RecursionError:
-        raise InputError(f"{os.fspath(path)} has too many nested brackets") from None
-    except ValueError as error:  # an integer of thousands of digits
-        raise InputError(f"{os.fspath(path)}: invalid number: {error}") from None
+    except (ValueError, RecursionError) as error:  # an integer or brackets of thousands of digits
+        raise InputError(f"{os.fspath(path)}: {error}") from None
     shown = text.split("\n")[number - 1].strip()
     shown = f"{shown[:_SHOWN]} ..." if len(shown) > _SHOWN else shown
     words = words[:1].lower() + words[1:]

@@ -29,7 +29,6 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
-from viscotack.files.bounded import open_regular
 from viscotack.files.frame import frame
 from viscotack.files.whole import Target, write_whole
 from viscotack.model.problem import Case, Groups, Problem, PunchScales, Scales
@@ -573,7 +572,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     True
     """
     try:
-        with open_regular(path) as file:
+        with open(path, "rb") as file:
             arrays = read_arrays(file, _is_expected)
         header = json.loads(str(arrays.pop("header")))
         if header["format"] != _FORMAT:

@@ -16,7 +16,6 @@ import typer
 from typer import Option
 
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.files.bounded import forget_reads
 from viscotack.files.text import harmless
 from viscotack.version import __version__
 
@@ -66,7 +65,6 @@ def wrong_input(kind: "type[Request] | None" = None) -> Iterator[None]:
 
     Any unexpected exception is a defect: its traceback is printed, and the exit status is 3.
     """
-    forget_reads()
     try:
         yield
     except InputError as error:

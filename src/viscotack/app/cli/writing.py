@@ -1,6 +1,5 @@
 """Output files of commands: checked before the work, and failures reported after it."""
 
-import errno
 from collections.abc import Callable, Mapping
 from itertools import combinations
 from pathlib import Path
@@ -10,7 +9,6 @@ import typer
 
 from viscotack.app.operations.request import Output
 from viscotack.errors import InputError
-from viscotack.files.bounded import was_read
 from viscotack.files.text import harmless
 from viscotack.files.whole import (
     NotWritten,
@@ -42,8 +40,7 @@ def check_files(
     Raises
     ------
     InputError
-        If a file is used twice, has the ending of another format, exists, was read or cannot be
-        written.
+        If a file is used twice, has the ending of another format, exists or cannot be written.
     """
     given = {output: file for output, file in files.items() if file is not None}
     for output, file in given.items():
@@ -67,7 +64,6 @@ def check_files(
             if output.endings and file.suffix.lower() not in known:
                 raise InputError(f"{flag} {file}: the ending must be {' or '.join(output.endings)}")
             check_target(file)
-            _refuse_read(file)
             # an empty file, of mktemp for example, holds nothing to lose
             if not force and file.is_file() and file.stat().st_size:
                 raise InputError(
@@ -79,13 +75,6 @@ def check_files(
                 f"{one.flag} {first} and {other.flag} {second} are the same file; give two "
                 "different names"
             )
-
-
-def _refuse_read(file: Path) -> None:
-    """Raise NotWritten for a file that the command has read."""
-    if was_read(file):
-        words = f"cannot write {file}: it is an input of this command; give another name"
-        raise NotWritten(errno.EEXIST, words)
 
 
 class Writing:
@@ -103,8 +92,6 @@ class Writing:
         goes_on = is_standard_output(file)
         self._taken |= goes_on
         try:
-            if not goes_on:
-                _refuse_read(file)  # it may be named in a file that was read since the check
             writer(typer.get_binary_stream("stdout") if goes_on else file)
         except BrokenPipeError as error:
             self._reader_left = error

@@ -256,12 +256,11 @@ def _speeds(answer: Prediction) -> dict[str, Any]:
 
 def _of_power_law(groups: Groups, exponent: float, rates: Array, confidence: float) -> list[Array]:
     """Return forces at some rates and the ends of their intervals."""
-    (field,) = vars(groups.start).values()
     same = {
         "tabor": groups.tabor,
         "modulus_ratio": groups.modulus_ratio,
         "exponent": exponent,
-        _INPUTS[type(groups.start)]: field,  # type: ignore[index]
+        _INPUTS[type(groups.start)]: groups.start.value,  # type: ignore[index]
     }
     columns = {name: np.full(_SPEEDS, value) for name, value in same.items()} | {"rate": rates}
     answers = predict_table(columns, confidence=confidence)

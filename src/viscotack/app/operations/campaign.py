@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from viscotack.errors import InputError
-from viscotack.files.bounded import note_read
 
 from .flags import INDENTERS
 from .request import Answer, Caller, Contact, File, Number, Option, Output, Request
@@ -173,7 +172,7 @@ class Run(Settings):
         """Run the missing cases and report progress."""
         from viscotack.campaign import CannotRun, Dask, run
 
-        out, plan = _folder(self.out, caller), self._plan(caller)
+        out, plan = caller.file(self.out), self._plan(caller)
 
         def report(now: "Progress") -> None:
             ended = now.done + now.failed
@@ -232,7 +231,7 @@ class Status(Request):
         """Count the stored results and failures."""
         from viscotack.campaign import Store
 
-        folder = _folder(self.folder, caller)
+        folder = caller.file(self.folder)
         store = Store(folder)
         failures = [
             {"failure": kind, "reason": reason, "cases": count}
@@ -262,8 +261,8 @@ class Merge(Request):
         """Merge the campaigns."""
         from viscotack.campaign import merge
 
-        out = _folder(self.out, caller)
-        return _standing(out, merge([_folder(each, caller) for each in self.folders], out))
+        out = caller.file(self.out)
+        return _standing(out, merge([caller.file(each) for each in self.folders], out))
 
 
 class Export(Request):
@@ -292,7 +291,7 @@ class Export(Request):
 
         if not caller.wants:
             raise InputError("no output; give csv, parquet, mat or failures FILE")
-        folder = _folder(self.folder, caller)
+        folder = caller.file(self.folder)
         store = Store(folder)
         results = store.results()
         files = {
@@ -302,13 +301,6 @@ class Export(Request):
             "failures": lambda target: export(store.failures(), target),
         }
         return replace(_standing(folder, store), files=files)
-
-
-def _folder(name: Path, caller: Caller) -> Path:
-    """Return the folder of a campaign, into which no output may be written."""
-    path = caller.file(name)
-    note_read(path)
-    return path
 
 
 def _standing(

@@ -155,7 +155,7 @@ class FitMaterial(Dma, Shifting):
 
 def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
     """Return the data of a fit for the page."""
-    from viscotack.model.materials.passport_tables import passport_text
+    from viscotack.model.materials.passport_file import passport_text
 
     from .parts import drawn
     from .parts.library import material_table

@@ -22,7 +22,6 @@ from pydantic_core import PydanticUndefined, core_schema
 
 from viscotack.cards import Quantity, plausible
 from viscotack.errors import TOO_LARGE, InputError
-from viscotack.files.bounded import note_read
 from viscotack.units import is_number, parse
 
 if TYPE_CHECKING:
@@ -404,7 +403,7 @@ class Caller:
     sent: bool = False
 
     def file(self, name: str | os.PathLike[str]) -> Path:
-        """Return the path of a named file, which no output may overwrite."""
+        """Return the path of a named file."""
         text = os.fspath(name)
         if not text or "\0" in text:
             raise InputError(f"expected the name of a file, got {text!r:.60}")
@@ -413,8 +412,6 @@ class Caller:
             path = self.folder / harmless_name(text)
             if self.folder == Path() or not path.is_file():
                 raise InputError(f"no file called {path.name!r:.100} was sent with the request")
-        elif path.is_file():
-            note_read(path)
         return path
 
     def within(self, file: Path) -> Self:

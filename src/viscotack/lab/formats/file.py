@@ -15,7 +15,8 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.files.bounded import check_unpacked, read_bytes
+from viscotack.files.archive import check_unpacked
+from viscotack.files.text import read_bytes
 
 from .headings import recognise
 

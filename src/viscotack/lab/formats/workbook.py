@@ -12,7 +12,7 @@ from itertools import zip_longest
 from typing import Any
 
 from viscotack.errors import InputError, install_command
-from viscotack.files.bounded import check_unpacked
+from viscotack.files.archive import check_unpacked
 
 from .file import LARGEST_UNPACKED, LabFile
 from .headings import MATERIAL, Vocabulary

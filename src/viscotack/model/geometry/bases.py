@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Frictionless:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bonded:
+class Bonded(Checked):
     r"""A rigid base to which the layer is glued.
 
     .. math:: \kappa(t) = \frac{q \sinh 2t - 2t}{q \cosh 2t + 2t^2 + (1 + q^2)/2}, \quad
@@ -66,9 +66,6 @@ class Bonded:
     poisson_ratio: Annotated[
         float, Quantity("1", "nu", "Poisson ratio of the layer", least=0, most=0.5, example="0.5")
     ]
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     @property
     def foundation(self) -> float:

@@ -18,7 +18,7 @@ import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity
 from viscotack.errors import InputError
 
 # Decades of radius [m] over which a shape of revolution is examined.
@@ -45,7 +45,7 @@ class Shape(Protocol):
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(Checked):
     """Rigid sphere, near its lowest point: the gap is that of a paraboloid.
 
     Parameters
@@ -68,9 +68,6 @@ class Sphere:
     symmetry: ClassVar[str] = "revolution"
 
     radius: Annotated[float, Quantity("m", "R", "sphere radius", above=0, example="5.19 mm")]
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m], r^2/(2 R)."""
@@ -115,7 +112,7 @@ def effective_sphere(first: Sphere, second: Sphere) -> Sphere:
 
 
 @dataclass(frozen=True)
-class FlatPunch:
+class FlatPunch(Checked):
     """Rigid flat punch, long in the third direction: plane strain.
 
     Parameters
@@ -136,9 +133,6 @@ class FlatPunch:
         float, Quantity("m", "a", "half width of the punch", above=0, example="1 mm")
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
     def reduced(self, along: float, height: float) -> "FlatPunch":
         """Return the punch with distances in `along` [m]; it has no height."""
         return FlatPunch(self.half_width / along)
@@ -149,8 +143,34 @@ class FlatPunch:
         return {"size": self.half_width}
 
 
+class _PowerLaw(Checked):
+    """Profile z = A r^q of a coefficient A and an exponent q."""
+
+    coefficient: Any
+    exponent: Any
+
+    def gap(self, position: npt.ArrayLike) -> Array:
+        """Return the undeformed gap [m] at a distance from the axis [m], A r^q."""
+        return self.coefficient * np.asarray(position, dtype=float) ** self.exponent
+
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope of the flank at a distance from the axis [m], q A r^(q-1)."""
+        A, q = self.coefficient, self.exponent
+        return q * A * np.asarray(position, dtype=float) ** (q - 1)
+
+    def equivalent_radius(self, length: float) -> float:
+        """Return the radius [m] of the sphere with the same scales, for dg0/E0* [m]."""
+        q, slope = self.exponent, self.exponent * self.coefficient
+        return (length / slope**2) ** ((2 - q) / (2 * q - 1)) / slope
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Numbers of the shape for summaries of dimensionless problems."""
+        return {"profile_exponent": self.exponent}
+
+
 @dataclass(frozen=True)
-class PowerLawProfile:
+class PowerLawProfile(_PowerLaw):
     """Rigid indenter of revolution with the profile z = A r^q.
 
     Parameters
@@ -188,35 +208,14 @@ class PowerLawProfile:
         ),
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
-    def gap(self, position: npt.ArrayLike) -> Array:
-        """Return the undeformed gap [m] at a distance from the axis [m], A r^q."""
-        return self.coefficient * np.asarray(position, dtype=float) ** self.exponent
-
-    def flank(self, position: npt.ArrayLike) -> Array:
-        """Return the slope of the flank at a distance from the axis [m], q A r^(q-1)."""
-        A, q = self.coefficient, self.exponent
-        return q * A * np.asarray(position, dtype=float) ** (q - 1)
-
-    def equivalent_radius(self, length: float) -> float:
-        """Return the radius [m] of the sphere with the same scales, for dg0/E0* [m]."""
-        return _radius_of_power_law(self.coefficient, self.exponent, length)
-
     def reduced(self, along: float, height: float) -> "PowerLawProfile":
         """Return the profile with distances in `along` [m] and gaps in `height` [m]."""
         A, q = self.coefficient, self.exponent
         return PowerLawProfile(_snapped(A * along**q / height, 1 / q), q)
 
-    @property
-    def numbers(self) -> dict[str, float]:
-        """Numbers of the shape for summaries of dimensionless problems."""
-        return {"profile_exponent": self.exponent}
-
 
 @dataclass(frozen=True)
-class Cone:
+class Cone(_PowerLaw):
     """Rigid cone: the power law with exponent 1.
 
     Parameters
@@ -238,9 +237,6 @@ class Cone:
         float, Quantity("1", "A", "rise of the cone over its radius", above=0, example="0.1")
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
     @property
     def coefficient(self) -> float:
         """The slope, as the coefficient of a power law."""
@@ -251,26 +247,9 @@ class Cone:
         """That of a cone as a power law, 1."""
         return 1.0
 
-    def gap(self, position: npt.ArrayLike) -> Array:
-        """Return the undeformed gap [m] at a distance from the axis [m]."""
-        return self.slope * np.asarray(position, dtype=float)
-
-    def flank(self, position: npt.ArrayLike) -> Array:
-        """Return the slope of the flank, the same everywhere."""
-        return np.full(np.shape(position), self.slope)
-
-    def equivalent_radius(self, length: float) -> float:
-        """Return the radius [m] of the sphere with the same scales, for dg0/E0* [m]."""
-        return _radius_of_power_law(self.slope, 1.0, length)
-
     def reduced(self, along: float, height: float) -> "Cone":
         """Return the cone with distances in `along` [m] and gaps in `height` [m]."""
         return Cone(_snapped(self.slope * along / height, 1.0))
-
-    @property
-    def numbers(self) -> dict[str, float]:
-        """Numbers of the shape for summaries of dimensionless problems."""
-        return {"profile_exponent": 1.0}
 
 
 def equivalent_radius(shape: Shape, length: float) -> float:
@@ -320,11 +299,6 @@ def end(shape: Any) -> float:
 def numbers(noun: Any) -> Mapping[str, float]:
     """Dimensionless numbers of a shape or a body, by name."""
     return getattr(noun, "numbers", {})
-
-
-def _radius_of_power_law(coefficient: float, exponent: float, length: float) -> float:
-    slope = exponent * coefficient
-    return (length / slope**2) ** ((2 - exponent) / (2 * exponent - 1)) / slope
 
 
 def _snapped(value: float, to: float) -> float:

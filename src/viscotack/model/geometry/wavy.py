@@ -10,13 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity
 
 from .shapes import Sphere
 
 
 @dataclass(frozen=True)
-class WavySphere:
+class WavySphere(Checked):
     r"""Rigid sphere with rings of waves around its axis.
 
     .. math:: f(r) = \frac{r^2}{2R} + A \left(1 - \cos\frac{2 \pi r}{\lambda}\right)
@@ -51,9 +51,6 @@ class WavySphere:
     wavelength: Annotated[
         float, Quantity("m", "lambda", "distance from wave to wave", above=0, example="0.5 mm")
     ]
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m]."""

@@ -1,12 +1,13 @@
 """Linear viscoelastic solids with no branch, one branch, or a series of branches."""
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Pairs, conform
+from viscotack.cards import Pairs, cards, conform
 from viscotack.errors import InputError
 from viscotack.model.materials import checks
 from viscotack.model.materials.checks import like_input, nonnegative
@@ -17,14 +18,14 @@ from viscotack.model.materials.constants import (
     RubberyModulus,
 )
 from viscotack.model.materials.interconversion import reciprocal
-from viscotack.model.materials.material import Complex, Real
+from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import Modes, compressed, maxwell, voigt
 
 _MOST_BRANCHES = 10_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Elastic:
+class Elastic(Solid):
     """Elastic solid, without memory.
 
     Parameters
@@ -46,23 +47,10 @@ class Elastic:
     rubbery_modulus: RubberyModulus
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-
     @property
     def glassy_modulus(self) -> float:
         """Short-time Young's modulus [Pa], here the rubbery one."""
         return self.rubbery_modulus
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, here 1."""
-        return 1.0
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
 
     @property
     def time_unit(self) -> float:
@@ -84,23 +72,13 @@ class Elastic:
         w = nonnegative("omega", omega, "rad/s")
         return like_input(np.full(w.shape, complex(self.rubbery_modulus)))
 
-    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return the complex compliance [1/Pa], real and constant, at frequencies [rad/s]."""
-        w = nonnegative("omega", omega, "rad/s")
-        return like_input(np.full(w.shape, complex(1 / self.rubbery_modulus)))
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the modes of an elastic solid: an empty set."""
-        checks.window(shortest=shortest, longest=longest, tolerance=tolerance)
-        return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
-
     def reduced(self) -> "Elastic":
         """Return the dimensionless solid: rubbery modulus 1, Poisson ratio 0."""
         return Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class StandardSolid:
+class StandardSolid(Solid):
     r"""Standard linear solid with one retardation time.
 
     .. math:: E_0 C(t) = 1 + (k - 1) e^{-t/\tau_0}, \quad k = E_0/E_\infty
@@ -134,25 +112,6 @@ class StandardSolid:
     tau0: RetardationTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        checks.stiffens(self)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
-    def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: the retardation time tau0."""
-        return self.tau0
-
     @property
     def relaxation_time(self) -> float:
         """Relaxation time k tau0 [s], never longer than the retardation time."""
@@ -183,11 +142,7 @@ class StandardSolid:
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
         return like_input(Cinf + (C0 - Cinf) * voigt(w * self.tau0))
 
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the single mode, or none if it relaxes before `shortest` [s]; see `Material`."""
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         k = self.modulus_ratio
         return compressed(
             k,
@@ -199,16 +154,9 @@ class StandardSolid:
             error=1e-15,
         )
 
-    def reduced(self) -> "StandardSolid":
-        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        glassy = self.glassy_modulus / self.rubbery_modulus
-        return StandardSolid(
-            rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
-        )
-
 
 @dataclass(frozen=True, kw_only=True)
-class Prony:
+class Prony(Solid):
     r"""Generalised Maxwell (Wiechert) solid: a spring in parallel with Maxwell branches.
 
     .. math:: R(t) = E_0 + \sum_i E_i e^{-t/\tau_i}
@@ -260,22 +208,13 @@ class Prony:
 
     def __post_init__(self):
         conform(self)
-        checks.store(self, branches=_branches(self.branches))
+        card = cards(Prony, Pairs)["branches"].card
+        checks.store(self, branches=sorted_pairs("branches", self.branches, card))
 
     @property
     def glassy_modulus(self) -> float:
         """Short-time Young's modulus [Pa]: the rubbery one and all branches."""
         return self.rubbery_modulus + sum(modulus for modulus, _ in self.branches)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1)."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
 
     @property
     def time_unit(self) -> float:
@@ -300,19 +239,7 @@ class Prony:
         E, tau = np.array(self.branches).T
         return like_input(self.rubbery_modulus + maxwell(w[..., None] * tau) @ E)
 
-    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_modulus(omega)
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
-
-        The modes are exact, one per branch; modes outside the window are merged if the tolerance
-        allows it.
-        """
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         C, rate = self._retardation()
         return compressed(
             self.modulus_ratio,
@@ -336,37 +263,30 @@ class Prony:
         return reciprocal(self.rubbery_modulus, E, 1 / tau)
 
 
-def _branches(given) -> tuple[tuple[float, float], ...]:
-    """Return checked (modulus [Pa], relaxation time [s]) pairs, sorted by time."""
-    advice = "give branches=[(modulus in Pa, relaxation time in s), ...]"
+def sorted_pairs(name: str, given: Any, card: Pairs) -> tuple[tuple[float, float], ...]:
+    """Return the checked pairs of a size and a time of a field, sorted by time."""
+    first, second = card.units
+    pairs: list[tuple[float, float]] = []
     try:
-        pairs = [tuple(pair) for pair in given]
-    except TypeError:
-        raise InputError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
-    if len(pairs) > _MOST_BRANCHES:
+        for size, time in given:
+            size = checks.positive(f"a number of {name}", size, first)
+            pairs.append((size, checks.positive(f"a time of {name}", time, second)))
+    except (TypeError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
         raise InputError(
-            f"a series has at most {_MOST_BRANCHES:,} branches, got {len(pairs):,}; ten per decade "
-            "of time are sufficient for any solid"
+            f"{name} must be pairs of numbers [{first}, {second}], {card.words}, got {given!r:.80}"
+        ) from None
+    if not 0 < len(pairs) <= _MOST_BRANCHES:
+        raise InputError(
+            f"{name} must be 1 to {_MOST_BRANCHES:,} pairs, got {len(pairs):,}; use Elastic for a "
+            "solid without any, and ten per decade of time are sufficient for any solid"
         )
-    if not pairs:
-        raise InputError("branches must not be empty; use Elastic for a solid without branches")
-    for pair in pairs:
-        if len(pair) != 2:
-            raise InputError(f"each branch must be a pair of numbers, got {pair!r}; {advice}")
-    checked = sorted(
-        (
-            (
-                checks.positive("the modulus of a branch", modulus, "Pa"),
-                checks.positive("the relaxation time of a branch", time, "s"),
-            )
-            for modulus, time in pairs
-        ),
-        key=lambda branch: branch[1],
-    )
-    for (_, time), (_, following) in zip(checked, checked[1:], strict=False):
+    pairs.sort(key=lambda pair: pair[1])
+    for (_, time), (_, following) in pairwise(pairs):
         if following < time * (1 + 1e-9):
             raise InputError(
-                "relaxation times of branches must differ by more than 1e-9 (relative), got "
-                f"{time!r} s and {following!r} s; merge the two branches by adding their moduli"
+                f"the times of {name} must differ by more than 1e-9 (relative), got {time!r} s and "
+                f"{following!r} s; merge the two by adding their sizes"
             )
-    return tuple(checked)
+    return tuple(pairs)

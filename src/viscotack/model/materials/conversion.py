@@ -13,14 +13,14 @@ exact, see :mod:`viscotack.model.materials.interconversion`.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
-from viscotack.cards import conform
+from viscotack.cards import Pairs, cards, conform
 from viscotack.errors import InputError
 from viscotack.model.materials import checks
-from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
+from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid, sorted_pairs
 from viscotack.model.materials.constants import GlassyModulus, PoissonRatio
 from viscotack.model.materials.interconversion import reciprocal
 from viscotack.model.materials.material import Material
@@ -52,24 +52,16 @@ class RetardationSeries:
     """
 
     glassy_modulus: GlassyModulus
-    elements: tuple[tuple[float, float], ...]
+    elements: Annotated[
+        tuple[tuple[float, float], ...],
+        Pairs(("1/Pa", "s"), "C_j, lambda_j", "compliance and retardation time of each element"),
+    ]
     poisson_ratio: PoissonRatio
 
     def __post_init__(self):
-        checked = [
-            (
-                checks.positive("the compliance of an element", C, "1/Pa"),
-                checks.positive("the retardation time of an element", time, "s"),
-            )
-            for C, time in self.elements
-        ]
-        if not checked:
-            raise InputError("elements must not be empty; use Elastic for a solid without elements")
         conform(self)
-        checks.store(
-            self,
-            elements=tuple(sorted(checked, key=lambda element: element[1])),
-        )
+        card = cards(RetardationSeries, Pairs)["elements"].card
+        checks.store(self, elements=sorted_pairs("elements", self.elements, card))
 
 
 @dataclass(frozen=True, kw_only=True)

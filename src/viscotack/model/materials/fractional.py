@@ -18,16 +18,14 @@ exp(-2 pi d/step).
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.cards import conform
 from viscotack.errors import InputError
-from viscotack.model.materials import checks
 from viscotack.model.materials.checks import like_input, nonnegative
 from viscotack.model.materials.constants import (
     FractionalOrder,
@@ -36,7 +34,7 @@ from viscotack.model.materials.constants import (
     RetardationTime,
     RubberyModulus,
 )
-from viscotack.model.materials.material import Complex, Real
+from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import FINEST, ROUNDING, Modes, blockwise, compressed
 
 _FINE = 0.127  # of the width d: exp(-2 pi/0.127) = 3e-22
@@ -44,7 +42,7 @@ _LAST = 60.0  # a |ln u| above which the spectrum is below round-off for any k
 
 
 @dataclass(frozen=True, kw_only=True)
-class FractionalZener:
+class FractionalZener(Solid):
     r"""Solid whose creep is a Mittag-Leffler function of time (fractional Zener model).
 
     .. math::
@@ -97,25 +95,6 @@ class FractionalZener:
     tau0: RetardationTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        checks.stiffens(self)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
-    def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: the retardation time tau0."""
-        return self.tau0
-
     @property
     def relaxation_time(self) -> float:
         """Relaxation time k^(1/a) tau0 [s], never longer than the retardation time."""
@@ -148,19 +127,8 @@ class FractionalZener:
         passing = np.conj(_cole(self.order, -_log(w) - math.log(self.tau0)))
         return like_input(Cinf + (C0 - Cinf) * passing)
 
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
-
-        Uses the trapezoidal rule over the spectrum, with the widest step within the tolerance; the
-        error is measured against the exact creep. Takes 1 to 30 ms; 1 s at an order of 0.95 over
-        forty decades.
-        """
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         a, k = self.order, self.modulus_ratio
-        if k == 1:
-            return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
         tolerance = max(tolerance, FINEST)
         first, last = math.log(shortest / self.tau0), math.log(longest / self.tau0)
         step = 3 * math.pi * _width(a) / math.log(4 / tolerance)
@@ -192,13 +160,6 @@ class FractionalZener:
         raise InputError(
             f"the closest modes have an error of {missed:.1e}, above the tolerance {tolerance:g}; "
             "increase the tolerance"
-        )
-
-    def reduced(self) -> "FractionalZener":
-        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        glassy = self.glassy_modulus / self.rubbery_modulus
-        return replace(
-            self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
         )
 
     @property

@@ -1,10 +1,13 @@
-"""Protocol of materials: their attributes and methods with units and signs."""
+"""Materials: their attributes and methods with units and signs, and what solids share."""
 
-from typing import Protocol
+from dataclasses import replace
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.cards import conform
+from viscotack.model.materials import checks
 from viscotack.model.materials.modes import Modes
 
 Real = float | npt.NDArray[np.float64]
@@ -90,3 +93,59 @@ class Material(Protocol):
     def reduced(self) -> "Material":
         """Return the dimensionless solid: rubbery modulus 1, time unit 1, Poisson ratio 0."""
         ...
+
+
+class Solid:
+    """Common part of the solids of this package: everything except their two spectra.
+
+    A solid has one complex function at least; the other is its reciprocal.
+    """
+
+    rubbery_modulus: Any
+    glassy_modulus: Any
+    poisson_ratio: Any
+    tau0: Any
+
+    def __post_init__(self) -> None:
+        conform(self)
+        checks.stiffens(self)
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
+        return self.rubbery_modulus / self.glassy_modulus
+
+    @property
+    def contact_modulus(self) -> float:
+        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
+        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of dimensionless times [s]: tau0."""
+        return self.tau0
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
+        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
+        return 1 / self.complex_compliance(omega)
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
+        """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
+        return 1 / self.complex_modulus(omega)
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`."""
+        window = checks.window(shortest=shortest, longest=longest, tolerance=tolerance)
+        if self.modulus_ratio == 1:
+            return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
+        return self._modes(*window)
+
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
+        raise NotImplementedError
+
+    def reduced(self) -> Any:
+        """Return the dimensionless solid: rubbery modulus 1, time unit 1, Poisson ratio 0."""
+        solid: Any = self
+        glassy = self.glassy_modulus / self.rubbery_modulus
+        units = {"rubbery_modulus": 1.0, "tau0": 1.0, "poisson_ratio": 0.0}
+        return replace(solid, glassy_modulus=glassy, **units)

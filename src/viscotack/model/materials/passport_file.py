@@ -1,8 +1,8 @@
 """Read and write passports as TOML files, without loss of digits.
 
-docs/materials.md shows an example. Every quantity is text with its unit, as in case files. The
-tables [relaxation] and [retardation] are derived from [material] for other programs; reading
-rejects a file in which they disagree.
+Quantities are text with units, so that TOML readers of other programs need no other information.
+``[relaxation]`` and ``[retardation]`` are the same material as exponentials, derived from
+``[material]``, for programs that read no other model.
 """
 
 import os
@@ -13,23 +13,41 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.cards import Pairs, cards
+from viscotack.cards import of_units, with_units
 from viscotack.errors import InputError
-from viscotack.files.toml import read_toml
+from viscotack.files.toml import read_toml, toml_value
 from viscotack.files.whole import Target, write_whole
+from viscotack.model.materials.branched_solids import Prony, StandardSolid
 from viscotack.model.materials.checks import rests
+from viscotack.model.materials.conversion import (
+    RetardationSeries,
+    prony_form,
+    relaxation_form,
+    relaxation_series,
+    retardation_series,
+)
 from viscotack.model.materials.material import Material
-from viscotack.model.materials.modes import maxwell, voigt
 from viscotack.model.materials.passport import Evidence, Origin, Passport
-from viscotack.model.materials.passport_tables import VERSION, passport_text
-from viscotack.model.materials.shift import LAWS, WLF, Arrhenius, FittedShift, Shift, TabulatedShift
-from viscotack.model.materials.words import FITS_ONLY, MODELS, units_of
+from viscotack.model.materials.shift import LAWS, FittedShift, Shift, TabulatedShift
+from viscotack.model.materials.words import FITS_ONLY, MODELS, word_of
 from viscotack.units import parse
 
+VERSION = 1
 _TABLES = (
     "material", "convention", "temperature", "nearest_law", "range", "origin", "evidence",
     "relaxation", "retardation", "allowed",
 )  # fmt: skip
+_NOT_EXACT = 1e-3  # relative error of the Prony series written for a power law
+# What tau0 and other times of a model are.
+_TIMES = {
+    "elastic": "none",
+    "sls": "tau0 is the retardation time",
+    "prony": "branches have relaxation times",
+    "power-law": "tau0 is the characteristic retardation time",
+    "relaxation-power-law": "tau0 is the characteristic relaxation time",
+    "fractional-zener": "tau0 is the retardation time",
+}
+_NOT_STATED = "not stated"
 
 
 def write_passport(passport: Passport, path: Target) -> None:
@@ -61,6 +79,93 @@ def write_passport(passport: Passport, path: Target) -> None:
     True
     """
     write_whole(path, passport_text(passport).encode())
+
+
+def passport_text(passport: Passport) -> str:
+    """Format a passport as the text of its file."""
+    lines = [
+        "# A material and its papers, written by viscotack. Moduli are Young's moduli.",
+        f"passport = {VERSION}",
+        f"name = {toml_value(passport.name)}",
+    ]
+    for name, table in _tables(passport):
+        if table:
+            lines += ["", name, *(f"{key} = {toml_value(value)}" for key, value in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _tables(passport: Passport) -> list[tuple[str, Mapping[str, Any]]]:
+    """Return the headings of the file with their tables."""
+    solid = _solid(passport.material)
+    convention = {
+        "modulus": "E",
+        "measured": passport.measured or _NOT_STATED,
+        "times": _TIMES.get(solid["model"], "as the class of the model defines them"),
+    }
+    temperature: dict[str, Any] = {}
+    if passport.temperature is not None:
+        temperature["reference"] = f"{passport.temperature!r} K"
+    if passport.temperatures is not None:
+        temperature["measured"] = [f"{T!r} K" for T in passport.temperatures]
+    bounds, fitted = passport.frequencies, passport.fitted_shift
+    nearest: dict[str, Any] = {}
+    if fitted is not None:
+        errors = {"standard_error": list(fitted.standard_error), "misfit": fitted.misfit}
+        nearest = _law(fitted.law) | errors
+    return [
+        ("[material]", solid),
+        ("[convention]", convention),
+        ("[temperature]", temperature | _law(passport.shift)),
+        ("[nearest_law]", nearest),
+        ("[range]", {"angular_frequency": [f"{w!r} rad/s" for w in bounds]} if bounds else {}),
+        ("[origin]", _stated(passport.origin)),
+        ("[evidence]", _stated(passport.evidence) if passport.evidence else {}),
+        *_forms(passport),
+        *(("[[allowed]]", _solid(allowed)) for allowed in passport.allowed),
+    ]
+
+
+def _solid(material: Any) -> dict[str, Any]:
+    return {"model": word_of(material)} | with_units(material)
+
+
+def _law(shift: Shift | None) -> dict[str, Any]:
+    if shift is None:
+        return {}
+    zero = f"{shift.reference_temperature!r} K"
+    if not isinstance(shift, TabulatedShift):
+        constants = with_units(shift)
+        del constants["reference_temperature"]
+        return {"law": shift.word, "zero": zero} | constants
+    rows = zip(shift.temperature, shift.values, strict=True)
+    more = {"uncertainty": list(shift.uncertainty), "vertical": list(shift.vertical)}
+    return {"law": "table", "zero": zero, "shifts": [[f"{T!r} K", value] for T, value in rows]} | {
+        key: values for key, values in more.items() if values
+    }
+
+
+def _stated(record: Any) -> dict[str, Any]:
+    """Return the non-empty fields of a record."""
+    values = {field.name: getattr(record, field.name) for field in fields(record)}
+    return {key: value for key, value in values.items() if value not in ("", (), None)}
+
+
+def _forms(passport: Passport) -> list[tuple[str, Mapping[str, Any]]]:
+    """Return the relaxation and the retardation form as exponentials, if there are any."""
+    material, error = passport.material, 0.0
+    if material.modulus_ratio == 1:
+        return []
+    if isinstance(material, Prony | StandardSolid):
+        series = relaxation_form(material)
+    elif passport.frequencies is not None:
+        form = prony_form(material, frequencies=passport.frequencies, tolerance=_NOT_EXACT)
+        series, error = form.material, form.error
+    else:
+        return []
+    found: list[tuple[str, Any]] = [("[retardation]", retardation_series(series))]
+    if not isinstance(material, Prony):  # whose [material] is the relaxation form
+        found.insert(0, ("[relaxation]", series))
+    return [(name, {"largest_error": error} | with_units(each)) for name, each in found]
 
 
 def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Passport:
@@ -112,11 +217,8 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
     try:
         return _passport(tables, known_models(also))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        missing = isinstance(error, KeyError)
-        words = (
-            f"{error.args[0]} is missing; docs/materials.md shows a passport" if missing else error
-        )
-        raise InputError(f"{path}: {words}") from None
+        words = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error
+        raise InputError(f"{path}: {words}; docs/materials.md shows a passport") from None
 
 
 def known_models(also: Iterable[Any] = ()) -> Mapping[str, Any]:
@@ -135,23 +237,25 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
             f'[convention] modulus must be "E", got {convention["modulus"]!r}; a passport states '
             "Young's moduli, E = 2 (1 + nu) G"
         )
-    temperature = tables.get("temperature", {})
-    bounds = tables.get("range", {}).get("angular_frequency")
-    measured = convention.get("measured", "not stated")
+    temperature, nearest = tables.get("temperature", {}), tables.get("nearest_law")
+    measured = convention.get("measured", _NOT_STATED)
+    reference = temperature.get("reference")
     passport = Passport(
         name=str(tables.get("name", "")),
         material=material_in(tables["material"], models),
-        temperature=_read(temperature.get("reference"), "K"),
-        shift=_shift(temperature),
-        fitted_shift=_fitted(tables.get("nearest_law", {})),
+        temperature=None if reference is None else parse(reference, "K"),
+        shift=_shift(temperature) if "law" in temperature else None,
+        fitted_shift=_fitted(nearest) if nearest else None,
         temperatures=_span(temperature.get("measured"), "K"),
-        frequencies=_span(bounds, "rad/s"),
-        measured=None if measured == "not stated" else measured,
+        frequencies=_span(tables.get("range", {}).get("angular_frequency"), "rad/s"),
+        measured=None if measured == _NOT_STATED else measured,
         origin=_made(Origin, tables.get("origin", {})),
         evidence=_made(Evidence, tables["evidence"]) if "evidence" in tables else None,
         allowed=tuple(material_in(table, models) for table in tables.get("allowed", ())),
     )
-    _check_forms(passport, tables)
+    for name in ("relaxation", "retardation"):
+        if name in tables:
+            _check_form(passport, name, dict(tables[name]))
     return passport
 
 
@@ -165,90 +269,57 @@ def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material
             "user-defined model, give its class (also=(CLASS,) in Python, --with FILE.py on the "
             "command line)"
         )
-    units, lists = units_of(models[model]), cards(models[model], Pairs)
-    values: dict[str, Any] = {key: parse(table[key], unit) for key, unit in units.items()}
-    for key, field in lists.items():
-        first, second = field.card.units
-        values[key] = [(parse(x, first), parse(y, second)) for x, y in table[key]]
-    extra = table.keys() - {"model", *lists, *units}
-    if extra:
-        raise InputError(f"[material] has the unknown key {min(extra)!r}")
-    return models[model](**values)
+    try:
+        return of_units(models[model], {k: v for k, v in table.items() if k != "model"})
+    except InputError as error:
+        raise InputError(f"[material] {error}") from None
 
 
-def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:
-    """Raise an error if the series disagree with the material, because one of them was edited."""
-    forms = (
-        ("relaxation", "rubbery_modulus", "branches", "Pa", _modulus_of_branches),
-        ("retardation", "glassy_modulus", "elements", "1/Pa", _modulus_of_elements),
-    )
-    for name, plateau, pairs, unit, modulus in forms:
-        if name not in tables:
-            continue
-        table = tables[name]
-        sizes, times = np.array([(parse(E, unit), parse(t, "s")) for E, t in table[pairs]]).T
-        omega = np.geomspace(*(passport.frequencies or (0.1 / times[-1], 10 / times[0])), 60)
-        stated = modulus(omega, parse(table[plateau], "Pa"), sizes, times)
-        exact = np.asarray(passport.material.complex_modulus(omega))
-        allowed = min(1.5 * float(table["largest_error"]), 0.1) + 1e-9
-        if not np.max(np.abs(stated / exact - 1)) < allowed:
-            raise InputError(
-                f"the table [{name}] disagrees with [material], from which it is derived; delete "
-                "[relaxation] and [retardation] after editing [material]"
-            )
+def _check_form(passport: Passport, name: str, table: dict[str, Any]) -> None:
+    """Raise an error if a series disagrees with the material, because one of them was edited."""
+    error = float(table.pop("largest_error"))
+    kind = Prony if name == "relaxation" else RetardationSeries
+    series = of_units(kind, table | {"poisson_ratio": passport.material.poisson_ratio})
+    solid = relaxation_series(series) if isinstance(series, RetardationSeries) else series
+    fastest, slowest = solid.branches[0][1], solid.branches[-1][1]
+    omega = np.geomspace(*(passport.frequencies or (0.1 / slowest, 10 / fastest)), 60)
+    ratio = solid.complex_modulus(omega) / np.asarray(passport.material.complex_modulus(omega))
+    if not np.max(np.abs(ratio - 1)) < min(1.5 * error, 0.1) + 1e-9:
+        raise InputError(
+            f"the table [{name}] disagrees with [material], from which it is derived; delete "
+            "[relaxation] and [retardation] after editing [material]"
+        )
 
 
-def _modulus_of_branches(omega: Any, rubbery: float, E: Any, tau: Any) -> Any:
-    return rubbery + maxwell(omega[:, None] * tau) @ E
-
-
-def _modulus_of_elements(omega: Any, glassy: float, C: Any, tau: Any) -> Any:
-    return 1 / (1 / glassy + voigt(omega[:, None] * tau) @ C)
-
-
-def _shift(table: Mapping[str, Any]) -> Shift | None:
-    if "law" not in table:
-        return None
-    zero = parse(table["zero"], "K")
-    if table["law"] == "table":
+def _shift(table: Mapping[str, Any]) -> Shift:
+    zero, law = parse(table["zero"], "K"), table["law"]
+    if law == "table":
         rows = [(parse(T, "K"), float(value)) for T, value in table["shifts"]]
         temperature, values = zip(*rows, strict=True)
         more = {key: tuple(map(float, table.get(key, ()))) for key in ("uncertainty", "vertical")}
         return TabulatedShift(zero, temperature, values, **more)
-    return _law(table)
-
-
-def _fitted(table: Mapping[str, Any]) -> FittedShift | None:
-    if not table:
-        return None
-    errors = tuple(map(float, table["standard_error"]))
-    return FittedShift(_law(table), errors, float(table["misfit"]))
-
-
-def _law(table: Mapping[str, Any]) -> WLF | Arrhenius:
-    zero = parse(table["zero"], "K")
-    if table["law"] not in LAWS:
+    if law not in LAWS:
         raise InputError(
-            f"[temperature] law must be one of {', '.join(LAWS)} or table, got {table['law']!r}"
+            f"[temperature] law must be one of {', '.join(LAWS)} or table, got {law!r}"
         )
-    kind = LAWS[table["law"]]
-    constants = {key: parse(table[key], unit) for key, unit in kind.units.items()}
-    return kind(reference_temperature=zero, **constants)
+    others = ("law", "zero", "reference", "measured", "standard_error", "misfit")
+    constants = {key: value for key, value in table.items() if key not in others}
+    return of_units(LAWS[law], constants | {"reference_temperature": zero})
+
+
+def _fitted(table: Mapping[str, Any]) -> FittedShift:
+    law: Any = _shift(table)
+    return FittedShift(law, tuple(map(float, table["standard_error"])), float(table["misfit"]))
 
 
 def _made(kind: Any, table: Mapping[str, Any]) -> Any:
-    unknown = table.keys() - {field.name for field in fields(kind)}
-    if unknown:
+    if unknown := table.keys() - {field.name for field in fields(kind)}:
         raise InputError(f"[{kind.__name__.lower()}] has the unknown key {min(unknown)!r}")
     return kind(**{key: _frozen(value) for key, value in table.items()})
 
 
 def _frozen(value: Any) -> Any:
     return tuple(_frozen(v) for v in value) if isinstance(value, list) else value
-
-
-def _read(value: Any, unit: str) -> float | None:
-    return None if value is None else parse(value, unit)
 
 
 def _span(values: Any, unit: str) -> tuple[float, float] | None:

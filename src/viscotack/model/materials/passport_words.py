@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from viscotack.cards import cards
 from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.shift import TabulatedShift
-from viscotack.model.materials.words import units_of, word_of
+from viscotack.model.materials.words import word_of
 from viscotack.units import readable
 
 
@@ -13,8 +14,9 @@ def in_words(passport: Passport) -> str:
     solid = passport.material
     model = word_of(solid)
     lines = [f"{passport.name}: {model}"]
-    for name, unit in units_of(type(solid)).items():
-        lines.append(f"  {name:<18}{readable(getattr(solid, name), unit, digits=5):>16}")
+    for name, field in cards(type(solid)).items():
+        number = readable(getattr(solid, name), field.card.unit, digits=5)
+        lines.append(f"  {name:<18}{number:>16}")
     lines.append(f"  {'modulus_ratio':<18}{solid.modulus_ratio:>16.5g}")
     if model == "prony":
         lines.append(f"  {'branches':<18}{len(solid.branches):>16}")

@@ -16,8 +16,6 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.cards import conform
-from viscotack.model.materials import checks
 from viscotack.model.materials.checks import like_input, nonnegative
 from viscotack.model.materials.constants import (
     Exponent,
@@ -28,13 +26,13 @@ from viscotack.model.materials.constants import (
     RubberyModulus,
 )
 from viscotack.model.materials.interconversion import reciprocal
-from viscotack.model.materials.material import Complex, Real
+from viscotack.model.materials.material import Complex, Real, Solid
 from viscotack.model.materials.modes import ROUNDING, Modes, compressed
 from viscotack.model.materials.spectrum import FINE, coarse_step, crept, nodes, summed, transform
 
 
 @dataclass(frozen=True, kw_only=True)
-class RetardationPowerLaw:
+class RetardationPowerLaw(Solid):
     r"""Solid with a power-law spectrum of retardation times; the default in simulations.
 
     .. math::
@@ -91,25 +89,6 @@ class RetardationPowerLaw:
     tau0: RetardationTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        checks.stiffens(self)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
-    def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: tau0."""
-        return self.tau0
-
     def creep(self, time: npt.ArrayLike) -> Real:
         """Return the creep compliance [1/Pa], from glassy to rubbery, at times [s] (Eq. 4.9)."""
         t = nonnegative("time", time, "s")
@@ -139,22 +118,8 @@ class RetardationPowerLaw:
             inverse = 1 / (w * self.tau0)
         return like_input(Cinf + (C0 - Cinf) * np.conj(transform(self.exponent, inverse)))
 
-    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
-        """Return E' + i E'' = 1/(C' - i C'') [Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_compliance(omega)
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
-
-        Uses the trapezoidal rule over the spectrum (Eq. 4.6), with the widest step within the
-        tolerance: 2 to 4 modes per decade.
-        """
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         n, k, tau0 = self.exponent, self.modulus_ratio, self.tau0
-        if k == 1:
-            return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
         step, error = coarse_step(n, longest=longest / tau0, tolerance=0.6 * tolerance / (1 - k))
         # modes that have relaxed to exp(-40) at the shortest time are instantaneous
         weights, tau = nodes(n, smallest=shortest / tau0 / 40, step=step)
@@ -168,16 +133,9 @@ class RetardationPowerLaw:
             error=(1 - k) * error + 1e-15,
         )
 
-    def reduced(self) -> "RetardationPowerLaw":
-        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        glassy = self.glassy_modulus / self.rubbery_modulus
-        return replace(
-            self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
-        )
-
 
 @dataclass(frozen=True, kw_only=True)
-class RelaxationPowerLaw:
+class RelaxationPowerLaw(Solid):
     r"""Solid with a power-law spectrum of relaxation times.
 
     .. math::
@@ -230,25 +188,6 @@ class RelaxationPowerLaw:
     tau0: RelaxationTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        checks.stiffens(self)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus k, dimensionless, in (0, 1]."""
-        return self.rubbery_modulus / self.glassy_modulus
-
-    @property
-    def contact_modulus(self) -> float:
-        """Relaxed contact modulus E0* = E0/(1 - nu^2) [Pa]."""
-        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
-
-    @property
-    def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: tau0."""
-        return self.tau0
-
     def relaxation(self, time: npt.ArrayLike) -> Real:
         """Return the relaxation modulus [Pa], from glassy to rubbery, at times [s] (Eq. 4.4)."""
         t = nonnegative("time", time, "s")
@@ -276,21 +215,7 @@ class RelaxationPowerLaw:
         E0, Einf = self.rubbery_modulus, self.glassy_modulus
         return like_input(E0 + (Einf - E0) * transform(self.exponent, w * self.tau0))
 
-    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_modulus(omega)
-
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
-
-        Uses nodes of the relaxation spectrum (Eq. 4.1), as few as the tolerance allows,
-        interconverted; the error is measured against nodes twice as dense. Takes 1 to 10 ms.
-        """
-        shortest, longest, tolerance = checks.window(
-            shortest=shortest, longest=longest, tolerance=tolerance
-        )
-        if self.modulus_ratio == 1:
-            return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
+    def _modes(self, shortest: float, longest: float, tolerance: float) -> Modes:
         # the relative error of R - E0 is uniform in time and equals that of the creep at long times
         step, _ = coarse_step(self.exponent, longest=np.inf, tolerance=tolerance)
         smallest = _smallest(np.array([self.tau0 / longest]), self)
@@ -309,13 +234,6 @@ class RelaxationPowerLaw:
         exact = summed(lambda ratio: -np.expm1(-ratio), reference, t / self.tau0, reference_tau)
         missed = np.max(np.abs(modes.creep(t) - self.modulus_ratio - exact))
         return replace(modes, error=1.05 * float(missed) + ROUNDING)
-
-    def reduced(self) -> "RelaxationPowerLaw":
-        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        glassy = self.glassy_modulus / self.rubbery_modulus
-        return replace(
-            self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
-        )
 
     def _retardation(self, *, smallest: float, step: float) -> tuple[Array, Array]:
         """Return weights and ascending retardation times, relative to tau0, of E0 C(t)."""

@@ -9,20 +9,32 @@ import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
 import scipy
 
 from viscotack.arrays import Array
+from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.model.materials.checks import like_input, positive, store, temperatures
+from viscotack.model.materials.checks import POSSIBLE, like_input, store, temperatures
 from viscotack.units import readable
 
 # c1 and c2 [K] at the glass transition (Eq. 4.25): averages over many polymers
 UNIVERSAL = 17.44, 51.6
 DOUBTFUL = 150.0  # K: below it Celsius may have been meant
+Reference = Annotated[
+    float,
+    Quantity(
+        "K",
+        "T0",
+        "reference temperature",
+        least=POSSIBLE[0],
+        most=POSSIBLE[1],
+        advice="give Celsius + 273.15",
+    ),
+]
 
 
 def wlf_decades(above: Any, c1: float, c2: float) -> Any:
@@ -67,19 +79,13 @@ class WLF:
     """
 
     word: ClassVar[str] = "wlf"
-    units: ClassVar[Mapping[str, str]] = {"c1": "1", "c2": "K"}
 
-    reference_temperature: float
-    c1: float
-    c2: float
+    reference_temperature: Reference
+    c1: Annotated[float, Quantity("1", "c1", "decades far above the reference", above=0)]
+    c2: Annotated[float, Quantity("K", "c2", "distance of the reference from the pole", above=0)]
 
     def __post_init__(self):
-        store(
-            self,
-            reference_temperature=_reference(self.reference_temperature),
-            c1=positive("c1", self.c1, "-"),
-            c2=positive("c2", self.c2, "K"),
-        )
+        conform(self)
         if (self.c1, self.c2) != UNIVERSAL:  # silicones have glass transitions below 150 K
             _ask_about_celsius(self.reference_temperature)
 
@@ -153,17 +159,12 @@ class Arrhenius:
     """
 
     word: ClassVar[str] = "arrhenius"
-    units: ClassVar[Mapping[str, str]] = {"activation_energy": "J/mol"}
 
-    reference_temperature: float
-    activation_energy: float
+    reference_temperature: Reference
+    activation_energy: Annotated[float, Quantity("J/mol", "E_a", "activation energy", above=0)]
 
     def __post_init__(self):
-        store(
-            self,
-            reference_temperature=_reference(self.reference_temperature),
-            activation_energy=positive("activation_energy", self.activation_energy, "J/mol"),
-        )
+        conform(self)
         _ask_about_celsius(self.reference_temperature)
 
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:

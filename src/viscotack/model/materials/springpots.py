@@ -45,8 +45,53 @@ _FINE = 0.127  # of the width in which the integrand is analytic: exp(-2 pi/0.12
 _LAST = 40.0  # decrease of ln(integrand) beyond which it is neglected
 
 
+class _Springpots:
+    """Common part of the pairs: one complex function by the other, and their spectrum."""
+
+    no_contact: ClassVar[str] = NO_PLATEAU
+    modulus: Any
+    order: Any
+    lower_order: Any
+    tau0: Any
+
+    def __post_init__(self) -> None:
+        conform(self)
+        if not 0 <= self.order - self.lower_order <= 0.99:
+            raise InputError(
+                "lower_order must not be above order, and not more than 0.99 below it, got "
+                f"{self.lower_order:g} and {self.order:g}; use a Prony series for a spring and a "
+                "dashpot"
+            )
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
+        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
+        return 1 / self.complex_compliance(omega)
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
+        """Return C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
+        return 1 / self.complex_modulus(omega)
+
+    def _powers(self, omega: npt.ArrayLike, sign: int) -> npt.NDArray[Any]:
+        """Return (i omega tau0)^a + (i omega tau0)^b, with the sign of the orders."""
+        x = _inside("omega", omega, "rad/s") * self.tau0
+
+        def power(order: float) -> npt.NDArray[Any]:
+            angle = math.pi * order / 2
+            return x**order * complex(math.cos(angle), math.sin(angle))
+
+        return power(sign * self.order) + power(sign * self.lower_order)
+
+    def _spectrum(self, y: Array, first: float, second: float) -> Array:
+        """Return the spectrum at the rate exp(y)/tau0, but for its power of the rate."""
+        apart = self.order - self.lower_order
+        rising = np.exp(apart * y)
+        across = 1 + 2 * math.cos(math.pi * apart) * rising + rising**2
+        parts = math.sin(math.pi * first) + rising * math.sin(math.pi * second)
+        return parts / across / math.pi
+
+
 @dataclass(frozen=True, kw_only=True)
-class FractionalMaxwell:
+class FractionalMaxwell(_Springpots):
     r"""Two springpots in series (fractional Maxwell model).
 
     .. math:: E(\omega) = E \frac{(i \omega \tau_0)^a}{1 + (i \omega \tau_0)^{a-b}}
@@ -78,7 +123,6 @@ class FractionalMaxwell:
     """
 
     word: ClassVar[str] = "fractional-maxwell"
-    no_contact: ClassVar[str] = NO_PLATEAU
 
     modulus: CharacteristicModulus
     order: UpperOrder
@@ -86,18 +130,9 @@ class FractionalMaxwell:
     tau0: CharacteristicTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        _check_orders(self)
-
-    def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
-        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_compliance(omega)
-
     def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
         """Return C' - i C'' [1/Pa] at angular frequencies [rad/s], the sum of both compliances."""
-        x = _inside("omega", omega, "rad/s") * self.tau0
-        return like_input((_power(x, -self.order) + _power(x, -self.lower_order)) / self.modulus)
+        return like_input(self._powers(omega, -1) / self.modulus)
 
     def creep(self, time: npt.ArrayLike) -> Real:
         """Return the creep compliance [1/Pa] at times [s], the sum of both compliances."""
@@ -114,10 +149,7 @@ class FractionalMaxwell:
 
         def spectrum(y: Array) -> Array:
             """Return H at the rate exp(y)/tau0, over the modulus."""
-            rising = np.exp((a - b) * y)
-            across = 1 + 2 * math.cos(math.pi * (a - b)) * rising + rising**2
-            parts = math.sin(math.pi * a) + rising * math.sin(math.pi * b)
-            return np.exp(a * y) * parts / across / math.pi
+            return np.exp(a * y) * self._spectrum(y, a, b)
 
         return like_input(
             self.modulus
@@ -126,7 +158,7 @@ class FractionalMaxwell:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FractionalKelvinVoigt:
+class FractionalKelvinVoigt(_Springpots):
     r"""Two springpots in parallel (fractional Kelvin-Voigt model).
 
     .. math:: E(\omega) = E \left[(i \omega \tau_0)^a + (i \omega \tau_0)^b\right]
@@ -158,7 +190,6 @@ class FractionalKelvinVoigt:
     """
 
     word: ClassVar[str] = "fractional-kelvin-voigt"
-    no_contact: ClassVar[str] = NO_PLATEAU
 
     modulus: CharacteristicModulus
     order: UpperOrder
@@ -166,18 +197,9 @@ class FractionalKelvinVoigt:
     tau0: CharacteristicTime
     poisson_ratio: PoissonRatio
 
-    def __post_init__(self):
-        conform(self)
-        _check_orders(self)
-
     def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
         """Return E' + i E'' [Pa] at angular frequencies [rad/s], the sum of both moduli."""
-        x = _inside("omega", omega, "rad/s") * self.tau0
-        return like_input(self.modulus * (_power(x, self.order) + _power(x, self.lower_order)))
-
-    def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
-        return 1 / self.complex_modulus(omega)
+        return like_input(self.modulus * self._powers(omega, 1))
 
     def relaxation(self, time: npt.ArrayLike) -> Real:
         """Return the relaxation modulus [Pa] at times [s], the sum of both moduli."""
@@ -196,23 +218,11 @@ class FractionalKelvinVoigt:
 
         def spectrum(y: Array) -> Array:
             """Return L at the rate exp(y)/tau0, times the modulus."""
-            rising = np.exp((a - b) * y)
-            across = 1 + 2 * math.cos(math.pi * (a - b)) * rising + rising**2
-            parts = math.sin(math.pi * b) + rising * math.sin(math.pi * a)
-            return np.exp(-b * y) * parts / across / math.pi
+            return np.exp(-b * y) * self._spectrum(y, b, a)
 
         return like_input(
             _summed(T, spectrum, lambda r: -np.expm1(-r), width=_width(a - b), slow=1 - b, fast=a)
             / self.modulus
-        )
-
-
-def _check_orders(law: FractionalMaxwell | FractionalKelvinVoigt) -> None:
-    apart = law.order - law.lower_order
-    if not 0 <= apart <= 0.99:
-        raise InputError(
-            "lower_order must not be above order, and not more than 0.99 below it, got "
-            f"{law.lower_order:g} and {law.order:g}; use a Prony series for a spring and a dashpot"
         )
 
 
@@ -225,11 +235,6 @@ def _inside(name: str, values: npt.ArrayLike, unit: str) -> Array:
             f"{name} must be positive and finite, got {wrong[0]} {unit}: springpots have no plateau"
         )
     return array
-
-
-def _power(x: Array, order: float) -> npt.NDArray[Any]:
-    """Return (i x)^order."""
-    return x**order * complex(math.cos(math.pi * order / 2), math.sin(math.pi * order / 2))
 
 
 def _width(apart: float) -> float:

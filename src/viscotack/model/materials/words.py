@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.model.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.model.materials.fractional import FractionalZener
@@ -11,7 +10,6 @@ from viscotack.model.materials.material import Material
 from viscotack.model.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.model.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
 
-_ALL = ("rubbery_modulus", "poisson_ratio")
 # Word in a file -> class.
 MODELS: Mapping[str, Any] = {
     kind.word: kind
@@ -29,16 +27,6 @@ MODELS: Mapping[str, Any] = {
 FITS_ONLY: Mapping[str, Any] = {
     kind.word: kind for kind in (FractionalMaxwell, FractionalKelvinVoigt)
 }
-
-
-def units_of(model: Any) -> dict[str, str]:
-    """Return the SI unit of each plain constant of a class of materials, by name.
-
-    Constants common to all materials come first, as in files.
-    """
-    units = {name: field.card.unit for name, field in cards(model).items()}
-    first = {name: units[name] for name in _ALL if name in units}
-    return first | units
 
 
 def word_of(material: Material) -> str:

@@ -53,11 +53,6 @@ from viscotack.units import parse, readable
 Tables = Mapping[str, Any]
 # Largest thickness of a layer over the contact's length.
 _THICKEST = 1e9
-# Tables of files with several contacts, and the commands that read them.
-_OF_SEVERAL = {
-    "stamp": "window", "donor": "window", "receiver": "window", "pad": "array", "array": "array",
-    "targets": "design", "bounds": "design",
-}  # fmt: skip
 
 
 def read_case(
@@ -202,12 +197,6 @@ def problem_of(
     where, nouns = reading.where, reading.nouns
     if not isinstance(tables, Mapping):
         raise InputError(f"{where} must be tables with keys, got {tables!r:.60}")
-    if several := tables.keys() & _OF_SEVERAL.keys():
-        name = min(several)
-        raise InputError(
-            f"{where}: [{name}] belongs to a file of `viscotack {_OF_SEVERAL[name]}`, which has "
-            "several contacts; cases and campaigns have one"
-        )
     test = "groups" if "groups" in tables else "protocol"
     reading = replace(reading, pure=test == "groups")
     if reading.pure and "surface" in tables:

@@ -70,41 +70,42 @@ _STARTS: dict[str, Any] = {
 }
 
 
-def _sphere(inputs: Inputs) -> Groups:
-    return Groups(tabor=inputs["tabor"], **_test(inputs, RetardationPowerLaw))
+_UNIT: dict[str, Any] = {"rubbery_modulus": 1.0, "tau0": 1.0, "poisson_ratio": 0.0}
+# Kind -> its solid of a row and a modulus ratio, its inputs, and its starts.
+_STATED: Mapping[str, tuple[Callable[[Inputs, float], Any], str, tuple[str, ...]]] = {
+    "sphere": (
+        lambda row, k: RetardationPowerLaw(**_UNIT, glassy_modulus=1 / k, exponent=row["exponent"]),
+        "tabor modulus_ratio exponent rate",
+        tuple(_STARTS),
+    ),
+    "solid": (
+        lambda row, k: random_solid(row["solid"], k),
+        "tabor modulus_ratio solid rate",
+        tuple(_STARTS),
+    ),
+    "punch": (
+        lambda row, k: StandardSolid(**_UNIT, glassy_modulus=1 / k),
+        "size thickness cohesion modulus_ratio rate",
+        ("preload", "preload_force"),
+    ),
+}
 
 
-def _solid(inputs: Inputs) -> Groups:
+def _case(solid: Callable[[Inputs, float], Any], inputs: Inputs) -> Groups:
+    """Return the dimensionless problem of a row."""
     ratio = card_of(ModulusRatio).checked("modulus_ratio", inputs["modulus_ratio"])
-    material = random_solid(inputs["solid"], ratio)
-    return Groups(
-        tabor=inputs["tabor"], material=material, start=_start(inputs), rate=inputs["rate"]
-    )
-
-
-def _punch(inputs: Inputs) -> Groups:
-    return Groups(
-        tabor=None,
-        cohesion=inputs["cohesion"],
-        geometry=FlatPunch(inputs["size"]),
-        body=Layer(inputs["thickness"]),
-        **_test(inputs, StandardSolid),
-    )
-
-
-def _test(inputs: Inputs, solid: Any) -> dict[str, Any]:
-    """Return material, start and rate of a case."""
-    ratio = card_of(ModulusRatio).checked("modulus_ratio", inputs["modulus_ratio"])
-    constants = {"exponent": inputs["exponent"]} if "exponent" in cards(solid) else {}
-    material = solid(
-        rubbery_modulus=1.0, glassy_modulus=1 / ratio, tau0=1.0, poisson_ratio=0.0, **constants
-    )
-    return {"material": material, "start": _start(inputs), "rate": inputs["rate"]}
-
-
-def _start(inputs: Inputs) -> Any:
     (start,) = (make(inputs[name]) for name, make in _STARTS.items() if name in inputs)
-    return start
+    punch: dict[str, Any] = {}
+    if "size" in inputs:
+        punch = {"geometry": FlatPunch(inputs["size"]), "body": Layer(inputs["thickness"])}
+    return Groups(
+        tabor=inputs.get("tabor"),
+        cohesion=inputs.get("cohesion"),
+        material=solid(inputs, ratio),
+        start=start,
+        rate=inputs["rate"],
+        **punch,
+    )
 
 
 def _inputs() -> dict[str, Input]:
@@ -133,26 +134,16 @@ def _inputs() -> dict[str, Input]:
 INPUTS = _inputs()
 
 
-def _kinds() -> dict[str, Kind]:
-    """Return the kinds of dimensionless cases; one more is an entry more."""
-    law, starts = ("modulus_ratio", "exponent", "rate"), tuple(_STARTS)
-    stated: tuple[tuple[str, Callable[[Inputs], Any], tuple[str, ...], tuple[str, ...]], ...] = (
-        ("sphere", _sphere, ("tabor", *law), starts),
-        ("solid", _solid, ("tabor", "modulus_ratio", "solid", "rate"), starts),
-        (
-            "punch",
-            _punch,
-            ("size", "thickness", "cohesion", "modulus_ratio", "rate"),
-            ("preload", "preload_force"),
-        ),
+KINDS: Mapping[str, Kind] = {
+    name: Kind(
+        name=name,
+        columns=tuple(columns.split()),
+        problem=partial(_case, solid),
+        choices=starts,
+        inputs={each: INPUTS[each] for each in (*columns.split(), *starts)},
     )
-    return {
-        name: Kind(name, columns, problem, choices, {n: INPUTS[n] for n in (*columns, *choices)})
-        for name, problem, columns, choices in stated
-    }
-
-
-KINDS = _kinds()
+    for name, (solid, columns, starts) in _STATED.items()
+}
 
 
 def plain_heading(name: str) -> str:

@@ -15,40 +15,21 @@ from typing import Any
 
 from viscotack.cards import check_carded
 from viscotack.errors import InputError
-from viscotack.files.bounded import LARGEST_TEXT, read_bytes
-from viscotack.model.geometry import BODIES, SHAPES
+from viscotack.files.text import read_bytes
+from viscotack.model.geometry import BODIES, SHAPES, Body, Shape
+from viscotack.model.materials import Material
 from viscotack.model.materials.words import MODELS
-from viscotack.model.traction import LAWS
+from viscotack.model.traction import LAWS, Traction
 
+_PROTOCOLS = {"laws": Traction, "materials": Material, "shapes": Shape, "bodies": Body}
 # What a class of each kind must have: fields, methods and properties.
 MEMBERS = {
-    "laws": (
-        "work_of_adhesion",
-        "equilibrium_gap",
-        "traction",
-        "energy",
-        "energy_beyond",
-        "stiffness",
-        "strength",
-        "edge_gap",
-        "reduced",
-    ),
-    "materials": (
-        "rubbery_modulus",
-        "glassy_modulus",
-        "poisson_ratio",
-        "modulus_ratio",
-        "contact_modulus",
-        "time_unit",
-        "relaxation",
-        "creep",
-        "complex_modulus",
-        "complex_compliance",
-        "retardation_modes",
-        "reduced",
-    ),
-    "shapes": ("symmetry", "gap", "flank", "reduced"),
-    "bodies": ("symmetries", "influence", "decay_length", "reduced"),
+    room: tuple(
+        name
+        for name in (*vars(protocol).get("__annotations__", {}), *vars(protocol))
+        if not name.startswith("_") and name != "word"
+    )
+    for room, protocol in _PROTOCOLS.items()
 }
 _SINGULAR = {"laws": "law", "materials": "material", "shapes": "shape", "bodies": "body"}
 
@@ -115,7 +96,7 @@ def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
     """
     found: list[Any] = []
     for path in dict.fromkeys(Path(path).resolve() for path in paths):
-        found += _defined(path, sha256(read_bytes(path, LARGEST_TEXT)).hexdigest())
+        found += _defined(path, sha256(read_bytes(path)).hexdigest())
     return tuple(found)
 
 

@@ -119,19 +119,8 @@ def lengths(problem: Any) -> tuple[float, float]:
     return fracture_length(problem), problem.traction.equilibrium_gap
 
 
-def ratios(problem: Any) -> dict[str, float | None]:
-    """Return the group that is independent of shape, body and test: the cohesion."""
-    return {"tabor": None, "cohesion": problem.cohesion}
-
-
 def check_groups(groups: Any) -> None:
-    """Raise an error for a punch without cohesion, with a Tabor number, or begun at a radius."""
-    if groups.cohesion is None or groups.tabor is not None:
-        raise InputError(
-            "a punch needs a cohesion, sigma_0/E_0*, and no Tabor number: give for example "
-            f"cohesion=0.05 and tabor=None, got cohesion={groups.cohesion} and "
-            f"tabor={groups.tabor}"
-        )
+    """Raise an error for a start at a contact radius."""
     check_start(groups.start)
 
 

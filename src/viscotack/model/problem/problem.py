@@ -132,18 +132,7 @@ class Problem:
         return html_of_problem(self)
 
     def __post_init__(self) -> None:
-        _check_material(self.material)
-        _check_traction(self.traction)
-        for name, wanted, example in (
-            ("geometry", ("symmetry",), "Sphere(radius=5e-3)"),
-            ("protocol", ("start", "moves"), "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
-        ):
-            part = getattr(self, name)
-            if isinstance(part, type) or not all(hasattr(part, name) for name in wanted):
-                given = part.__name__ if isinstance(part, type) else type(part).__name__
-                raise InputError(f"{name} cannot be a {given}; try {example}")
-        _check_shape(self.geometry)
-        _check_body(self.geometry, self.body)
+        _check_parts(self)
         _check_poisson_ratio(self.body, self.material)
         with np.errstate(over="ignore", under="ignore"):
             self._check_digits()
@@ -207,16 +196,17 @@ class Problem:
         """Return the dimensionless problem, in the material's time unit."""
         unit: Any = self._scales
         units: Units = self._kind.to_groups(unit)
-        protocol = self.protocol
+        test = units.scaled(self.protocol)
         along, height = self._kind.lengths(self)
         return Groups(
-            **self._kind.ratios(self),
+            tabor=None if self._kind is plane else self.tabor,
+            cohesion=self.cohesion if self._kind is plane else None,
             material=self.material.reduced(),
-            start=units.start(protocol.start),
-            rate=units.speed(protocol.speed),
+            start=test.start,
+            rate=test.speed,
             traction=reduced(self.traction, unit.time),
-            moves=units.moves(protocol.moves),
-            stiffness=units.stiffness(protocol.stiffness),
+            moves=test.moves,
+            stiffness=test.stiffness,
             geometry=self.geometry.reduced(along, height),
             body=self.body.reduced(along),
         )
@@ -307,8 +297,7 @@ class Groups:
     cohesion: Cohesion | None = None
 
     def __post_init__(self) -> None:
-        _check_shape(self.geometry)
-        _check_body(self.geometry, self.body)
+        _check_parts(self)
         _check_reduced(self)
         self._kind.check_groups(self)
 
@@ -415,6 +404,7 @@ class Groups:
         nu = checked_poisson_ratio(poisson_ratio)
         unit = self._kind.si_units(self, E, radius, **scale)
         units = Units(unit.length, unit.force, unit.contact_radius, T)
+        test = Retraction(self.start, self.rate, self.moves, self.stiffness)
         shape = self.geometry.reduced(1 / unit.along, 1 / unit.height)
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
@@ -422,7 +412,7 @@ class Groups:
             # keep the radius of a sphere exact
             geometry=Sphere(radius) if isinstance(shape, Sphere) and radius else shape,
             body=self.body.reduced(1 / unit.along),
-            protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
+            protocol=units.scaled(test),
         )
 
     @property
@@ -435,28 +425,46 @@ Case = Problem | Groups
 _KINDS: Mapping[str, Any] = {"revolution": revolution, "plane": plane}
 
 
-def _check_shape(shape: Any) -> None:
-    """Raise an error unless the object is a shape of a supported symmetry."""
-    symmetry = None if isinstance(shape, type) else getattr(shape, "symmetry", None)
-    if symmetry not in _KINDS or (symmetry == "plane" and not isinstance(shape, FlatPunch)):
+# What a part of a problem must have, and an example of one.
+_PARTS: Mapping[str, tuple[tuple[str, ...], str]] = {
+    "material": (
+        ("retardation_modes", "reduced"),
+        "Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)",
+    ),
+    "traction": (
+        ("stiffness", "reduced"),
+        "LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)",
+    ),
+    "geometry": (("symmetry", "reduced"), "Sphere(radius=5e-3)"),
+    "body": (("influence", "symmetries"), "Layer(thickness=1e-4)"),
+    "protocol": (("start", "moves"), "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
+}
+
+
+def _check_parts(problem: Any) -> None:
+    """Raise an error for a part of another kind, or a body that does not support the shape."""
+    rests(problem.material)
+    for name, (members, example) in _PARTS.items():
+        part = getattr(problem, name, None)
+        if name == "protocol" and isinstance(problem, Groups):
+            continue
+        if isinstance(part, type) or not all(hasattr(part, member) for member in members):
+            given = part.__name__ if isinstance(part, type) else type(part).__name__
+            raise InputError(f"{name} cannot be a {given}; try {example}", field=name)
+    shape, body = problem.geometry, problem.body
+    plain = shape.symmetry == "plane"
+    if shape.symmetry not in _KINDS or (plain and not isinstance(shape, FlatPunch)):
         raise InputError(
             "a shape must have the symmetry 'revolution' (only a FlatPunch is 'plane'), got "
-            f"{symmetry!r} of {shape!r}"
+            f"{shape.symmetry!r} of {shape!r}"
         )
-
-
-def _check_body(shape: Any, body: Any) -> None:
-    """Raise an error for a body that does not support the symmetry of the shape."""
-    if isinstance(body, type) or not hasattr(body, "influence"):
-        given = body.__name__ if isinstance(body, type) else type(body).__name__
-        raise InputError(f"body cannot be a {given}; try Layer(thickness=1e-4)")
-    if shape.symmetry in body.symmetries:
-        return
-    if shape.symmetry == "plane":
-        raise InputError(f"a flat punch needs a layer, got {body}; try body=Layer(thickness=1e-4)")
-    raise InputError(
-        f"the body {body} is for plane strain, not for a {shape.word}; omit it, or use a FlatPunch"
-    )
+    if shape.symmetry not in body.symmetries:
+        raise InputError(
+            f"a flat punch needs a layer, got {body}; try body=Layer(thickness=1e-4)"
+            if plain
+            else f"the body {body} is for plane strain, not for a {shape.word}; omit it, or use a "
+            "FlatPunch"
+        )
 
 
 def _check_poisson_ratio(body: Any, material: Any) -> None:
@@ -468,29 +476,21 @@ def _check_poisson_ratio(body: Any, material: Any) -> None:
         )
 
 
-def _check_material(material: Any) -> None:
-    """Raise an error unless the object is a material."""
-    rests(material)
-    if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
-        raise InputError(
-            f"material must be one of viscotack.model.materials, got {type(material).__name__}; "
-            "for example Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)"
-        )
-
-
-def _check_traction(traction: Any) -> None:
-    """Raise an error unless the object is a traction law."""
-    if not hasattr(traction, "stiffness") or not hasattr(traction, "reduced"):
-        raise InputError(
-            f"traction must be a traction law, got {type(traction).__name__}; "
-            "for example LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)"
-        )
-
-
 def _check_reduced(groups: Any) -> None:
     """Raise an error for groups with parts that are not reduced, or without motion."""
-    _check_material(groups.material)
-    _check_traction(groups.traction)
+    plain = groups.in_plane_strain
+    if (groups.tabor is None) != plain or (groups.cohesion is None) == plain:
+        needs = (
+            "cohesion, sigma_0/E_0*, and no Tabor number"
+            if plain
+            else "Tabor number and no cohesion"
+        )
+        raise InputError(
+            f"a {groups.geometry.word} needs a {needs}: give for example "
+            f"{'cohesion=0.05' if plain else 'tabor=3.24'}, got cohesion={groups.cohesion} and "
+            f"tabor={groups.tabor}",
+            field="cohesion" if plain else "tabor",
+        )
     if groups.material.rubbery_modulus != 1 or groups.material.poisson_ratio != 0:
         raise InputError(
             "the material of dimensionless groups must have a rubbery modulus of 1 and a "

@@ -91,16 +91,20 @@ def protocol_from_table(given: Any, reading: Reading, equilibrium_gap: float) ->
     """
     table = read_as(ProtocolTable, given, reading, "protocol")
     where = f"{reading.where}, [protocol]"
+    history = None
     if table.history is not None:
         for key in (*STARTS["N"], *STARTS["Pa"], "start", "moves"):
             if getattr(table, key):
                 raise InputError(f"{where} history states the start and the moves; omit {key}")
         file = reading.file("protocol", "history", table.history)
-        start, moves = history_from_file(file, equilibrium_gap)
-    else:
-        start = _start(table, reading, where)
-        moves = _moves(table, reading, where)
+        history = history_from_file(file, equilibrium_gap)
     try:
+        if history is not None:
+            start, moves = history
+        else:
+            start = _start(table, reading.units)
+            check_number_of_moves(len(table.moves))
+            moves = tuple(move_from_words(move, reading.units) for move in table.moves)
         check_number_of_moves(table.cycles * len(moves))
         if table.speed is None and not moves:
             raise InputError('speed is missing; write for example speed = "100 um/s"')
@@ -111,29 +115,18 @@ def protocol_from_table(given: Any, reading: Reading, equilibrium_gap: float) ->
         raise InputError(f"{where} {error}") from None
 
 
-def _start(table: ProtocolTable, reading: Reading, where: str) -> Start | Apart:
-    starts = STARTS[reading.units["force"]]
+def _start(table: ProtocolTable, units: Mapping[str, str]) -> Start | Apart:
+    starts = STARTS[units["force"]]
     given = [key for key in (*STARTS["N"], "preload_stress", "start") if _is_given(table, key)]
     if len(given) != 1 or given[0] not in (*starts, "start"):
         raise InputError(
-            f"{where} needs exactly one of {', '.join((*starts, 'start'))}, got "
+            f"needs exactly one of {', '.join((*starts, 'start'))}, got "
             f"{' and '.join(given) or 'none'}; "
             'write for example preload_depth = "2 um", or start = "apart 20 um"'
         )
-    if table.start is None:
-        return starts[given[0]](getattr(table, given[0]))
-    try:
-        return start_from_words(table.start, reading.units)
-    except ValueError as error:
-        raise InputError(f"{where} {error}") from None
-
-
-def _moves(table: ProtocolTable, reading: Reading, where: str) -> tuple[Move, ...]:
-    try:
-        check_number_of_moves(len(table.moves))
-        return tuple(move_from_words(move, reading.units) for move in table.moves)
-    except ValueError as error:
-        raise InputError(f"{where} {error}") from None
+    if table.start is not None:
+        return start_from_words(table.start, units)
+    return starts[given[0]](getattr(table, given[0]))
 
 
 def _is_given(table: Any, key: str) -> bool:
@@ -143,7 +136,7 @@ def _is_given(table: Any, key: str) -> bool:
 def table_of_protocol(test: Retraction, units: Mapping[str, str]) -> dict[str, Any]:
     """Return the table [protocol] of a test, with numbers in SI."""
     starts = {kind: key for key, kind in STARTS[units["force"]].items()}
-    (value,) = vars(test.start).values()
+    value = test.start.value
     if isinstance(test.start, Apart):
         found: dict[str, Any] = {"start": f"apart {value!r} {units['depth']}"}
     else:
@@ -179,11 +172,10 @@ def test_of_groups(given: Any, reading: Reading) -> dict[str, Any]:
 def table_of_groups(groups: Groups) -> dict[str, Any]:
     """Return the table [groups] of a dimensionless problem."""
     starts = {kind: key for key, kind in STARTS_IN_GROUPS.items()}
-    (value,) = vars(groups.start).values()
     size = {"tabor": groups.tabor} if groups.cohesion is None else {"cohesion": groups.cohesion}
     return {
         **size,
-        starts[type(groups.start)]: value,
+        starts[type(groups.start)]: groups.start.value,
         **_drive(groups.moves, PURE_NUMBERS, rate=groups.rate, stiffness=groups.stiffness),
     }
 

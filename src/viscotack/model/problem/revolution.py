@@ -118,18 +118,8 @@ def lengths(problem: Any) -> tuple[float, float]:
     return along, along**2 / R
 
 
-def ratios(problem: Any) -> dict[str, float | None]:
-    """Return the group that is independent of shape, body and test: the Tabor number."""
-    return {"tabor": problem.tabor, "cohesion": None}
-
-
 def check_groups(groups: Any) -> None:
-    """Raise an error for groups without a Tabor number, or with a shape that is not reduced."""
-    if groups.tabor is None or groups.cohesion is not None:
-        raise InputError(
-            f"a {groups.geometry.word} needs a Tabor number and no cohesion: give for example "
-            f"tabor=3.24, got tabor={groups.tabor} and cohesion={groups.cohesion}"
-        )
+    """Raise an error for groups with a shape that is not reduced."""
     shape = groups.geometry
     if np.isfinite(detail(shape)):
         radius = equivalent_radius(shape, 1.0)

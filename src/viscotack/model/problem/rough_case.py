@@ -14,7 +14,6 @@ from typing import Annotated, Any
 
 from viscotack.cards import Exact, Quantity, cards, conform
 from viscotack.errors import InputError
-from viscotack.files.bounded import open_regular
 from viscotack.model.geometry import HalfSpace
 from viscotack.model.problem import revolution
 from viscotack.model.protocol import Retraction
@@ -202,6 +201,5 @@ class RoughCase:
 
 def hash_of(path: str | Path) -> str:
     """Return the SHA-256 of the content of a file."""
-    with open_regular(path) as file:
-        binary: Any = file  # without the protocol that hashlib states
-        return hashlib.file_digest(binary, "sha256").hexdigest()
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

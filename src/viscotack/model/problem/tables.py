@@ -36,6 +36,9 @@ _ELSEWHERE = {
     "surface": ("rough", "a map of heights"),
     "sphere": ("simulate case", "one sphere"),
     "punch": ("simulate case", "one punch"),
+    **dict.fromkeys(("stamp", "donor", "receiver", "pull"), ("window", "one of several contacts")),
+    **dict.fromkeys(("pad", "array"), ("array", "many contacts")),
+    **dict.fromkeys(("targets", "bounds"), ("design", "what a design is for")),
 }
 
 

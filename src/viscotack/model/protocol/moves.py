@@ -6,10 +6,12 @@ by one number. In a :class:`~viscotack.model.problem.Problem` it is in SI; in
 """
 
 from dataclasses import dataclass, replace
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar, TypeVar
 
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity, cards, conform
 from viscotack.errors import InputError
+
+_Noun = TypeVar("_Noun")
 
 Speed = Annotated[
     float,
@@ -31,8 +33,23 @@ Stiffness = Annotated[
 ]
 
 
+class _State(Checked):
+    """A state at rest, of one number."""
+
+    word: ClassVar[str]
+
+    @property
+    def value(self) -> float:
+        """The number."""
+        (value,) = vars(self).values()
+        return value
+
+    def __str__(self) -> str:
+        return f"{self.word} {self.value:g}"
+
+
 @dataclass(frozen=True)
-class AtDepth:
+class AtDepth(_State):
     """Relaxed contact at a given depth.
 
     Parameters
@@ -60,15 +77,9 @@ class AtDepth:
         ),
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
-    def __str__(self) -> str:
-        return f"{self.word} {self.depth:g}"
-
 
 @dataclass(frozen=True)
-class AtForce:
+class AtForce(_State):
     """Relaxed contact under a given force, on the branch of larger radius, stable at fixed load.
 
     Parameters
@@ -96,15 +107,9 @@ class AtForce:
         ),
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
-    def __str__(self) -> str:
-        return f"{self.word} {self.force:g}"
-
 
 @dataclass(frozen=True)
-class AtRadius:
+class AtRadius(_State):
     """Relaxed contact with a given contact radius.
 
     Parameters
@@ -133,12 +138,6 @@ class AtRadius:
         ),
     ]
 
-    def __post_init__(self) -> None:
-        conform(self)
-
-    def __str__(self) -> str:
-        return f"{self.word} {self.contact_radius:g}"
-
 
 Start = AtDepth | AtForce | AtRadius
 # Largest number of moves of a test; each takes tens of steps, and a simulation ends after 200,000.
@@ -146,7 +145,7 @@ MOST_MOVES = 10_000
 
 
 @dataclass(frozen=True)
-class Apart:
+class Apart(_State):
     """Start out of contact and at rest.
 
     Parameters
@@ -175,12 +174,6 @@ class Apart:
             example="20 um",
         ),
     ]
-
-    def __post_init__(self) -> None:
-        conform(self)
-
-    def __str__(self) -> str:
-        return f"{self.word} {self.gap:g}"
 
 
 @dataclass(frozen=True)
@@ -399,55 +392,27 @@ class Units:
     contact_radius: float
     time: float
 
-    def retraction(
-        self,
-        start: Start | Apart,
-        speed: float | None,
-        moves: tuple[Move, ...],
-        stiffness: float | None,
-    ) -> Retraction:
-        """Convert a test, given by its parts."""
-        return Retraction(
-            start=self.start(start),
-            speed=self.speed(speed),
-            moves=self.moves(moves),
-            stiffness=self.stiffness(stiffness),
-        )
-
-    def start(self, start: Start | Apart) -> Start | Apart:
-        """Convert a start."""
-        match start:
-            case AtDepth():
-                return AtDepth(start.depth * self.depth)
-            case AtForce():
-                return AtForce(start.force * self.force)
-            case AtRadius():
-                return AtRadius(start.contact_radius * self.contact_radius)
-            case Apart():
-                return Apart(start.gap * self.depth)
-
-    def speed(self, speed: float | None) -> float | None:
-        """Convert a speed."""
-        return None if speed is None else speed * self.depth / self.time
-
-    def stiffness(self, stiffness: float | None) -> float | None:
-        """Convert a stiffness."""
-        return None if stiffness is None else stiffness * self.force / self.depth
-
-    def moves(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
-        """Convert moves."""
-        return tuple(self._move(move) for move in moves)
-
-    def _move(self, move: Move) -> Move:
-        match move:
-            case Approach() | Retract():
-                return replace(move, speed=self.speed(move.speed), to=self.start(move.to))  # type: ignore[arg-type]
-            case MoveTo():
-                return MoveTo(move.depth * self.depth, move.duration * self.time)
-            case LoadTo():
-                return LoadTo(move.force * self.force, move.duration * self.time)
-            case Dwell():
-                return replace(move, duration=move.duration * self.time)
+    def scaled(self, noun: _Noun) -> _Noun:
+        """Convert a test, a move or a start, by the measures of its cards."""
+        factors = {
+            "depth": (self.depth, 1.0),
+            "force": (self.force, 1.0),
+            "radius": (self.contact_radius, 1.0),
+            "time": (self.time, 1.0),
+            "speed": (self.depth, self.time),
+            "stiffness": (self.force, self.depth),
+        }
+        whole: Any = noun
+        new: dict[str, Any] = {}
+        for name, value in vars(whole).items():
+            if isinstance(value, tuple):
+                new[name] = tuple(map(self.scaled, value))
+            elif isinstance(value, _State):
+                new[name] = self.scaled(value)
+            elif isinstance(value, float):
+                above, below = factors[cards(type(whole))[name].card.measure]
+                new[name] = value * above / below
+        return replace(whole, **new)
 
 
 def states(protocol: Retraction) -> list[Start]:

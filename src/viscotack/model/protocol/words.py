@@ -33,30 +33,35 @@ SPHERE_UNITS = {"depth": "m", "force": "N", "radius": "m", "speed": "m/s", "time
 PUNCH_UNITS = SPHERE_UNITS | {"force": "Pa"}
 PURE_NUMBERS = dict.fromkeys(SPHERE_UNITS, "1")
 
-_STARTS = {"apart": Apart, "depth": AtDepth, "force": AtForce, "radius": AtRadius}
-_PATTERNS = {
-    "approach": r"approach (?P<speed>.+?) to (?P<to>.+)",
-    "retract": r"retract (?P<speed>.+?) to (?P<to>.+)",
-    "move": r"move to (?:depth )?(?P<depth>.+?) in (?P<time>.+)",
-    "load": r"load to (?:force )?(?P<force>.+?) in (?P<time>.+)",
-    "dwell": r"dwell (?:for )?(?P<time>.+)",
-    "hold": rf"hold (?P<what>{'|'.join(HOLDS)}) (?:for )?(?P<time>.+)",
-}
-_CARDS = {
-    "approach": cards(Approach),
-    "retract": cards(Retract),
-    "move": cards(MoveTo),
-    "load": cards(LoadTo),
-    "dwell": cards(Dwell),
-    "hold": cards(Dwell),
-}
-_SHAPES = {
-    "approach": "approach SPEED to depth|force|radius VALUE",
-    "retract": "retract SPEED to depth|force|radius VALUE",
-    "move": "move to DEPTH in TIME",
-    "load": "load to FORCE in TIME",
-    "dwell": "dwell TIME",
-    "hold": "hold drive|depth|force TIME",
+_STARTS = {kind.word: kind for kind in (Apart, AtDepth, AtForce, AtRadius)}
+# First word of a move -> its class, its text with the names of the fields, and that for people.
+_MOVES: Mapping[str, tuple[Any, str, str]] = {
+    "approach": (
+        Approach,
+        r"approach (?P<speed>.+?) to (?P<to>.+)",
+        "approach SPEED to depth|force|radius VALUE",
+    ),
+    "retract": (
+        Retract,
+        r"retract (?P<speed>.+?) to (?P<to>.+)",
+        "retract SPEED to depth|force|radius VALUE",
+    ),
+    "move": (
+        MoveTo,
+        r"move to (?:depth )?(?P<depth>.+?) in (?P<duration>.+)",
+        "move to DEPTH in TIME",
+    ),
+    "load": (
+        LoadTo,
+        r"load to (?:force )?(?P<force>.+?) in (?P<duration>.+)",
+        "load to FORCE in TIME",
+    ),
+    "dwell": (Dwell, r"dwell (?:for )?(?P<duration>.+)", "dwell TIME"),
+    "hold": (
+        Dwell,
+        rf"hold (?P<hold>{'|'.join(HOLDS)}) (?:for )?(?P<duration>.+)",
+        "hold drive|depth|force TIME",
+    ),
 }
 
 
@@ -89,15 +94,25 @@ def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) ->
     if isinstance(words, Mapping):
         words = " ".join(f"{key.replace('_', ' ')} {value}" for key, value in words.items())
     words = " ".join(str(words).split())
-    kind = words.partition(" ")[0]
-    if kind not in _PATTERNS:
-        raise InputError(f"{words!r} is not a move; write {', or '.join(_SHAPES.values())}")
-    found = re.fullmatch(_PATTERNS[kind], words)
+    word = words.partition(" ")[0]
+    if word not in _MOVES:
+        shapes = ", or ".join(shape for _, _, shape in _MOVES.values())
+        raise InputError(f"{words!r} is not a move; write {shapes}")
+    kind, pattern, shape = _MOVES[word]
+    found = re.fullmatch(pattern, words)
     if found is None:
-        raise InputError(f"cannot parse {words!r}; write {_SHAPES[kind]}")
-    said = found.groupdict()
+        raise InputError(f"cannot parse {words!r}; write {shape}")
+    numbers = cards(kind)
+    fields: dict[str, Any] = found.groupdict()
     try:
-        return _move(kind, said, units)
+        for name, text in fields.items():
+            if name in numbers:
+                card = numbers[name].card
+                unit = units[card.measure]
+                fields[name] = card.checked(name, plausible(name, parse(text, unit), unit), unit)
+            elif name == "to":
+                fields[name] = _where(text, units)
+        return kind(**fields)
     except ValueError as error:
         raise InputError(f"{words!r}: {error}") from None
 
@@ -117,9 +132,8 @@ def words_of_move(move: Move, units: Mapping[str, str]) -> str:
 
     match move:
         case Approach() | Retract():
-            (value,) = vars(move.to).values()
             kind = "approach" if isinstance(move, Approach) else "retract"
-            end = f"{move.to.word} {quantity(value, move.to.word)}"
+            end = f"{move.to.word} {quantity(move.to.value, move.to.word)}"
             return f"{kind} {quantity(move.speed, 'speed')} to {end}"
         case MoveTo():
             return f"move to {quantity(move.depth, 'depth')} in {quantity(move.duration, 'time')}"
@@ -142,7 +156,7 @@ def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
         raise InputError(
             f"{words!r} is not a start; write apart, depth, force or radius and a quantity"
         )
-    return _STARTS[kind](_parsed(kind, value, units["depth" if kind == "apart" else kind]))
+    return _state(kind, value, units)
 
 
 def history_from_file(
@@ -185,31 +199,10 @@ def history_from_file(
     )
 
 
-def _move(kind: str, said: Mapping[str, str], units: Mapping[str, str]) -> Move:
-    def quantity(name: str, field: str = "") -> float:
-        card = _CARDS[kind][field or name].card
-        number = _parsed(field or name, said[name], units[name])
-        return card.checked(field or name, number, units[name])
-
-    match kind:
-        case "approach":
-            return Approach(quantity("speed"), _where(said["to"], units))
-        case "retract":
-            return Retract(quantity("speed"), _where(said["to"], units))
-        case "move":
-            return MoveTo(quantity("depth"), quantity("time", "duration"))
-        case "load":
-            return LoadTo(quantity("force"), quantity("time", "duration"))
-        case "dwell":
-            return Dwell(quantity("time", "duration"))
-        case _:
-            return Dwell(quantity("time", "duration"), said["what"])
-
-
 def _where(words: str, units: Mapping[str, str]) -> Start:
     kind, _, value = words.partition(" ")
-    if kind in ("depth", "force", "radius"):
-        return _STARTS[kind](_parsed(kind, value, units[kind]))
+    if kind in _STARTS and kind != Apart.word:
+        return _state(kind, value, units)
     if units["depth"] == units["force"]:
         raise InputError(
             f"state whether {words} is a depth, a force or a radius, for example 'depth {words}'"
@@ -217,9 +210,11 @@ def _where(words: str, units: Mapping[str, str]) -> Start:
     try:
         force = parse(words, units["force"])
     except ValueError:
-        return AtDepth(_parsed("depth", words, units["depth"]))
+        return _state("depth", words, units)
     return AtForce(plausible("force", force, units["force"]))
 
 
-def _parsed(name: str, words: str, unit: str) -> float:
-    return plausible(name, parse(words, unit), unit)
+def _state(kind: str, words: str, units: Mapping[str, str]) -> Any:
+    (field,) = cards(_STARTS[kind]).values()
+    unit = units[field.card.measure]
+    return _STARTS[kind](plausible(kind, parse(words, unit), unit))

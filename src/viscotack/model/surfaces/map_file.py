@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import io
-import itertools
 import math
 import os
 import re
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.files.bounded import LONGEST_LINE, open_regular
 from viscotack.units import parse, readable
 
 from .heights import MOST, HeightMap
@@ -131,7 +127,7 @@ def _header(lines: list[str]) -> _Header:
 
 def _is_binary(path: Path) -> bool:
     """Whether a file is no text, such as a .dat of Zygo."""
-    with open_regular(path) as file:
+    with open(path, "rb") as file:
         first = file.read(_HEADER)
     return b"\0" in first and not first.startswith((b"\xff\xfe", b"\xfe\xff"))
 
@@ -148,26 +144,17 @@ def _doubts(found: HeightMap) -> tuple[str, ...]:
 
 
 def _array(path: Path) -> npt.NDArray:
-    """Return the numbers of a .npy file, whose header is checked before memory is taken."""
-    with open_regular(path) as file:
-        try:
-            version = np.lib.format.read_magic(file)
-            read = {
-                (1, 0): np.lib.format.read_array_header_1_0,
-                (2, 0): np.lib.format.read_array_header_2_0,
-            }[version]
-            shape, _, kind = read(file, max_header_size=_HEADER)
-        except (ValueError, KeyError, EOFError) as error:
-            raise InputError(f"it is no array of NumPy: {error}") from None
-        if kind.hasobject or kind.kind not in "iuf" or len(shape) != 2 or max(shape) > MOST:
-            raise InputError(
-                f"the array must have two dimensions of up to {MOST} numbers, got {shape} of {kind}"
-            )
-        there = os.fstat(file.fileno()).st_size - file.tell()
-        if there != math.prod(shape) * kind.itemsize:
-            raise InputError("the file is cut off, or longer than its header states")
-        file.seek(0)
-        return np.load(file, allow_pickle=False).astype(float)
+    """Return the numbers of a .npy file, which is mapped: no memory is taken before the check."""
+    try:
+        found = np.load(path, mmap_mode="r", allow_pickle=False)
+    except (ValueError, EOFError) as error:
+        raise InputError(f"it is no array of NumPy, or cut off: {error}") from None
+    if found.dtype.kind not in "iuf" or found.ndim != 2 or max(found.shape) > MOST:
+        raise InputError(
+            f"the array must have two dimensions of up to {MOST} numbers, got {found.shape} of "
+            f"{found.dtype}"
+        )
+    return found.astype(float)
 
 
 def _table(path: Path) -> tuple[npt.NDArray, _Header]:
@@ -176,42 +163,38 @@ def _table(path: Path) -> tuple[npt.NDArray, _Header]:
     comments: list[str] = []
     separator: str | None = None
     commas = False
-    for number, line in enumerate(_lines(path), 1):
-        if line.startswith("#"):
-            comments.append(line)
-        if not line or line.startswith("#"):
-            continue
-        if not rows:
-            separator = next(sep for sep in _SEPARATORS if sep is None or sep in line)
-            # "0,5 0,7" has commas within numbers, "0.5, 0.7" between them
-            blanks = line.split()
-            if separator == "," and len(blanks) > 1 and all(map(_DECIMAL_COMMAS.fullmatch, blanks)):
-                separator = None
-            commas = separator != "," and "," in line and "." not in line
-        if len(rows) == MOST:
-            raise InputError(f"a map has up to {MOST} rows")
-        parts = line.rstrip(separator or "").split(separator)
-        try:
-            row = np.array([float(part.replace(",", ".") if commas else part) for part in parts])
-        except ValueError as error:
-            raise InputError(f"line {number}: {error}; a map has only numbers") from None
-        if rows and len(row) != len(rows[0]):
-            raise InputError(
-                f"line {number} has {len(row)} numbers, and the first row {len(rows[0])}"
-            )
-        rows.append(row)
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
+        for number, text in enumerate(file, 1):
+            line = text.strip()
+            if line.startswith("#"):
+                comments.append(line)
+            if not line or line.startswith("#"):
+                continue
+            if not rows:
+                separator = next(sep for sep in _SEPARATORS if sep is None or sep in line)
+                # "0,5 0,7" has commas within numbers, "0.5, 0.7" between them
+                blanks = line.split()
+                if (
+                    separator == ","
+                    and len(blanks) > 1
+                    and all(map(_DECIMAL_COMMAS.fullmatch, blanks))
+                ):
+                    separator = None
+                commas = separator != "," and "," in line and "." not in line
+            if len(rows) == MOST:
+                raise InputError(f"a map has up to {MOST} rows")
+            parts = line.rstrip(separator or "").split(separator)
+            try:
+                row = np.array(
+                    [float(part.replace(",", ".") if commas else part) for part in parts]
+                )
+            except ValueError as error:
+                raise InputError(f"line {number}: {error}; a map has only numbers") from None
+            if rows and len(row) != len(rows[0]):
+                raise InputError(
+                    f"line {number} has {len(row)} numbers, and the first row {len(rows[0])}"
+                )
+            rows.append(row)
     if not rows:
         raise InputError("it has no numbers")
     return np.array(rows), _header(comments)
-
-
-def _lines(path: Path) -> Iterator[str]:
-    """Yield the lines of a text without keeping them; a map has up to 4096 long ones."""
-    with io.TextIOWrapper(open_regular(path), "utf-8-sig", errors="replace") as text:
-        for number in itertools.count(1):
-            line = text.readline(LONGEST_LINE)
-            if len(line) == LONGEST_LINE:
-                raise InputError(f"line {number} has more than {LONGEST_LINE:,} characters")
-            if not line:
-                return
-            yield line.strip()

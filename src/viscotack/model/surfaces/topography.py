@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError, install_command
-from viscotack.files.bounded import check_unpacked, open_regular
+from viscotack.files.archive import check_unpacked
 
 from .heights import MOST, HeightMap
 
@@ -36,7 +36,7 @@ def read_topography(
             f"files that end with {path.suffix!r} are read by SurfaceTopography; install it with: "
             f"{install_command('surfaces')}; or export the heights as text or .npy"
         ) from None
-    with open_regular(path) as file:
+    with open(path, "rb") as file:
         is_text = b"\0" not in file.read(_LOOKED)
         if is_text and path.stat().st_size > _LARGEST_TEXT:
             raise InputError(

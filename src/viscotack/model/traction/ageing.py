@@ -50,16 +50,7 @@ class _Ageing(OverRest):
         """Return the relative growth of the tension after times in contact [s], not negative."""
         return self._growth(np.asarray(contact_time, dtype=float) / self.reference_time)
 
-    def traction(self, gap: npt.ArrayLike, contact_time: npt.ArrayLike = 0.0) -> Array:
-        """Return the traction [Pa], positive in tension, at gaps [m] after times in contact [s]."""
-        tension = self.at_rest.traction(gap)
-        return tension + np.maximum(tension, 0) * self.growth_after(contact_time)
-
-    def stiffness(self, gap: npt.ArrayLike, contact_time: npt.ArrayLike = 0.0) -> Array:
-        """Return the derivative of the traction by the gap after a time in contact [Pa/m]."""
-        law = self.at_rest
-        attracts = law.traction(gap) > 0
-        return law.stiffness(gap) * (1 + attracts * self.growth_after(contact_time))
+    _excess = growth_after
 
     @property
     def settled(self) -> float:

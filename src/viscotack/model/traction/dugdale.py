@@ -7,12 +7,12 @@ from typing import Annotated, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity
 from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 
 @dataclass(frozen=True)
-class Dugdale:
+class Dugdale(Checked):
     r"""Dugdale law: constant tension over a finite range, with a stiff wall at contact.
 
     With :math:`u = h/h_0` the ideal law has the tension
@@ -63,9 +63,6 @@ class Dugdale:
     fall: Annotated[
         float, Quantity("1", "f", "width over h0 of the fall of the tension", above=0, most=1)
     ] = 0.5
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""

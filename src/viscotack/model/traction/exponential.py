@@ -6,12 +6,12 @@ from typing import Annotated, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import Quantity, conform
+from viscotack.cards import Checked, Quantity
 from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 
 @dataclass(frozen=True)
-class Exponential:
+class Exponential(Checked):
     r"""Exponential law: linear near the equilibrium gap, with an exponential tail.
 
     With the decay length :math:`\ell = d\,h_0`
@@ -50,9 +50,6 @@ class Exponential:
     work_of_adhesion: WorkOfAdhesion
     equilibrium_gap: EquilibriumGap
     decay: Annotated[float, Quantity("1", "d", "decay length over h0", above=0, example="0.25")]
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""

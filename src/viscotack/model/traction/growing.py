@@ -56,20 +56,7 @@ class _Growing(OverRest):
         u = np.asarray(opening_speed, float) / self.reference_speed
         return np.where(u > 0, self._slope(np.maximum(u, 0)), 0.0) / self.reference_speed
 
-    def traction(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike = 0.0) -> Array:
-        """Return the traction [Pa], positive in tension, at gaps [m] and opening speeds [m/s]."""
-        tension = self.at_rest.traction(gap)
-        return tension + np.maximum(tension, 0) * self.growth(opening_speed)
-
-    def stiffness(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike = 0.0) -> Array:
-        """Return the derivative of the traction by the gap at an opening speed [Pa/m]."""
-        law = self.at_rest
-        attracts = law.traction(gap) > 0
-        return law.stiffness(gap) * (1 + attracts * self.growth(opening_speed))
-
-    def damping(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike) -> Array:
-        """Return the derivative of the traction by the opening speed at a gap [Pa s/m]."""
-        return np.maximum(self.at_rest.traction(gap), 0) * self.growth_slope(opening_speed)
+    _excess = growth
 
     @property
     def own_time(self) -> float:

@@ -6,12 +6,12 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.cards import conform
+from viscotack.cards import Checked
 from viscotack.model.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 
 @dataclass(frozen=True)
-class LennardJones:
+class LennardJones(Checked):
     r"""Lennard-Jones 3-9 law: attraction between half-spaces and a steep repulsion.
 
     .. math:: \sigma(h) = \frac{8 \Delta\gamma_0}{3 h_0}
@@ -44,9 +44,6 @@ class LennardJones:
 
     work_of_adhesion: WorkOfAdhesion
     equilibrium_gap: EquilibriumGap
-
-    def __post_init__(self) -> None:
-        conform(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""

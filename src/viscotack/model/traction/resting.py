@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, Self
 
+import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
@@ -63,6 +64,24 @@ class OverRest:
             work_of_adhesion=self.work_of_adhesion,
             equilibrium_gap=self.equilibrium_gap,
         )
+
+    def traction(self, gap: npt.ArrayLike, at: npt.ArrayLike = 0.0) -> Array:
+        """Return the traction [Pa], positive in tension, at gaps [m].
+
+        `at` is the opening speed [m/s] or the time in contact [s] by which the tension grows.
+        """
+        tension = self.at_rest.traction(gap)
+        return tension + np.maximum(tension, 0) * self._excess(at)
+
+    def stiffness(self, gap: npt.ArrayLike, at: npt.ArrayLike = 0.0) -> Array:
+        """Return the derivative of the traction by the gap [Pa/m]; `at` as for the traction."""
+        law = self.at_rest
+        attracts = law.traction(gap) > 0
+        return law.stiffness(gap) * (1 + attracts * self._excess(at))
+
+    def _excess(self, at: npt.ArrayLike, /) -> Array:
+        """Return the relative growth of the tension."""
+        raise NotImplementedError
 
     def energy(self, gap: npt.ArrayLike) -> Array:
         """Return the stored energy per area [J/m^2], that of the law at rest."""

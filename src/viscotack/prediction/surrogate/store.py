@@ -21,7 +21,6 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
-from viscotack.files.bounded import open_regular
 from viscotack.files.whole import write_whole
 
 from .contact import Contact
@@ -131,7 +130,7 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
     try:
         # open the file here, because NumPy does not close damaged files
-        with open_regular(path) as stream:
+        with open(path, "rb") as stream:
             arrays = read_arrays(stream, lambda _: True, _MOST)
         words = json.loads(arrays.pop(_WORDS).tobytes())
         if words["form"] != _FORM:

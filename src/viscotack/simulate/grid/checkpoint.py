@@ -21,7 +21,6 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
-from viscotack.files.bounded import open_regular
 from viscotack.files.whole import writing_whole
 
 # Wall time after which a run is written again [s]; a kill loses this and the step under way.
@@ -68,7 +67,7 @@ class Checkpoint:
         if not path.exists():
             return found
         try:
-            with open_regular(path) as file:
+            with open(path, "rb") as file:
                 arrays = read_arrays(file, lambda name: bool(_NAME.fullmatch(name)), _LARGEST)
             stored = str(arrays.pop("key"))
         except (ValueError, OSError, KeyError, EOFError, zlib.error, BadZipFile) as error:

@@ -18,7 +18,6 @@ from scipy.fft import set_workers
 from viscotack.clock import TimeUp, limited
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
-from viscotack.model.protocol import Move
 from viscotack.model.traction import Tabulated
 from viscotack.result import Event, Outcome
 from viscotack.simulate.bounds import check_clock
@@ -149,7 +148,7 @@ def pull(
     check_memory(contact.plane, 0)
     with limited(time_limit), set_workers(threads):
         try:
-            start = relaxed(contact, problem.units.start(problem.protocol.start), kept)
+            start = relaxed(contact, problem.units.scaled(problem.protocol.start), kept)
         except TimeUp as limit:
             raise InputError(f"{limit} before the relaxed start was found") from None
         except ArithmeticError as reason:
@@ -194,16 +193,15 @@ def _run(
     progress: Callable[[float], None] | None,
 ) -> GridRun:
     """Simulate the test."""
-    units, test = problem.units, problem.protocol
+    test = problem.units.scaled(problem.protocol)
     material = problem.material.reduced()
-    moves: tuple[Move, ...] = units.moves(test.moves)
-    rate, stiffness = units.speed(test.speed), units.stiffness(test.stiffness)
-    legs = legs_of(moves, rate, stiffness, contact, settings)  # type: ignore[arg-type]
+    moves, stiffness = test.moves, test.stiffness
+    legs = legs_of(moves, test.speed, stiffness, contact, settings)  # type: ignore[arg-type]
     began: Any = _Start(start.depth, contact.force_under(start.tension, start.depth))
     depths = reached(began, moves, contact)  # type: ignore[arg-type]
     check_clock(legs, moves, depths, contact)  # type: ignore[arg-type]
     spring = spring_travel(began, depths, moves, stiffness, material.modulus_ratio, contact)  # type: ignore[arg-type]
-    longest = longest_time(depths, moves, rate, contact, spring)  # type: ignore[arg-type]
+    longest = longest_time(depths, moves, test.speed, contact, spring)  # type: ignore[arg-type]
     modes = modes_of_run(material, legs, longest, settings)
     check_memory(contact.plane, len(modes.weights))
     return march_on_grid(
@@ -259,8 +257,7 @@ def _result(
     energy = force_unit * h0
     seen, books = history.snapshots, history.books
     force = np.array([s.force for s in seen])
-    units = problem.units
-    stiffness = units.stiffness(problem.protocol.stiffness)
+    stiffness = problem.units.scaled(problem.protocol).stiffness
     spring, depth = spring_energy(force, stiffness), np.array([s.depth for s in seen])
     residual = float(np.max(np.abs(history.imbalances())))
     touching = np.array(run.touching)

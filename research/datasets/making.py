@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.campaign import Plan, Progress, Store, read_plan, run
+from viscotack.datasets.files import METADATA_KEY, plan_path
 from viscotack.files.arrow import arrow
 from viscotack.files.whole import write_whole
 from viscotack.version import __version__
 
 from .columns import KEPT, units
-from .files import METADATA_KEY, plan_path
 
 # Refinement factor of each pass relative to the previous one, and number of passes.
 _FINER, _PASSES = 4.0, 3

@@ -1,4 +1,4 @@
-r"""Sample the cases of `solids`: ``python -m viscotack.datasets.drawing_solids --cases 20000``.
+r"""Sample the cases of `solids`: ``python -m research.datasets.drawing_solids --cases 20000``.
 
 Tabor number, modulus ratio and depth are distributed uniformly in the logarithm over the ranges of
 `broad`, and every case has its own solid. The rate is distributed uniformly in the logarithm
@@ -64,7 +64,7 @@ def _text(value: float) -> str:
 def main() -> None:
     """Write a list of cases to standard output."""
     parser = argparse.ArgumentParser(
-        prog="python -m viscotack.datasets.drawing_solids", description=__doc__
+        prog="python -m research.datasets.drawing_solids", description=__doc__
     )
     parser.add_argument("--cases", type=int, required=True, help="number of cases")
     parser.add_argument("--first", type=int, default=0, help="number of the first solid")

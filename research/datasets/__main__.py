@@ -1,12 +1,12 @@
-"""Compute a dataset again: ``python -m viscotack.datasets NAME --out DIR [--workers N]``."""
+"""Compute a dataset again: ``python -m research.datasets NAME --out DIR [--workers N]``."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from viscotack.campaign import Progress
+from viscotack.datasets import NAMES
 
-from .files import NAMES
 from .making import make
 
 
@@ -16,7 +16,7 @@ def _say(progress: Progress) -> None:
 
 def main() -> None:
     """Run the campaigns and print the path of the file."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.datasets", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m research.datasets", description=__doc__)
     parser.add_argument("name", choices=NAMES, help="dataset")
     parser.add_argument(
         "--out", type=Path, required=True, help="folder of the campaigns; run again to continue"

@@ -1,0 +1,465 @@
+r"""Export and import of Prony series for other programs, each with its own convention.
+
+The conventions differ in three points:
+
+==========  ==============================  ==========================  =====================
+program     modulus of the elastic part     strength of a branch        rate of a branch
+==========  ==============================  ==========================  =====================
+abaqus      long-term E (stated so)         g_i = G_i/G(0), k_i alike   relaxation time
+ansys       instantaneous E                 alpha_i = G_i/G(0)          relaxation time
+comsol      long-term E                     G_m [Pa]                    relaxation time
+==========  ==============================  ==========================  =====================
+
+The Poisson ratio is constant here, so shear and bulk relax with the same ratios. If a program has a
+bulk series, it is exported as well; an imported file with a different bulk series is rejected. All
+three reject a Poisson ratio of 0.5, or divide by zero: such a solid is exported with a bulk modulus
+that does not relax.
+"""
+
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from scipy.constants import gas_constant
+
+from viscotack.errors import InputError
+from viscotack.model.materials.branched_solids import Prony
+from viscotack.model.materials.checks import positive
+from viscotack.model.materials.shift import WLF, Arrhenius, Shift
+from viscotack.units import parse
+
+CODES = ("abaqus", "ansys", "comsol")
+# How each program marks a comment.
+_MARKS = {"abaqus": "**", "ansys": "!", "comsol": "%"}
+_COMMENT = re.compile(r"units:\s*pressure\s+(\S+?),\s*time\s+(\S+)")
+
+
+@dataclass(frozen=True)
+class Units:
+    """The units of the numbers in a file.
+
+    Parameters
+    ----------
+    pressure : str
+        Such as "Pa" or "MPa".
+    time : str
+        Such as "s" or "ms".
+
+    Examples
+    --------
+    >>> Units("MPa", "ms").pascal, Units("MPa", "ms").second
+    (1000000.0, 0.001)
+    """
+
+    pressure: str
+    time: str
+
+    def __post_init__(self):
+        positive("a unit of pressure", self.pascal, "Pa")
+        positive("a unit of time", self.second, "s")
+
+    @property
+    def pascal(self) -> float:
+        """The unit of pressure in Pa."""
+        # avoid importing the units library for SI
+        return 1.0 if self.pressure == "Pa" else parse(f"1 {self.pressure}", "Pa")
+
+    @property
+    def second(self) -> float:
+        """The unit of time in s."""
+        return 1.0 if self.time == "s" else parse(f"1 {self.time}", "s")
+
+    def words(self) -> str:
+        """Return the comment that states the units."""
+        return f"units: pressure {self.pressure}, time {self.time}"
+
+
+SI = Units("Pa", "s")
+_INCOMPRESSIBLE = "incompressible solid, written with a bulk modulus that does not relax"
+_SAME = 1e-6  # relative difference of two series that are the same
+
+
+def exported(
+    material: Prony,
+    code: str,
+    *,
+    units: Units = SI,
+    notes: tuple[str, ...] = (),
+    bulk_modulus: float | None = None,
+    shift: Shift | None = None,
+) -> str:
+    """Export a Prony series as text for another program.
+
+    Parameters
+    ----------
+    material : Prony
+        The solid; for a power law use :func:`viscotack.model.materials.conversion.prony_form`
+        first.
+    code : str
+        "abaqus", "ansys" or "comsol".
+    units : Units
+        Units of the numbers, stated in the first lines of the text.
+    notes : tuple of str
+        Comments at the beginning of the text: name, temperature, error of the series.
+    bulk_modulus : float, optional
+        Bulk modulus [Pa], constant in time, for a solid with a Poisson ratio of 0.5, which the
+        programs forbid. About 2e9 for rubber.
+    shift : WLF, Arrhenius or TabulatedShift, optional
+        Temperature dependence of the times, relative to the temperature of the material; exported
+        for Abaqus (``*TRS``) and Ansys (``TB,SHIFT``), mentioned in a comment for the others.
+
+    Raises
+    ------
+    ValueError
+        If the Poisson ratio is 0.5 and no bulk modulus is given, or one is given without need.
+
+    Notes
+    -----
+    Numbers have 17 digits, so importing them gives the same series to round-off. For ratios to the
+    instantaneous modulus, the small difference 1 - sum(g) is the modulus ratio k: a rounding error
+    of the ratios is amplified by 1/k in the long-term modulus. Do not round them by hand.
+
+    Examples
+    --------
+    >>> solid = Prony(rubbery_modulus=1e6, branches=[(9e6, 0.1)], poisson_ratio=0.4)
+    >>> print(exported(solid, "abaqus", units=Units("MPa", "s")))
+    ** units: pressure MPa, time s
+    *MATERIAL, NAME=VISCOTACK
+    *ELASTIC, MODULI=LONG TERM
+    1.0, 0.4
+    *VISCOELASTIC, TIME=PRONY
+    0.9, 0.9, 0.1
+    <BLANKLINE>
+    """
+    _check_code(code)
+    glassy = material.glassy_modulus
+    # an incompressible solid has another Young's modulus and Poisson ratio in the program
+    tensile = glassy if code == "ansys" else material.rubbery_modulus
+    modulus, nu = tensile, material.poisson_ratio
+    if bulk_modulus is not None:
+        if nu != 0.5:
+            raise InputError(f"bulk_modulus applies only to a Poisson ratio of 0.5, got {nu:g}")
+        K = positive("bulk_modulus", bulk_modulus, "Pa")
+        if K < glassy / 3:
+            raise InputError(
+                f"bulk_modulus = {K:g} Pa must exceed the glassy shear modulus, {glassy / 3:g} Pa, "
+                "for a nearly incompressible solid"
+            )
+        modulus, nu = (
+            9 * K * tensile / (9 * K + tensile),
+            (9 * K - 2 * tensile) / (9 * K + tensile) / 2,
+        )
+        less = 100 * glassy / (9 * K + glassy)
+        notes = (
+            *notes,
+            f"{_INCOMPRESSIBLE}: {bulk_modulus!r} Pa",
+            f"Young's modulus at short times is {less:.2g} % below the incompressible one",
+        )
+    elif nu == 0.5:
+        raise InputError(
+            f"{code} forbids a Poisson ratio of 0.5; give the bulk modulus (bulk_modulus=2e9, on "
+            'the command line --bulk-modulus "2 GPa", about that of rubber), or use a material '
+            "with a ratio below 0.5"
+        )
+    if shift is not None and code == "comsol":
+        notes = (*notes, "this format has no temperature shift: export at each temperature")
+    mark, scaled = _MARKS[code], modulus / units.pascal
+    ratios = [(E / glassy, time / units.second) for E, time in material.branches]
+    bulk = bulk_modulus is None
+    if code == "abaqus":
+        rows = [
+            "*MATERIAL, NAME=VISCOTACK",
+            "*ELASTIC, MODULI=LONG TERM",
+            f"{scaled!r}, {nu!r}",
+            "*VISCOELASTIC, TIME=PRONY",
+            *(f"{g!r}, {g if bulk else 0.0!r}, {time!r}" for g, time in ratios),
+        ]
+    elif code == "ansys":
+        rows = [f"MP,EX,1,{scaled!r}", f"MP,NUXY,1,{nu!r}"]
+        for part in ("SHEAR", "BULK") if bulk else ("SHEAR",):
+            rows.append(f"TB,PRONY,1,1,{len(ratios)},{part}")
+            for first in range(0, len(ratios), 3):
+                values = ",".join(f"{g!r},{time!r}" for g, time in ratios[first : first + 3])
+                rows.append(f"TBDATA,{2 * first + 1},{values}")
+    else:
+        factor = _shear_factor(material.poisson_ratio) / units.pascal
+        rows = [
+            f"% linear elastic material: long-term Young's modulus {scaled!r}",
+            f"% linear elastic material: Poisson ratio {nu!r}",
+            "% by default only the deviatoric part relaxes: make the volumetric part relax with "
+            "the same ratios, unless the solid is nearly incompressible",
+            "% branch, shear modulus, relaxation time",
+            *(
+                f"{i} {E * factor!r} {time / units.second!r}"
+                for i, (E, time) in enumerate(material.branches, 1)
+            ),
+        ]
+    comments = [line for note in notes for line in note.splitlines()]
+    lines = [f"{mark} {line}" for line in (*comments, units.words())]
+    return "\n".join([*lines, *rows, *_shifted(code, shift)]) + "\n"
+
+
+def _shifted(code: str, shift: Shift | None) -> list[str]:
+    """Format the shift law: log10 A = -c1 (T - T0)/(c2 + T - T0) in Abaqus, minus it in Ansys."""
+    if shift is None or code == "comsol":
+        return []
+    T, abaqus = shift.reference_temperature, code == "abaqus"
+    match shift:
+        case WLF(c1=c1, c2=c2):
+            if abaqus:
+                return [
+                    "** temperatures in kelvin",
+                    "*TRS, DEFINITION=WLF",
+                    f"{T!r}, {c1!r}, {c2!r}",
+                ]
+            return [
+                "! temperatures in kelvin: TOFFST,0",
+                "TB,SHIFT,1,1,3,WLF",
+                f"TBDATA,1,{T!r},{c1!r},{c2!r}",
+            ]
+        case Arrhenius(activation_energy=energy):
+            if abaqus:
+                return [
+                    "** temperatures in kelvin, energy in J/mol; the model needs *PHYSICAL "
+                    "CONSTANTS,",
+                    "** ABSOLUTE ZERO=0., UNIVERSAL GAS CONSTANT=8.31446",
+                    "*TRS, DEFINITION=ARRHENIUS",
+                    f"{T!r}, {energy!r}",
+                ]
+            return [
+                "! temperatures in kelvin: TOFFST,0; ln A = H/R (1/T0 - 1/T)",
+                "TB,SHIFT,1,1,2,TN",
+                f"TBDATA,1,{T!r},{energy / gas_constant!r}",
+            ]
+    name = "*TRS" if abaqus else "TB,SHIFT"
+    return [f"{_MARKS[code]} {name} does not support a shift table: fit a WLF or Arrhenius law"]
+
+
+@dataclass(frozen=True)
+class _Deck:
+    """What a text states, in its own units: one elastic modulus and the branches.
+
+    Branches are (line, shear, bulk, time); shear and bulk are ratios to the instantaneous modulus,
+    or of comsol shear moduli.
+    """
+
+    modulus: float | None
+    poisson_ratio: float | None
+    branches: list[tuple[int, float, float, float]]
+    is_instantaneous: bool = False
+
+
+def imported(
+    text: str,
+    code: str,
+    *,
+    units: Units | None = None,
+    rubbery_modulus: float | None = None,
+    poisson_ratio: float | None = None,
+) -> Prony:
+    """Import the Prony series from a text of another program.
+
+    Parameters
+    ----------
+    text : str
+        Text in the format of the program; commands unrelated to the series are ignored.
+    code : str
+        One of those of :func:`exported`.
+    units : Units, optional
+        Units of the numbers; by default from the comment "units: pressure ..., time ...".
+    rubbery_modulus, poisson_ratio : float, optional
+        Long-term Young's modulus [Pa] and Poisson ratio, which the format of comsol lacks unless a
+        comment of this package states them.
+
+    Raises
+    ------
+    ValueError
+        If something is missing, is not a number, or does not describe a solid with a constant
+        Poisson ratio; the message names the line.
+    """
+    _check_code(code)
+    given = rubbery_modulus is not None or poisson_ratio is not None
+    if given and code != "comsol":
+        raise InputError(f"{code} states its elastic constants; leave them out", field="code")
+    if units is None:
+        stated = _COMMENT.search(text)
+        if stated is None:
+            raise InputError(
+                "the text does not state its units; give them (units=Units('MPa', 's'), or on the "
+                "command line --pressure-unit and --time-unit)"
+            )
+        units = Units(*stated.groups())
+    deck = _READERS[code](text)
+    modulus = None if deck.modulus is None else deck.modulus * units.pascal
+    modulus = modulus if rubbery_modulus is None else rubbery_modulus
+    nu = deck.poisson_ratio if poisson_ratio is None else poisson_ratio
+    if modulus is None or nu is None:
+        raise InputError(
+            f"the text lacks the {'instantaneous' if code == 'ansys' else 'long-term'} Young's "
+            "modulus and the Poisson ratio; of a table of branches give both (rubbery_modulus, "
+            "poisson_ratio)"
+        )
+    if not deck.branches:
+        raise InputError("the text contains no branch of a Prony series")
+    if not given and _INCOMPRESSIBLE in text:
+        modulus, nu = 3 * modulus * _shear_factor(nu), 0.5
+    if code == "comsol":
+        factor = units.pascal / _shear_factor(nu)
+        branches = [(G * factor, time * units.second) for _, G, _, time in deck.branches]
+        return Prony(rubbery_modulus=modulus, branches=tuple(branches), poisson_ratio=nu)
+    for line, shear, bulk, _ in deck.branches:
+        if nu != 0.5 and abs(shear - bulk) > _SAME * max(shear, bulk):
+            raise InputError(
+                f"line {line}: shear and bulk relax differently ({shear:g} and {bulk:g}), so the "
+                "Poisson ratio would depend on time, but here it must be constant. Make the bulk "
+                "series equal to the shear series, or state an incompressible solid (Poisson "
+                "ratio 0.5)"
+            )
+    rest = 1 - sum(sorted(g for _, g, _, _ in deck.branches))
+    if rest <= 0:
+        raise InputError(
+            f"the ratios to the instantaneous modulus sum to {1 - rest:.12g}; a solid needs a sum "
+            "below 1, otherwise its long-term modulus is not positive"
+        )
+    glassy = modulus if deck.is_instantaneous else modulus / rest
+    return Prony(
+        rubbery_modulus=modulus * rest if deck.is_instantaneous else modulus,
+        branches=tuple((g * glassy, t * units.second) for _, g, _, t in deck.branches if g > 0),
+        poisson_ratio=nu,
+    )
+
+
+def _of_abaqus(text: str) -> _Deck:
+    """Read the series of the first ``*VISCOELASTIC`` with its ``*ELASTIC``."""
+    keyword, instantaneous = "", False
+    elastic: tuple[float, float] | tuple[None, None] = None, None
+    rows: list[tuple[int, float, float, float]] = []
+    for line, words in _lines(text, "**"):
+        if words.startswith("*"):
+            command = words.upper().replace(" ", "")
+            if command.startswith("*MATERIAL"):
+                if rows:
+                    break
+                elastic = None, None  # it belonged to another material
+            keyword = command.split(",")[0]
+            if keyword == "*ELASTIC":
+                instantaneous = "MODULI=INSTANTANEOUS" in command
+            if keyword == "*VISCOELASTIC" and "TIME=PRONY" not in command:
+                raise InputError(f"line {line}: expected TIME=PRONY, got {words!r}")
+        elif keyword in ("*ELASTIC", "*VISCOELASTIC"):
+            values = [_number(w, line, "a value") if w.strip() else 0.0 for w in words.split(",")]
+            if keyword == "*VISCOELASTIC":
+                if len(values) < 3:
+                    raise InputError(f"line {line}: expected g_i, k_i, tau_i, got {words!r}")
+                rows.append((line, values[0], values[1], values[2]))
+            elif elastic[0] is None and len(values) >= 2:
+                elastic = values[0], values[1]
+    if elastic[0] is None:
+        raise InputError("there is no *ELASTIC with Young's modulus and Poisson ratio")
+    return _Deck(*elastic, rows, instantaneous)
+
+
+def _of_ansys(text: str) -> _Deck:
+    """Read the series of ``TB,PRONY`` with ``MP,EX`` and ``MP,NUXY`` (or PRXY)."""
+    constants: dict[str, float] = {}
+    tables: dict[str, dict[int, float]] = {}
+    lines: dict[str, int] = {}
+    counts: dict[str, int] = {}
+    part = ""
+    for line, raw in _lines(text, "!"):
+        words = [*(w.strip() for w in raw.split(",")), *[""] * 5]
+        command = words[0].upper()
+        if command == "MP" and words[3]:
+            constants[words[1].upper()] = _number(words[3], line, words[1])
+        elif command == "TB":
+            part = ""
+            if words[1].upper() == "PRONY":
+                part = words[5].upper() or "SHEAR"
+                tables[part], lines[part] = {}, line
+                if words[4]:
+                    counts[part] = int(_number(words[4], line, "the number of pairs"))
+        elif command == "TBDATA" and part:
+            if not words[1] and tables[part]:
+                raise InputError(
+                    f"line {line}: TBDATA must begin with the position of its first number"
+                )
+            first = int(_number(words[1], line, "the place of TBDATA")) if words[1] else 1
+            for place, word in enumerate(words[2:], first):
+                if word:
+                    tables[part][place] = _number(word, line, "a value")
+    if "SHEAR" not in tables:
+        raise InputError("there is no TB,PRONY with SHEAR in the text")
+    for part, table in tables.items():
+        if part in counts and len(table) != 2 * counts[part]:
+            raise InputError(
+                f"line {lines[part]}: TB states {counts[part]} pairs, but {len(table)} numbers "
+                "follow"
+            )
+        if sorted(table) != list(range(1, len(table) + 1)) or len(table) % 2:
+            raise InputError(
+                f"line {lines[part]}: the numbers of TBDATA must be complete pairs from position 1"
+            )
+    shear, bulk = tables["SHEAR"], tables.get("BULK", {})
+    rows = []
+    for place in range(1, max(len(shear), len(bulk)), 2):
+        time, other = shear.get(place + 1, 0.0), bulk.get(place + 1, 0.0)
+        same = abs(time - other) <= _SAME * time
+        k = bulk.get(place, 0.0) if same else 0.0
+        rows.append((lines["SHEAR"], shear.get(place, 0.0), k, time))
+    nu = constants.get("NUXY", constants.get("PRXY"))
+    return _Deck(constants.get("EX"), nu, rows, is_instantaneous=True)
+
+
+def _of_comsol(text: str) -> _Deck:
+    """Read a table of branches; the elastic constants are in comments, if anywhere."""
+    rows = []
+    for line, raw in _lines(text, "%"):
+        words = raw.replace(",", " ").split()
+        if len(words) != 3:
+            raise InputError(
+                f"line {line}: expected branch, shear modulus and relaxation time, got {raw!r}"
+            )
+        G = _number(words[1], line, "the shear modulus")
+        rows.append((line, G, G, _number(words[2], line, "the relaxation time")))
+    found: list[float | None] = []
+    for name in ("long-term Young's modulus", "Poisson ratio"):
+        stated = re.search(rf"{name}\s+(\S+)", text)
+        line = stated and text.count("\n", 0, stated.start()) + 1
+        found.append(stated and _number(stated[1], line or 0, name))
+    return _Deck(found[0], found[1], rows)
+
+
+_READERS: dict[str, Callable[[str], _Deck]] = {
+    "abaqus": _of_abaqus,
+    "ansys": _of_ansys,
+    "comsol": _of_comsol,
+}
+
+
+def _check_code(code: str) -> None:
+    if code not in CODES:
+        raise InputError(f"the program must be one of {', '.join(CODES)}, got {code!r}")
+
+
+def _lines(text: str, comment: str) -> Iterator[tuple[int, str]]:
+    """Yield number and text of each line that contains more than a comment."""
+    for line, raw in enumerate(text.splitlines(), 1):
+        if words := raw.split(comment)[0].strip():
+            yield line, words
+
+
+def _shear_factor(poisson_ratio: float) -> float:
+    """Return G/E = 1/(2 (1 + nu))."""
+    return 1 / (2 * (1 + poisson_ratio))
+
+
+def _number(word: str, line: int, what: str) -> float:
+    """Parse a number; raise an error that names the line."""
+    try:
+        value = float(word.lower().replace("d", "e"))  # Fortran writes 1.0D+00
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError(f"line {line}: {what} must be a number, got {word!r}")
+    return value
