@@ -11,7 +11,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-from .file import MOST_POINTS, Curve, LabFile, positive
+from .file import Curve, LabFile
 
 START = b"\x05\x00"  # version 5, little-endian
 _HEAD = struct.Struct("<hHiiii4i4iiii")
@@ -32,19 +32,13 @@ def curves(file: LabFile, *_: object) -> list[Curve] | None:
     if not file.content.startswith(START) or file.lines or len(file.content) <= _DATA:
         return None
     columns, note = _wave(file)
-    for needed in ("Defl", "ZSnsr"):
-        if needed not in columns:
-            raise file.error(
-                f"no column {needed}; the columns are {', '.join(columns) or 'not named'}"
-            )
     # the first entry counts
     noted = dict(reversed(_NOTED.findall(note)))
-    for needed in ("SpringConstant", "NumPtsPerSec"):
-        if needed not in noted:
-            raise file.error(
-                f"the note lacks {needed}; calibrate the cantilever and save the curve again"
-            )
-    stiffness, rate = (positive(file, noted, key) for key in ("SpringConstant", "NumPtsPerSec"))
+    if missing := {"Defl", "ZSnsr"} - columns.keys() or {"SpringConstant"} - noted.keys():
+        raise file.error(
+            f"the wave lacks {min(missing)}; calibrate the cantilever and save the curve again"
+        )
+    stiffness, rate = float(noted["SpringConstant"]), float(noted["NumPtsPerSec"])
     deflection, height = columns["Defl"], columns["ZSnsr"]
     keep = np.isfinite(deflection) & np.isfinite(height)
     time = np.arange(1, height.size + 1) / rate
@@ -55,23 +49,16 @@ def curves(file: LabFile, *_: object) -> list[Curve] | None:
 def _wave(file: LabFile) -> tuple[dict[str, Array], str]:
     """Return the named columns of a wave, and its note."""
     content = file.content
-    head = _HEAD.unpack_from(content)
-    size, formula, note, units, dimension_units = head[2], head[3], head[4], head[5], head[6:10]
-    labels = head[10:14]
+    _, _, _, formula, note, units, *sizes = _HEAD.unpack_from(content)[:14]
     points, kind = struct.unpack_from("<ih", content, 64 + 12)
-    rows, wide, deep, _ = struct.unpack_from("<4i", content, 64 + 68)
-    if kind not in _TYPES:
-        raise file.error(f"the wave contains numbers of type {kind}, which is not supported")
-    sizes = (size, formula, note, units, *dimension_units, *labels)
-    if min(sizes) < 0 or not 0 < points <= MOST_POINTS or deep or rows * wide != points:
-        raise file.error("the header of the wave is inconsistent, or it is not a force curve")
-    end = _DATA + points * np.dtype(_TYPES[kind]).itemsize
-    behind = end + formula + note + units + sum(dimension_units)
-    if len(content) < behind + labels[0] + labels[1]:
-        raise file.error("the wave is shorter than its header states; the file is truncated")
-    table = np.frombuffer(content[_DATA:end], dtype=_TYPES[kind]).astype(float)
+    rows, wide = struct.unpack_from("<2i", content, 64 + 68)
+    table = np.frombuffer(content, _TYPES[kind], points, _DATA).astype(float)
     table = table.reshape((rows, wide), order="F")
-    names = content[behind + labels[0] : behind + labels[0] + labels[1]]
+    end = _DATA + points * np.dtype(_TYPES[kind]).itemsize
+    at = end + formula + note + units + sum(sizes[:5])
+    names = content[at : at + sizes[5]]
+    if len(names) < sizes[5]:
+        raise file.error("the wave is shorter than its header states; the file is truncated")
     found = [
         names[i : i + _LABEL].split(b"\0")[0].decode("latin-1")
         for i in range(_LABEL, len(names), _LABEL)

@@ -6,14 +6,13 @@ commas. The force is the spring constant, which the file does not state, times t
 """
 
 import re
+from itertools import groupby
 
 import numpy as np
 
-from viscotack.errors import InputError
 from viscotack.lab.options import TackOptions
 
 from .file import Curve, LabFile
-from .numbers import number
 
 _FIRST = "Quasi static measurement routine"
 _LOOKED = 20  # lines searched for the end of the headings
@@ -33,37 +32,31 @@ def curves(file: LabFile, given: TackOptions) -> list[Curve] | None:
         return None
     if given.spring_constant is None:
         raise file.error("the file states no stiffness of its spring; set --spring-constant")
-    ends = [i for i, text in enumerate(file.lines[:_LOOKED]) if text.strip() == "eoh"]
-    heads = [text for text in file.lines[:_LOOKED] if text.startswith(_COLUMNS[0])]
-    if not ends or not heads:
-        raise file.error("no headings above a line 'eoh'")
-    headings = [re.fullmatch(r"(.*?)\s*\[(.*)\]", head.strip()) for head in heads[0].split("\t")]
-    names = [found[1] if found else "" for found in headings]
-    if any(name not in names for name in _COLUMNS):
+    end = [text.strip() for text in file.lines[:_LOOKED]].index("eoh")
+    heads = [text for text in file.lines[:end] if text.startswith(_COLUMNS[0])][0].split("\t")
+    names, units = zip(*(re.split(r"\s*[\[\]]", f"{head}[]")[:2] for head in heads), strict=True)
+    if not set(_COLUMNS) <= set(names):
         raise file.error(f"expected the columns {', '.join(_COLUMNS)} with units")
     places = [names.index(name) for name in _COLUMNS]
-    units = [_UNITS.get(found[2], np.nan) for found in headings if found]
-    blocks: list[list[list[float]]] = [[]]
-    for line, text in enumerate(file.lines[ends[0] + 1 :], start=ends[0] + 2):
-        cells = text.split("\t")
-        if len(cells) == len(names):
-            try:
-                blocks[-1].append([number(cells[place], ",") for place in places])
-            except InputError as error:
-                raise file.error(str(error), line) from None
-        elif blocks[-1]:
-            blocks.append([])
+    factors = np.array([[_UNITS[units[place]]] for place in places])
     found = []
-    for block in filter(None, blocks):
-        piezo, spring, time = np.array(block).T * np.array([[units[place]] for place in places])
-        notes = []
+    below = file.lines[end + 1 :]
+    for whole, lines in groupby(below, lambda text: text.count("\t") == len(heads) - 1):
+        if not whole:
+            continue
+        numbers = [text.replace(",", ".") for text in lines]
+        rows = np.loadtxt(numbers, delimiter="\t", usecols=places, ndmin=2)
+        piezo, spring, time = factors * rows.T
+        notes = ()
         if np.ptp(piezo) < np.ptp(spring):
             # a spring bends no farther than its drive moves
             piezo, time = 1e3 * piezo, 1e3 * time
-            notes.append("piezo in um and time in s, whatever the headings: else the spring bends")
-            notes[-1] += " farther than the piezo moves"
+            notes = (
+                "piezo in um and time in s, whatever the headings: else the spring bends farther "
+                "than the piezo moves",
+            )
         stiffness = given.spring_constant
-        found.append(Curve(time, stiffness * spring, piezo, 1, stiffness, tuple(notes)))
+        found.append(Curve(time, stiffness * spring, piezo, 1, stiffness, notes))
     if not found:
         raise file.error("no rows of numbers below 'eoh'")
     return found
