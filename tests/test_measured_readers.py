@@ -13,7 +13,7 @@ from viscotack.lab import (
     read_relaxations,
     read_shifts,
 )
-from viscotack.lab.grouping import grouped
+from viscotack.lab.sweeps import grouped
 
 
 def table(*rows, names="f, E', E'', T", units="Hz, MPa, MPa, C"):

@@ -12,7 +12,7 @@ import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
 from viscotack.lab.tack import Measured, evaluation
-from viscotack.lab.tack.extremum import extremum
+from viscotack.lab.tack.baseline import extremum
 from viscotack.theory import jkr
 
 PULL_OFF = jkr.pull_off(**tack_files.SPHERE)

@@ -13,7 +13,7 @@ from viscotack.errors import InputError
 from viscotack.identify import pull_offs
 from viscotack.lab.formats.tables import stated_temperature
 from viscotack.lab.tack import Measured, survey
-from viscotack.lab.tack.speed_table import speed_table
+from viscotack.lab.tack.repeats import speed_table
 from viscotack.model.materials.shift import WLF
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"

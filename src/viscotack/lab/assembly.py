@@ -16,10 +16,18 @@ from .formats.columns import MaterialColumns, refuse_pooled
 from .formats.file import LabFile
 from .formats.numbers import doubtful_modulus
 from .formats.tables import Table
-from .grouping import GAP, grouped, levels
-from .joining import numbered_on
 from .options import Options
-from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable, Source
+from .sweeps import (
+    GAP,
+    CreepTest,
+    FrequencySweeps,
+    RelaxationTest,
+    ShiftTable,
+    Source,
+    grouped,
+    levels,
+    numbered_on,
+)
 
 STIFFEST = 1.2e12  # Pa, diamond
 _ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"

@@ -18,10 +18,9 @@ from .formats import reptate, text, trios_json, workbook
 from .formats.columns import MaterialColumns
 from .formats.file import LabFile, first_fitting, load
 from .formats.headings import MATERIAL
-from .formats.tables import Table, pieces, where
-from .joining import joined, kelvin_in_name
+from .formats.tables import Table, kelvin_in_name, pieces, where
 from .options import Options
-from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
+from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable, joined
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest

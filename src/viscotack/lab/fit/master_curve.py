@@ -14,19 +14,20 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.grouping import GAP, refuse_unlike
-from viscotack.lab.joining import joined_source
-from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable
+from viscotack.lab.sweeps import (
+    GAP,
+    CreepTest,
+    FrequencySweeps,
+    MasterCurve,
+    RelaxationTest,
+    ShiftTable,
+    joined_source,
+    refuse_unlike,
+)
 from viscotack.model.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
-from .kramers_kronig import causal_misfit
-from .shift_factors import (
-    THERMOMETER,
-    curve,
-    shift_factors,
-    shifts_between,
-    temperature_levels,
-)
+from .prony import nonnegative
+from .shift_factors import THERMOMETER, curve, shift_factors, shifts_between, temperature_levels
 
 # methods that use most of the data come first
 _WAYS = (("both", "none"), ("storage", "none"))
@@ -334,3 +335,72 @@ def _ordered(tests: Sequence[Test]) -> list[Test]:
         if other - one <= GAP:
             raise InputError(f"two tests have the same temperature, {one:.2f} K; superpose one")
     return ordered
+
+
+_PER_DECADE = 5.0  # relaxation times; a time between grid points causes a 3 % error of loss
+_BEYOND = 1.5  # decades beyond the data, for relaxation outside the range
+
+
+def causal_misfit(master: MasterCurve) -> tuple[float, float] | None:
+    """Return the root mean square of ln(measured/causal) of storage and of loss modulus.
+
+    Each relaxation mode obeys Eq. 4.26 exactly, and so does every sum of modes with positive
+    weights. Non-negative least squares of relative residuals gives the nearest such sum, with five
+    modes per decade and equal weights of all points and both moduli. None with fewer than four
+    points or less than half a decade.
+    """
+    omega = master.angular_frequency
+    decades = float(np.log10(omega[-1] / omega[0]))
+    if omega.size < 4 or decades < 0.5:
+        return None
+    count = int(_PER_DECADE * (decades + 2 * _BEYOND)) + 1
+    times = np.geomspace(10**-_BEYOND / omega[-1], 10**_BEYOND / omega[0], count)
+    ratio = omega[:, None] * times
+    # first column: rubbery modulus
+    storage = np.hstack((np.ones((omega.size, 1)), ratio**2 / (1 + ratio**2)))
+    loss = np.hstack((np.zeros((omega.size, 1)), ratio / (1 + ratio**2)))
+    columns = np.vstack((storage / master.storage[:, None], loss / master.loss[:, None]))
+    columns /= np.linalg.norm(columns, axis=0)
+    sides = np.column_stack((columns, np.ones(2 * omega.size)))
+    # QR: the triangular factor replaces thousands of rows
+    triangle = np.asarray(np.linalg.qr(sides, mode="r"))
+    causal = np.maximum(columns @ nonnegative(triangle[:, :-1], triangle[:, -1]), 1e-12)
+    storage_off, loss_off = np.split(np.log(causal), 2)
+    return float(np.sqrt(np.mean(storage_off**2))), float(np.sqrt(np.mean(loss_off**2)))
+
+
+def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
+    """Describe how storage and loss modulus violate causality; empty if they do not.
+
+    The nearest pair that obeys the Kramers-Kronig relation is fitted with equal weights of all
+    points.
+
+    Parameters
+    ----------
+    master : MasterCurve
+        Storage and loss modulus.
+    tolerance : float
+        Relative deviation from the nearest causal pair that is accepted.
+
+    Returns
+    -------
+    str
+        A sentence, or an empty string.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e9, tau0=1.0, poisson_ratio=0.5)
+    >>> omega = np.geomspace(1e-2, 1e6, 40)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> contradiction(MasterCurve(293.15, omega, modulus.real, modulus.imag, "E"))
+    ''
+    """
+    off = causal_misfit(master)
+    if off is None or max(off) <= tolerance:
+        return ""
+    return (
+        "storage and loss modulus contradict each other (Kramers-Kronig): the nearest causal solid "
+        f"is {100 * np.expm1(off[0]):.2g} % off in storage and {100 * np.expm1(off[1]):.2g} % in "
+        "loss. A shift, a sweep or a calibration is wrong"
+    )

@@ -215,10 +215,11 @@ class Curve(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def in_sequence(parts: Iterable[Sequence[Array]]) -> Array:
-    """Return rows of time, force and position of parts with a time from the start of each."""
+def in_sequence(parts: Iterable[Sequence[Array]]) -> tuple[Array, Array, Array]:
+    """Return time, force and position of parts whose time begins with each of them."""
     rows: list[Array] = []
     for time, *numbers in parts:
         begin = rows[-1][0, -1] if rows else 0.0
         rows.append(np.array([begin + time, *numbers]))
-    return np.hstack(rows)
+    time, force, position = np.hstack(rows)
+    return time, force, position

@@ -6,17 +6,22 @@ second, and tensile (E) and shear (G) moduli, are never confused silently.
 
 import math
 import re
+import tomllib
 import unicodedata
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from pathlib import Path
 from typing import NamedTuple
 
 from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .numbers import is_number
-from .words import WORDS
+
+_TEXT = Path(__file__).with_name("words.toml").read_text(encoding="utf-8")
+WORDS: dict[str, dict[str, str]] = tomllib.loads(_TEXT)
+
 
 _GREEK = "ωδητσγɣ"
 # words of temperature inside headings

@@ -6,7 +6,7 @@ the fields of :class:`TackOptions` have the same names, for example ``--force-un
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -16,11 +16,11 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.formats import afm, ibw, jpk, jpk_text, mems_text, nid, tables, text, workbook
+from viscotack.lab.formats import microscopes, tables, text, workbook
 from viscotack.lab.formats.columns import Columns, refuse_pooled
 from viscotack.lab.formats.file import Curve, LabFile, first_fitting, load
 from viscotack.lab.formats.headings import POSITIONS, TACK
-from viscotack.lab.joining import kelvin_in_name
+from viscotack.lab.formats.tables import kelvin_in_name
 from viscotack.lab.options import TackOptions
 from viscotack.lab.sweeps import Source
 from viscotack.units import readable
@@ -29,20 +29,9 @@ from .record import TackRecord
 
 AnyPath = str | PathLike[str]
 
-# readers of the curves of microscopes, in order of detection
-_MICROSCOPES: dict[str, Callable[[LabFile, TackOptions], list[Curve] | None]] = {
-    "afmformats": afm.curves,
-    "jpk-force": jpk.curves,
-    "jpk-text": jpk_text.curves,
-    "mems-text": mems_text.curves,
-    "nid": nid.curves,
-    "ibw": ibw.curves,
-}
 _TABLES = {"workbook": workbook.tables, "text": text.plain}
-FORMATS = (*_MICROSCOPES, *_TABLES)
+FORMATS = (*microscopes.READERS, *_TABLES)
 _INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
-# first bytes of formats that are neither text nor workbooks
-_RAW = (nid.MARK, ibw.START, afm.HDF)
 _INTO = {"gap": -1, "depth": 1, "travel": 0}
 _NEEDED = 20  # smallest number of rows needed to identify the parts of a test
 
@@ -153,13 +142,13 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
 
 def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackRecord]:
     """Return the records of a file; one of several intervals may have `few` rows."""
-    file = load(path, raw=_RAW)
+    file = load(path, raw=microscopes.RAW)
     given.check_format(FORMATS)
     # a damaged number may overflow; the record rejects it with its name
     with np.errstate(all="ignore"):
         found = None
         if given.format not in _TABLES:
-            found = first_fitting(file, _MICROSCOPES, given.format, given)
+            found = first_fitting(file, microscopes.READERS, given.format, given)
         if found is not None:
             records = [_record(file, found[0], curve, curve.notes) for curve in found[1]]
         else:

@@ -64,7 +64,7 @@ def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[
 
 def _jkr(force: float, radius: float | None) -> dict[str, float]:
     """Return the work of adhesion of an elastic JKR sphere; empty without a radius."""
-    from viscotack.lab.tack.speed_table import jkr_work
+    from viscotack.lab.tack.repeats import jkr_work
 
     return {} if radius is None else {"jkr_work_of_adhesion_J_m2": jkr_work(force, radius)}
 
