@@ -12,9 +12,7 @@ from .options import Options, TackOptions
 from .reading import (
     FORMATS,
     read,
-    read_creeps,
     read_dma,
-    read_relaxations,
     read_shifts,
 )
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
@@ -40,9 +38,7 @@ __all__ = [
     "master_curve",
     "nearest_law",
     "read",
-    "read_creeps",
     "read_dma",
-    "read_relaxations",
     "read_shifts",
     "shift_factors",
     "superposed",

@@ -29,26 +29,30 @@ _NOTHING = Options()
 
 # reader of the tables of each format, in order of detection
 FORMATS: dict[str, Callable[..., list[Table] | None]] = {
-    "eplexor": workbook.eplexor,
     "workbook": workbook.tables,
     "reptate": reptate.tables,
     "trios-json": trios_json.tables,
     "trios": text.trios,
     "rheocompass": text.rheocompass,
     "wide": text.wide,
-    "pyvisco": text.pyvisco,
     "csv": text.plain,
 }
 
 
 def read(
-    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
+    path: Path | Sequence[Path],
+    options: Options = _NOTHING,
+    *,
+    test: str | None = None,
+    **more: Any,
 ) -> Test | tuple[RelaxationTest, ...] | tuple[CreepTest, ...]:
     r"""Read the test in a file: frequency sweeps, stress relaxation or creep.
 
     The columns identify the test; if both stress and strain are present, the one held constant
     does. Sweeps take precedence over step tests. Step tests at several temperatures are returned
-    as a tuple, from cold to hot.
+    as a tuple, from cold to hot; points within 1 K have one temperature, and rows with monotonic
+    time are one test. A time since the step takes precedence over a time of the whole test; rows at
+    time zero are ignored, with a note.
 
     Parameters
     ----------
@@ -56,6 +60,8 @@ def read(
         Text files or workbooks of one material, see :func:`read_dma`.
     options : Options
         What the caller states about the file.
+    test : {"dma", "relaxation", "creep"}, optional
+        Test to read where the file has several.
     **more
         Fields of :class:`Options` by name, which replace those of `options`.
 
@@ -82,12 +88,7 @@ def read(
     ('RelaxationTest', 'G')
     """
     opened = _opened(path, options, more)
-    tests = {
-        test_of(MaterialColumns(file, table, replace(given, kind=None)))
-        for file, _, tables, given in opened
-        for table in tables
-        if table.rows
-    }
+    tests = {test} if test else _tests_in(opened)
     if "dma" in tests or not tests & {"relaxation", "creep"}:
         return joined([assembly.sweeps(*each) for each in opened])
     if {"relaxation", "creep"} <= tests:
@@ -97,10 +98,9 @@ def read(
         raise file.error(
             "the file contains a relaxation and a creep test; set --test relaxation or --test creep"
         )
-    if "relaxation" in tests:
-        found = _each(RelaxationTest, opened)
-    else:
-        found = _each(CreepTest, opened)
+    kind = RelaxationTest if "relaxation" in tests else CreepTest
+    read = [test for one in opened for test in assembly.tests(kind, *one)]
+    found = tuple(sorted(read, key=lambda test: test.temperature or 0.0))
     return found[0] if len(found) == 1 else found
 
 
@@ -156,93 +156,6 @@ def read_dma(
     """
     opened = _opened(path, options, more)
     return joined([assembly.sweeps(*each) for each in opened])
-
-
-def read_relaxations(
-    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
-) -> tuple[RelaxationTest, ...]:
-    r"""Read the relaxation tests of one or more files, one per temperature, from cold to hot.
-
-    Points within 1 K have one temperature. Rows with
-    monotonic time are one test. A time since the step takes precedence over a time of the whole
-    test; rows at time zero are ignored, with a note.
-
-    Parameters
-    ----------
-    path : path-like, or sequence of them
-        Text files or workbooks of one material, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    tuple of RelaxationTest
-        In SI, from cold to hot.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless each file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "T,t,G(t)\nC,s,MPa\n20,1,4\n20,10,2\n0,1,8\n0,10,4\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_relaxations(file)
-    >>> [round(test.temperature, 2) for test in found]
-    [273.15, 293.15]
-    """
-    opened = _opened(path, options, more)
-    return _each(RelaxationTest, opened)
-
-
-def read_creeps(
-    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
-) -> tuple[CreepTest, ...]:
-    r"""Read the creep tests of one or more files, one per temperature, from cold to hot.
-
-    Points within 1 K have one temperature. Rows with
-    monotonic time are one test, as in :func:`read_relaxations`.
-
-    Parameters
-    ----------
-    path : path-like, or sequence of them
-        Text files or workbooks of one material, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    tuple of CreepTest
-        In SI, from cold to hot.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless each file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "T,t,J\nC,s,1/Pa\n20,1,1e-6\n20,10,2e-6\n0,1,5e-7\n0,10,1e-6\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_creeps(file, kind="G")
-    >>> [round(test.temperature, 2) for test in found]
-    [273.15, 293.15]
-    """
-    opened = _opened(path, options, more)
-    return _each(CreepTest, opened)
 
 
 def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTable:
@@ -312,9 +225,14 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
     return opened
 
 
-def _each(kind: type[assembly.Test], opened: Sequence[_Opened]) -> tuple[assembly.Test, ...]:
-    tests = [test for one in opened for test in assembly.tests(kind, *one)]
-    return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
+def _tests_in(opened: Sequence[_Opened]) -> set[str | None]:
+    """Return the tests that the tables of files contain, of whatever kind of modulus."""
+    return {
+        test_of(MaterialColumns(one.file, table, replace(one.given, kind=None)))
+        for one in opened
+        for table in one.tables
+        if table.rows
+    }
 
 
 def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:

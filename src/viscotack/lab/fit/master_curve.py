@@ -29,8 +29,6 @@ from viscotack.model.materials.shift import WLF, Arrhenius, Shift, TabulatedShif
 from .prony import nonnegative
 from .shift_factors import THERMOMETER, curve, shift_factors, shifts_between, temperature_levels
 
-# methods that use most of the data come first
-_WAYS = (("both", "none"), ("storage", "none"))
 _CAUSAL = 0.03  # Kramers-Kronig misfit within the accuracy of rheometers
 _CLEARLY = 0.8  # ratio of misfits that counts as clearly better
 _PARTS = {
@@ -167,27 +165,31 @@ def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> Ma
     ValueError
         As :func:`shift_factors`, if no method determines the shifts.
     """
-    best, misfit, first = None, np.inf, None
-    for by, vertical in _WAYS:
-        try:
-            curve = master_curve(
-                sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
-            )
-        except InputError as error:
-            first = first or error
-            continue
+
+    def curve(by: str) -> MasterCurve:
+        return master_curve(sweeps, reference_temperature=reference_temperature, by=by)
+
+    def misfit(curve: MasterCurve) -> float:
         off = causal_misfit(curve)
-        total = np.inf if off is None else float(np.hypot(*off))
-        if best is None or total < _CLEARLY * misfit:
-            best, misfit = curve, total
-        if misfit < _CAUSAL:
-            break  # no improvement possible
-    if best is None:
-        raise first or InputError("overlap does not determine the shifts")
-    if first is None:
-        return best
-    note = f"storage and loss do not determine the shifts: {first}"
-    return replace(best, source=best.source.noted(note))
+        return np.inf if off is None else float(np.hypot(*off))
+
+    try:
+        both = curve("both")
+    except InputError as error:
+        try:
+            storage = curve("storage")
+        except InputError:
+            raise error from None
+        note = f"storage and loss do not determine the shifts: {error}"
+        return replace(storage, source=storage.source.noted(note))
+    off = misfit(both)
+    if off < _CAUSAL:
+        return both  # no improvement possible
+    try:
+        storage = curve("storage")
+    except InputError:
+        return both
+    return storage if misfit(storage) < _CLEARLY * off else both
 
 
 def _moving(vertical: str | float) -> str:
