@@ -262,6 +262,7 @@ FORMS = {
         "|G*| (Pa)": np.hypot(STORAGE, LOSS),
         "δ (rad)": np.arctan2(LOSS, STORAGE),
     },
+    "storage and tangent": {"f [Hz]": HERTZ, "G' [Pa]": STORAGE, "tan delta": LOSS / STORAGE},
     "compliance": {
         "f [Hz]": HERTZ,
         "J' [1/MPa]": 1e6 * COMPLIANCE.real,

@@ -89,7 +89,9 @@ def test_only_the_first_columns_of_reptate_count(file):
 
 def test_steps_of_reptate_stand_in_its_first_line(file):
     relaxation = read(file("T=20;gamma=0.5; \nt sxy\n0.1 5e5\n1 3e5\n", "melt.gt"))
+    # the column is a stress, after a step of gamma
     assert relaxation.modulus.tolist() == [1e6, 6e5]
+    assert (relaxation.kind, relaxation.temperature, relaxation.strain) == ("G", 293.15, 0.5)
     assert read(file("gamma=0;\n0.1 5e5\n1 3e5\n", "melt.gt")).modulus[0] == 5e5
     creep = read(file("T=20;stress=50;\nt strain\ns -\n0 0\n1 0.001\n2 0.002\n", "melt.creep"))
     assert_allclose(creep.compliance, [2e-5, 4e-5])

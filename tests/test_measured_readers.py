@@ -183,13 +183,6 @@ def test_points_without_a_number_or_not_positive_are_left_out_with_a_note(file):
     assert "a value is not positive: line 5" in notes(sweeps)
 
 
-def test_tan_delta_stands_for_a_missing_loss_modulus(file):
-    sweeps = read_dma(
-        file(table("1, 3, 0.1, 20", names="f, E', tan delta, T", units="Hz, MPa, -, C"))
-    )
-    assert_allclose(sweeps.loss, 0.3e6)
-
-
 @pytest.mark.parametrize(("name", "unit"), [("tan delta", "-"), ("|E*|", "MPa")])
 def test_a_number_that_contradicts_its_row_is_found(file, name, unit):
     value = 0.1333 if unit == "-" else 3.0265
@@ -303,12 +296,7 @@ def test_a_modulus_is_found_as_stress_over_strain_in_the_time_of_the_step(file):
         read(file(text.encode("utf-16")), test="creep")
 
 
-def test_reptate_relaxation_and_shift_factors_are_read(file):
-    test = read(file("T=20;gamma=0.1;\n0.1 5e5\n1 3e5\n", "film.gt"))
-    assert (test.kind, test.temperature) == ("G", 293.15)
-    # the column is a stress, after a step of gamma
-    assert test.modulus.tolist() == [5e6, 3e6]
-    assert test.strain == 0.1
+def test_shift_factors_of_reptate_are_read(file):
     shifts = read_shifts(
         file("Mw=1;chem=PI;\nT aT bT\n[°C] [-] [-]\n-40 1000 1.1\n20 1 1\n", "a.ttsf")
     )

@@ -197,14 +197,13 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTa
     [2.1, 0.0]
     """
     (opened,) = _opened([path], options, more)
-    return assembly.shifts(opened.file, opened.tables, opened.given)
+    return assembly.shifts(*opened)
 
 
 class _Opened(NamedTuple):
     """Tables of a file and the caller's options, the input of every reader of tests."""
 
     file: LabFile
-    format: str
     tables: list[Table]
     given: Options
 
@@ -217,11 +216,11 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
         raise InputError("no file to read; give one or more paths")
     opened = []
     for one in paths:
-        file, found, tables = _tables(one, given)
+        file, tables = _tables(one, given)
         own = given
         if given.temperature_in_name:
             own = replace(given, temperature=kelvin_in_name(file), temperature_in_name=False)
-        opened.append(_Opened(file, found, tables, own))
+        opened.append(_Opened(file, tables, own))
     return opened
 
 
@@ -235,7 +234,7 @@ def _tests_in(opened: Sequence[_Opened]) -> set[str | None]:
     }
 
 
-def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
+def _tables(path: Path, given: Options) -> tuple[LabFile, list[Table]]:
     file = load(path)
     if not given.names:
         file = text.upright(file, MATERIAL)
@@ -249,7 +248,7 @@ def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
     pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
     numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
     tables, others = _selected(file, where(file, numbered, given.where), given)
-    return replace(file, notes=(*said, *file.notes, *cut, *others)), found, tables
+    return replace(file, notes=(*said, *file.notes, *cut, *others), format=found), tables
 
 
 def _selected(

@@ -138,13 +138,7 @@ class FrequencySweeps(_Moduli):
 
     def __post_init__(self):
         check_kind(self.kind)
-        store_columns(
-            self,
-            temperature=("K", True),
-            angular_frequency=("rad/s", False),
-            storage=("Pa", False),
-            loss=("Pa", False),
-        )
+        store_columns(self, "temperature", "angular_frequency", "storage", "loss")
         store_whole(self, "sweep", self.sweep, self.storage.size)
 
     @property
@@ -257,11 +251,8 @@ class MasterCurve(_Moduli):
     def __post_init__(self):
         check_kind(self.kind)
         store_temperature(self, "reference_temperature")
-        store_columns(
-            self, angular_frequency=("rad/s", False), storage=("Pa", False), loss=("Pa", False)
-        )
-        if self.temperature is not None:
-            store_columns(self, storage=("Pa", False), temperature=("K", True))
+        known = () if self.temperature is None else ("temperature",)
+        store_columns(self, "angular_frequency", "storage", "loss", *known)
         if self.sweep is not None:
             store_whole(self, "sweep", self.sweep, self.storage.size)
         sort_along(self, self.angular_frequency)
@@ -270,16 +261,15 @@ class MasterCurve(_Moduli):
 class _StepTest:
     """What relaxation and creep tests have in common: a number over the time since the step."""
 
-    # name and unit of the number, and the power of the modulus that it is
-    measured: ClassVar[tuple[str, str, int]]
+    # name of the number, and the power of the modulus that it is
+    measured: ClassVar[tuple[str, int]]
     time: Array
     kind: str
 
     def __post_init__(self):
-        name, unit, _ = self.measured
         check_kind(self.kind)
         store_temperature(self, "temperature")
-        store_columns(self, time=("s", False), **{name: (unit, False)})
+        store_columns(self, "time", self.measured[0])
         sort_along(self, self.time)
 
     def __len__(self) -> int:
@@ -287,7 +277,7 @@ class _StepTest:
 
     def in_tension(self, poisson_ratio: float) -> Self:
         """Convert a shear to a tensile modulus, 2 (1 + nu) G, or compliance, J/(2 (1 + nu))."""
-        name, _, power = self.measured
+        name, power = self.measured
         return in_tension(self, poisson_ratio, name, power=power)
 
 
@@ -316,7 +306,7 @@ class RelaxationTest(_StepTest):
     [6000000.0, 3000000.0]
     """
 
-    measured: ClassVar = ("modulus", "Pa", 1)
+    measured: ClassVar = ("modulus", 1)
 
     time: Array
     modulus: Array
@@ -351,7 +341,7 @@ class CreepTest(_StepTest):
     [1e-06, 2e-06]
     """
 
-    measured: ClassVar = ("compliance", "1/Pa", -1)
+    measured: ClassVar = ("compliance", -1)
 
     time: Array
     compliance: Array
@@ -391,10 +381,17 @@ def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None
     return row
 
 
-def store_columns(instance: Any, **units: tuple[str, bool]) -> None:
-    """Store positive read-only arrays of one length; some columns may contain nan (unknown)."""
+_UNITS = {
+    "temperature": "K", "angular_frequency": "rad/s", "storage": "Pa", "loss": "Pa", "time": "s",
+    "modulus": "Pa", "compliance": "1/Pa",
+}  # fmt: skip
+
+
+def store_columns(instance: Any, *names: str) -> None:
+    """Store positive read-only arrays of one length; a temperature may be nan (unknown)."""
     length = None
-    for name, (unit, may_miss) in units.items():
+    for name in names:
+        unit, may_miss = _UNITS[name], name == "temperature"
         row = array(name, getattr(instance, name), unit, length)
         length = row.size
         wrong = row[~((row > 0) & (row < np.inf) | (may_miss & np.isnan(row)))]

@@ -392,7 +392,7 @@ _DRAWS = 12
 _WORTH = 1.05  # ratio of half-widths above which a caution is added
 
 
-def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0) -> FitReport:
+def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
     """Widen the intervals of a report by the uncertainty of the shifts.
 
     Parameters
@@ -403,8 +403,6 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0
         Fitted data; tests over time leave the report unchanged.
     shifts : ShiftTable or a law
         Shifts with their uncertainty; without one the report is unchanged.
-    seed : int
-        Seed of the random shifts.
 
     Returns
     -------
@@ -434,7 +432,7 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0
         return report
     if shifts.uncertainty is None or data.temperature is None or not np.any(shifts.uncertainty):
         return report
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     found = [_refitted(report, _moved(data, shifts, rng)) for _ in range(_DRAWS)]
     quantile = NormalDist().inv_cdf((1 + report.level) / 2)
     intervals, more = [], 1.0

@@ -251,7 +251,6 @@ def superposed(
     reference_temperature: float,
     shift: Shift | ShiftTable | None = None,
     vertical: str | float = "none",
-    temperature_uncertainty: float = THERMOMETER,
 ) -> tuple[Test, ShiftTable]:
     """Superpose tests at several temperatures; return one test and the shifts.
 
@@ -263,7 +262,7 @@ def superposed(
         Temperature of the result [K].
     shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
         As in :func:`viscotack.lab.master_curve`; without it the shifts follow from overlap.
-    vertical, temperature_uncertainty
+    vertical : {"none", "auto", "free"} or float
         As in :func:`viscotack.lab.shift_factors`. With one curve per temperature, "auto" assumes
         typical vertical shifts where the curve is straight; a coefficient of expansion is more
         exact. By default "none".
@@ -294,14 +293,14 @@ def superposed(
     """
     ordered = _ordered(tests)
     first, column = ordered[0], ordered[0].measured[0]
-    sign = first.measured[2]  # a compliance is the inverse of a modulus
+    sign = first.measured[1]  # a compliance is the inverse of a modulus
     temperature = np.array([test.temperature for test in ordered], dtype=float)
     if shift is None:
         curves = [
             curve(T, -np.log10(test.time[::-1]), sign * np.log10(getattr(test, column)[::-1]))
             for T, test in zip(temperature, ordered, strict=True)
         ]
-        more = "both", vertical, temperature_uncertainty
+        more = "both", vertical, THERMOMETER
         shift = shifts_between(temperature, curves, reference_temperature, *more)
         how = f"shifts from the overlap of the tests, {_moving(vertical)}"
     else:
@@ -340,6 +339,7 @@ def _ordered(tests: Sequence[Test]) -> list[Test]:
 
 
 _PER_DECADE = 5.0  # relaxation times; a time between grid points causes a 3 % error of loss
+_TOLERANCE = 0.1  # relative deviation from the nearest causal pair that is accepted
 _BEYOND = 1.5  # decades beyond the data, for relaxation outside the range
 
 
@@ -371,7 +371,7 @@ def causal_misfit(master: MasterCurve) -> tuple[float, float] | None:
     return float(np.sqrt(np.mean(storage_off**2))), float(np.sqrt(np.mean(loss_off**2)))
 
 
-def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
+def contradiction(master: MasterCurve) -> str:
     """Describe how storage and loss modulus violate causality; empty if they do not.
 
     The nearest pair that obeys the Kramers-Kronig relation is fitted with equal weights of all
@@ -381,8 +381,6 @@ def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
     ----------
     master : MasterCurve
         Storage and loss modulus.
-    tolerance : float
-        Relative deviation from the nearest causal pair that is accepted.
 
     Returns
     -------
@@ -399,7 +397,7 @@ def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
     ''
     """
     off = causal_misfit(master)
-    if off is None or max(off) <= tolerance:
+    if off is None or max(off) <= _TOLERANCE:
         return ""
     return (
         "storage and loss modulus contradict each other (Kramers-Kronig): the nearest causal solid "

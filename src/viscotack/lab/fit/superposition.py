@@ -17,14 +17,13 @@ from .master_curve import shifted_by
 from .overlap import Curve
 from .shift_factors import BEST, FEWEST, level_curves, steps_between, temperature_levels
 
+_TOLERANCE = 0.1  # relative deviation from one curve above which sweeps do not superpose
 _APART = 0.1  # decades; larger differences contradict each other
 _SIGMAS = 3.0
 _POINTS = 3  # smallest number of points of each sweep in the overlap for a comparison
 
 
-def superposition(
-    sweeps: FrequencySweeps, shifts: ShiftTable, *, tolerance: float = 0.1
-) -> tuple[str, ...]:
+def superposition(sweeps: FrequencySweeps, shifts: ShiftTable) -> tuple[str, ...]:
     """Return the contradictions to superposition of shifted sweeps where neighbours overlap.
 
     Parameters
@@ -33,8 +32,6 @@ def superposition(
         Measured sweeps, at two or more temperatures.
     shifts : ShiftTable
         Shifts to test, from any method; interpolated between the rows of the table.
-    tolerance : float
-        Relative deviation from one curve above which sweeps do not superpose, in (0, 1).
 
     Returns
     -------
@@ -60,8 +57,6 @@ def superposition(
     >>> superposition(sweeps, ShiftTable([293.15, 303.15], [0.0, -1.0], None))
     ()
     """
-    if not 0 < tolerance < 1:
-        raise InputError(f"tolerance must lie between 0 and 1, got {tolerance!r}")
     levels = temperature_levels(sweeps)
     temperature = np.array([float(np.mean(level.temperature)) for level in levels])
     along, up, _ = shifted_by(shifts, temperature, temperature, float(shifts.temperature[0]))
@@ -80,7 +75,7 @@ def superposition(
     scatters = np.array([_scatters(a, b) for a, b in pairwise(moved)]).reshape(-1, 2, 2)
     for name, (common, own) in zip(("storage", "loss"), np.moveaxis(scatters, 0, -1), strict=True):
         # two noisy sweeps may still superpose
-        off = common > np.maximum(np.log1p(tolerance), 2 * own)
+        off = common > np.maximum(np.log1p(_TOLERANCE), 2 * own)
         if off.any():
             worst = int(np.argmax(np.where(off, common, 0)))
             found.append(

@@ -33,7 +33,8 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 class LabFile:
     """Content of one file; `lines` is empty for a workbook.
 
-    `rest` is the text after the last line end. It may be truncated and is not read.
+    `rest` is the text after the last line end. It may be truncated and is not read. `format` is the
+    name of its layout, once that is known.
     """
 
     path: str
@@ -41,6 +42,7 @@ class LabFile:
     lines: tuple[str, ...]
     notes: tuple[str, ...]
     rest: str = ""
+    format: str = ""
 
     @property
     def sha256(self) -> str:

@@ -150,7 +150,8 @@ def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackR
         if given.format not in _TABLES:
             found = first_fitting(file, microscopes.READERS, given.format, given)
         if found is not None:
-            records = [_record(file, found[0], curve, curve.notes) for curve in found[1]]
+            file = replace(file, format=found[0])
+            records = [_record(file, curve, curve.notes) for curve in found[1]]
         else:
             if not file.lines and not file.is_workbook:
                 raise file.error("the file is neither text nor a workbook; export it as text")
@@ -159,18 +160,16 @@ def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackR
                 file = text.upright(file, TACK)
             fitting = first_fitting(file, _TABLES, given.format, TACK, given.names)
             assert fitting is not None, "plain tables raise their own error"
-            name, whole = fitting
-            read = tables.where(file, whole, given.where)
-            records = [_from_table(file, table, given, name, few) for table in read]
+            file = replace(file, format=fitting[0])
+            read = tables.where(file, fitting[1], given.where)
+            records = [_from_table(file, table, given, few) for table in read]
     if not given.temperature_in_name:
         return records
     kelvin = kelvin_in_name(file)
     return [replace(one, temperature=np.full(len(one), kelvin)) for one in records]
 
 
-def _record(
-    file: LabFile, format: str, curve: Curve, notes: Sequence[str], **more: Any
-) -> TackRecord:
+def _record(file: LabFile, curve: Curve, notes: Sequence[str], **more: Any) -> TackRecord:
     notes = [*file.notes, *notes]
     if curve.stiffness:
         rig = f"cantilever of {readable(curve.stiffness, 'N/m')}"
@@ -182,16 +181,14 @@ def _record(
             curve.position,
             into=curve.into,
             compliance=1 / curve.stiffness if curve.stiffness else 0.0,
-            source=Source(file.path, file.sha256, format, tuple(notes)),
+            source=Source(file.path, file.sha256, file.format, tuple(notes)),
             **more,
         )
     except InputError as error:
         raise file.error(str(error)) from None
 
 
-def _from_table(
-    file: LabFile, table: tables.Table, given: TackOptions, format: str, few: bool
-) -> TackRecord:
+def _from_table(file: LabFile, table: tables.Table, given: TackOptions, few: bool) -> TackRecord:
     """Return the record in a table."""
     columns = Columns(file, table, given, TACK)
     known = ", ".join(repr(text) for text in table.headings if text)
@@ -227,7 +224,7 @@ def _from_table(
         time = given.time_of(file, way, columns.notes)
     curve = Curve(time[keep], force[keep], way[keep], _INTO[kind])
     rows = {name: None if row is None else row[keep] for name, row in more.items()}
-    return _record(file, format, curve, columns.notes, **rows)
+    return _record(file, curve, columns.notes, **rows)
 
 
 def _contact_radius(columns: Columns) -> Array | None:

@@ -214,22 +214,6 @@ class Repeated:
         return _deviation([one.work_of_separation.value for one in self.cycles])
 
 
-@dataclass(frozen=True)
-class Exponent:
-    """Exponent of pull-off force by speed.
-
-    Parameters
-    ----------
-    temperature : float or None
-        Temperature of the tests [K]; None if unknown.
-    exponent : Measured
-        With its standard error.
-    """
-
-    temperature: float | None
-    exponent: Measured
-
-
 @dataclass(frozen=True, eq=False)
 class SpeedTable:
     """Repeated tests by temperature and speed.
@@ -243,8 +227,9 @@ class SpeedTable:
         repeats.
     freedom : int
         Degrees of freedom of the scatter.
-    exponents : tuple of Exponent
-        Of each temperature with three or more speeds.
+    exponents : tuple of (float or None, Measured)
+        Temperature [K], if known, and exponent of pull-off force by speed with its standard error,
+        of each temperature with three or more speeds.
     master : Measured or None
         Exponent of the force by a_T v over all temperatures; None without a shift law.
     """
@@ -252,7 +237,7 @@ class SpeedTable:
     series: tuple[tuple[Repeated, ...], ...]
     scatter: float | None
     freedom: int
-    exponents: tuple[Exponent, ...]
+    exponents: tuple[tuple[float | None, Measured], ...]
     master: Measured | None = None
 
     @property
@@ -264,7 +249,7 @@ class SpeedTable:
     def exponent(self) -> Measured | None:
         """Exponent of a series at one temperature; None for several, or fewer than 3 speeds."""
         single = len(self.series) == 1 and self.exponents
-        return self.exponents[0].exponent if single else None
+        return self.exponents[0][1] if single else None
 
 
 def speed_table(cycles: Sequence[Cycle], shift: Shift | None = None) -> SpeedTable:
@@ -290,7 +275,7 @@ def speed_table(cycles: Sequence[Cycle], shift: Shift | None = None) -> SpeedTab
         series,
         found.scatter if found.freedom else None,
         found.freedom,
-        tuple(Exponent(at, one) for at, one in fitted if one is not None),
+        tuple((at, one) for at, one in fitted if one is not None),
         None if shift is None else _exponent(moved, speeds),
     )
 

@@ -123,11 +123,11 @@ def series_record(table: Any) -> dict[str, Any]:
         "exponent_standard_error": None if exponent is None else exponent.uncertainty,
         "exponents": [
             {
-                "temperature_K": one.temperature,
-                "exponent": one.exponent.value,
-                "exponent_standard_error": one.exponent.uncertainty,
+                "temperature_K": temperature,
+                "exponent": one.value,
+                "exponent_standard_error": one.uncertainty,
             }
-            for one in table.exponents
+            for temperature, one in table.exponents
         ],
     }
 
