@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 import lab_files
 from reference_data import DMA
+from viscotack.errors import InputError
 from viscotack.lab import (
     read,
     read_dma,
@@ -101,19 +102,39 @@ def test_the_published_master_curves_are_read():
 # ---- units and words ---------------------------------------------------------------------------
 
 
-def test_a_frequency_in_one_over_seconds_is_refused_until_the_unit_is_given(file):
-    path = file(table("1, 3, 0.4, 20", units="1/s, MPa, MPa, C"))
-    with pytest.raises(ValueError, match=r"line 3: column .f.: .*in rad/s; set --frequency-unit"):
-        read_dma(path)
-    assert read_dma(path, frequency_unit="rad/s").angular_frequency[0] == 1
-    assert read_dma(path, frequency_unit="Hz").angular_frequency[0] == 2 * np.pi
+PER_SECOND = table("1, 3, 0.4, 20", units="1/s, MPa, MPa, C")
+NO_KIND = "Frequency\tStorage modulus\tLoss modulus\nHz\tPa\tPa\n1\t3e6\t4e5\n"
+TWO_KINDS = table("1, 3, 0.4, 1, 0.1", names="f, E', E'', G', G''", units="Hz" + ", MPa" * 4)
+THOUSANDS = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tC\n1\t1,234\t{loss}\t20\n"
 
 
-def test_a_modulus_without_a_unit_is_refused_until_it_is_given(file):
-    path = file(table("1, 3, 0.4, 20", units="Hz, -, -, C"))
-    with pytest.raises(ValueError, match=r"the unit of .E'. and .E''. \(--modulus-unit Pa, "):
+@pytest.mark.parametrize(
+    ("content", "asked", "said", "column", "value"),
+    [
+        (PER_SECOND, "line 3.*--frequency", {"frequency_unit": "rad/s"}, "angular_frequency", 1),
+        (PER_SECOND, "--frequency-unit", {"frequency_unit": "Hz"}, "angular_frequency", 2 * np.pi),
+        (table("1, 3, 0.4, 20", units="Hz, -, -, C"), "E'. and .E''. .--modulus-unit",
+         {"modulus_unit": "MPa"}, "storage", 3e6),
+        (NO_KIND, "--kind E", {"kind": "G"}, "storage", 3e6),
+        (TWO_KINDS, "--kind E", {"kind": "E"}, "storage", 3e6),
+        (TWO_KINDS, "--kind E", {"kind": "G"}, "storage", 1e6),
+        (THOUSANDS.format(loss="1"), "--decimal", {"decimal": ","}, "storage", 1.234e6),
+    ],
+)  # fmt: skip
+def test_what_a_file_leaves_open_is_refused_until_it_is_said(
+    file, content, asked, said, column, value
+):
+    path = file(content)
+    with pytest.raises(InputError, match=asked):
         read_dma(path)
-    assert read_dma(path, modulus_unit="MPa").storage[0] == 3e6
+    assert getattr(read_dma(path, **said), column)[0] == value
+
+
+def test_some_words_and_marks_need_no_flag(file):
+    # 0,5 can only be a decimal comma
+    assert read_dma(file(THOUSANDS.format(loss="0,5"))).storage[0] == 1.234e6
+    with pytest.raises(InputError, match="--kind must be E"):
+        read_dma(file(NO_KIND), kind="shear")
 
 
 def test_moduli_whose_units_cannot_both_be_right_are_refused(file):
@@ -122,24 +143,6 @@ def test_moduli_whose_units_cannot_both_be_right_are_refused(file):
 
 
 # ---- tension and shear -------------------------------------------------------------------------
-
-OPEN = "Frequency\tStorage modulus\tLoss modulus\nHz\tPa\tPa\n1\t3e6\t4e5\n"
-
-
-def test_a_modulus_of_unknown_kind_is_refused_until_it_is_given(file):
-    with pytest.raises(ValueError, match=r".Storage modulus. is tensile or shear \(--kind E or"):
-        read_dma(file(OPEN))
-    assert read_dma(file(OPEN), kind="G").kind == "G"
-    with pytest.raises(ValueError, match="--kind must be E"):
-        read_dma(file(OPEN), kind="shear")
-
-
-def test_of_two_kinds_in_one_table_one_is_chosen(file):
-    path = file(table("1, 3, 0.4, 1, 0.1", names="f, E', E'', G', G''", units="Hz" + ", MPa" * 4))
-    with pytest.raises(ValueError, match=r"--kind E or --kind G"):
-        read_dma(path)
-    assert read_dma(path, kind="E").storage[0] == 3e6
-    assert read_dma(path, kind="G").storage[0] == 1e6
 
 
 def test_shear_becomes_tension_with_a_poisson_ratio(file):
@@ -154,16 +157,6 @@ def test_shear_becomes_tension_with_a_poisson_ratio(file):
 
 
 # ---- numbers -----------------------------------------------------------------------------------
-
-
-def test_a_number_that_may_be_thousands_is_refused_until_the_mark_is_given(file):
-    path = file(table("1\t1,234\t0\t20", names="f\tE'\tE''\tT", units="Hz\tMPa\tMPa\tC"))
-    with pytest.raises(
-        ValueError, match=r"'1,234' may have a decimal comma or a thousands separator"
-    ):
-        read_dma(path)
-    other = file(table("1\t1,234\t0,5\t20", names="f\tE'\tE''\tT", units="Hz\tMPa\tMPa\tC"))
-    assert read_dma(other).storage[0] == 1.234e6  # 0,5 can only be a decimal comma
 
 
 @pytest.mark.parametrize("cell", ["abc", "1_000", "1.2.3", "inf", "٣"])

@@ -456,13 +456,6 @@ class Survey:
         return tuple(cycle for one in self.evaluations for cycle in one.cycles)
 
     @property
-    def refused(self) -> tuple[tuple[str, Refusal], ...]:
-        """All rejected cycles, each with its file."""
-        return tuple(
-            (one.record.source.path, refusal) for one in self.evaluations for refusal in one.refused
-        )
-
-    @property
     def cautions(self) -> tuple[tuple[str, str], ...]:
         """File and caution of every cycle whose signal contradicts the theories."""
         return tuple(
@@ -475,7 +468,11 @@ class Survey:
     def reasons(self) -> tuple[tuple[str, str], ...]:
         """File and reason of every rejected file and cycle."""
         files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in self.unread]
-        cycles = [(path, f"cycle {one.number}: {one.reason}") for path, one in self.refused]
+        cycles = [
+            (one.record.source.path, f"cycle {refused.number}: {refused.reason}")
+            for one in self.evaluations
+            for refused in one.refused
+        ]
         return (*files, *cycles)
 
 

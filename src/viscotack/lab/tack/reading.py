@@ -73,34 +73,34 @@ def read(paths: AnyPath | Sequence[AnyPath], **options: Any) -> list[TackRecord]
     if not chosen:
         raise InputError("no file to read; give one or more paths")
     found: list[TackRecord] = []
-    for group in _groups(chosen):
-        if len(group) == 1:
-            found += _records(group[0][1], given)
-        else:
-            found += _joined(group, given)
+    for group in groups(chosen):
+        found += _joined(group, given) if len(group) > 1 else _records(group[0], given)
     return found
 
 
 def groups(paths: Sequence[AnyPath]) -> list[list[AnyPath]]:
     """Group files by test, with intervals in the order of their numbers."""
-    return [[path for _, path in group] for group in _groups(paths)]
-
-
-def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
-    groups: dict[tuple[str, str], list[tuple[int, AnyPath]]] = {}
+    groups: dict[tuple[str, str], list[AnyPath]] = {}
     for count, path in enumerate(paths):
         match = _INTERVAL.fullmatch(Path(path).stem)
         key = (str(Path(path).parent), match[1]) if match else (str(path), f"\0{count}")
-        groups.setdefault(key, []).append((int(match[2]) if match else 0, path))
-    return [sorted(group, key=lambda item: item[0]) for group in groups.values()]
+        groups.setdefault(key, []).append(path)
+    return [sorted(group, key=_interval) for group in groups.values()]
 
 
-def _joined(group: list[tuple[int, AnyPath]], given: TackOptions) -> list[TackRecord]:
+def _interval(path: AnyPath) -> int:
+    """Return the number of an interval in the name of its file, 0 without one."""
+    match = _INTERVAL.fullmatch(Path(path).stem)
+    return int(match[2]) if match else 0
+
+
+def _joined(group: list[AnyPath], given: TackOptions) -> list[TackRecord]:
     """Read the intervals of one test and join those with consecutive numbers."""
     stretches: list[list[TackRecord]] = []
     before = None
     skipped: list[str] = []
-    for number, path in group:
+    for path in group:
+        number = _interval(path)
         if not Path(path).stat().st_size:
             # an interval without data
             skipped.append(f"interval {number} is empty")
