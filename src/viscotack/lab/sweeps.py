@@ -7,6 +7,10 @@ Poisson ratio.
 Convention of shift factors: log10 a_T is positive where the solid is slower than at the
 reference temperature, that is below it. A point at omega and T is shifted to omega a_T; its moduli
 are multiplied by 10^log10_vertical to give those at the reference temperature.
+
+Points are assigned to sweeps by temperature or by the reversal of the frequency; sweeps of one
+temperature that contradict each other are refused, not pooled. Several files are joined as one
+material.
 """
 
 import hashlib

@@ -1,6 +1,9 @@
 """Fit a material model to measured moduli, with intervals and cautions.
 
 :func:`fit` fits every model and returns a report of the quality of the fit.
+
+Sentences state constants and ranges that a measurement does not determine. The uncertainty of shift
+factors is propagated by fitting shifted curves again.
 """
 
 from collections.abc import Mapping, Sequence

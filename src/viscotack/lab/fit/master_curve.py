@@ -1,8 +1,15 @@
-"""Master curves: time-temperature superposition of sweeps and tests at many temperatures.
+r"""Master curves: time-temperature superposition of sweeps and tests at many temperatures.
 
 A time t at temperature T is shifted to t/a_T, as a frequency 1/t is shifted to omega a_T. With one
 curve per temperature, there is no second modulus to separate a vertical shift from a time shift; on
 the plateau of a melt this matters, and the stated uncertainty includes it.
+
+Storage and loss modulus belong to one causal solid if they obey the relation of Kramers and Kronig,
+
+.. math:: E''(\omega) = -\frac{2\omega}{\pi} \int_0^\infty \frac{E'(u)}{\omega^2 - u^2}\,du
+
+(Eq. 4.26 of Maghami, PhD thesis (2025); principal value). A master curve that obeys it may still be
+wrong, but one that violates it has a wrong shift, a faulty sweep or a compliance error of the rig.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Report of a fit: constants, intervals, scatter and cautions."""
+"""Report of a fit: constants, intervals, scatter and cautions; the passport issued from it."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -21,6 +21,12 @@ strength q has a closed form, after integration over the noise (inverse gamma, a
 neighbouring points). First the contact points of both parts are averages over the evidence of all
 of these, then the baseline is that over the strengths, drift, tilt and attraction, given the free
 points.
+
+The smallest force of a noisy curve, which may end with a jump behind it, is that of parabolas
+fitted to windows around the smallest point. A window is valid if its scatter is that of the noise
+and polynomials of higher degree contribute no more than the noise. The answer is the mean over the
+valid windows whose uncertainty is at most twice the smallest one. No window contains a jump; if the
+force falls until the jump, it continues to fall up to the next point.
 """
 
 from dataclasses import dataclass, replace

@@ -3,6 +3,8 @@
 A valid cycle has a retraction that ends free of contact, a pull-off above the noise with more
 than one point, no force at the end of the sensor's range, and a zero more certain than the
 pull-off. Each rejection states the failed criterion with numbers.
+
+Of many files those that cannot be read are listed with the reason.
 """
 
 from collections.abc import Mapping, Sequence

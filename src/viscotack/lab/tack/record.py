@@ -1,4 +1,17 @@
-"""Raw data of one tack test in SI: time, force, position and optionally the contact radius."""
+r"""Data of one tack test in SI, its segments, and the results of a cycle.
+
+Approach, dwell and retraction of each cycle are detected from the signal, not from labels. Depth
+reverses where the drive does. Between two reversals it must move by a tenth of its range, so that
+creep, noise and steps of the drive do not create cycles. A dwell begins at the knee of depth over
+time, and ends where the drive leaves its level by more than its scatter.
+
+The direction into the solid is known for a gap or a depth. A travel is oriented such that the force
+changes most at its deep end; a force such that compression is positive. Both raise an error if
+the signal is ambiguous.
+
+In results force is positive in compression. Depth is positive into the solid and zero at first
+contact. The pull-off force is positive. Uncertainties are standard uncertainties (68 %).
+"""
 
 from dataclasses import dataclass
 

@@ -1,7 +1,7 @@
 r"""Statistics of pull-offs by temperature and speed, as laboratories report them.
 
 For each speed: number of tests, mean and standard deviation. For the series: scatter of single
-tests pooled over speeds (:mod:`.repeats`), and for each temperature the exponent of a power law of
+tests pooled over speeds, and for each temperature the exponent of a power law of
 force by speed,
 
 .. math:: \ln F = n \ln v + c ,
@@ -12,6 +12,17 @@ contact has n = 0. The power law describes data; it is no model of the contact.
 With a shift law, a test at speed v and temperature T is referred to the reference temperature: the
 times of the solid are a_T times those there, so that the same force is reached at the speed a_T v
 (master curve), if the interface does not depend on temperature.
+
+A few repeats at one speed do not determine their scatter: two tests that agree by chance would
+weigh a hundred times those that do not. The relative scatter s is therefore one number for a
+series. Forces are means with the weights of a Student distribution,
+
+.. math:: w = \frac{\nu + 1}{\nu + z^2} , \qquad z^2 = \frac{r^2}{s^2 (1 - 1/n_i)} , \qquad
+          s^2 = \frac{\sum w r^2}{c \sum_i (n_i - 1)} ,
+
+where r are the deviations of ln(force) from the mean at its speed, :math:`n_i` the number of tests
+there, :math:`\nu = 6`, and c the mean of :math:`w z^2` for normal deviations. A test far from the
+others at its speed counts little, and is named.
 """
 
 from collections.abc import Sequence
