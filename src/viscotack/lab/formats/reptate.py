@@ -28,9 +28,20 @@ _COLUMNS = {
 }
 # quantity held constant, its parameter, and its value where that is zero or not stated
 _STEPS = {".gt": ("strain", "gamma", 1.0), ".creep": ("stress", "stress", None)}
-# files of the same layout without a linear viscoelastic test: start-up of flows, crystallisation,
-# large amplitudes, dielectric spectra, distributions of molar mass, reactions, scattering, chains
-_OTHERS = (".shear .uext .shearxs .laos .dls .gpc .mwd .dmwd .reac .sans .rouse").split()
+# files of the same layout without a linear viscoelastic test
+_OTHERS = {
+    ".shear": "the start-up of shear flow",
+    ".uext": "the start-up of extensional flow",
+    ".shearxs": "flow-induced crystallisation",
+    ".laos": "an oscillation of large amplitude",
+    ".dls": "a dielectric spectrum",
+    ".gpc": "a distribution of molar mass",
+    ".mwd": "a distribution of molar mass",
+    ".dmwd": "a distribution of molar mass",
+    ".reac": "the molecules of a reaction",
+    ".sans": "a scattering experiment",
+    ".rouse": "the correlations of a simulated chain",
+}
 _OFF = 5.0  # K largest difference between the temperatures of the file and of its points
 
 
@@ -48,8 +59,8 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
     alone = ends in _COLUMNS and _ONE.fullmatch(first)
     if not (ends in _OTHERS or _PARAMETERS.fullmatch(first) or alone):
         return None
-    if ends in _OTHERS:
-        raise file.error(f"a {ends} file of RepTate has no modulus of a linear viscoelastic test")
+    if what := _OTHERS.get(ends):
+        raise file.error(f"a {ends} file of RepTate contains {what}, not a modulus")
     pairs = (part.partition("=") for part in first.split(";"))
     parameters = {key.strip(): value.strip() for key, _, value in pairs}
     rows = [
