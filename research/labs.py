@@ -36,7 +36,7 @@ from scipy.stats import chi2
 import viscotack as vt
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.lab import MasterCurve, fit
-from viscotack.lab.fit.passport import issued
+from viscotack.lab.fit.report import issued
 from viscotack.lab.tack import TackRecord, evaluate
 from viscotack.model.materials.conversion import slowed
 

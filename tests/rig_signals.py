@@ -18,15 +18,6 @@ WRONG = 5.0  # stated uncertainties
 
 
 @dataclass(frozen=True)
-class Signal:
-    """A record with the true values of QUANTITIES, and the keywords of its evaluation."""
-
-    record: TackRecord
-    truth: tuple[float, ...]
-    known: dict
-
-
-@dataclass(frozen=True)
 class Pure:
     """A test without faults: time, depth and force, first indices of its parts, and its truth."""
 
@@ -115,17 +106,17 @@ def drifting(rng, test):
 
 
 def textbook(rng):
-    """Return a textbook signal."""
+    """Return a record of a textbook signal, and the true values of QUANTITIES."""
     test = pure(rng)
     noise = test.range * 10 ** rng.uniform(np.log10(2e-3), -2)
     force = test.force + drifting(rng, test) + noise * rng.standard_normal(test.time.size)
-    return Signal(TackRecord(test.time, force, test.depth, into=1), test.truth, {})
+    return TackRecord(test.time, force, test.depth, into=1), test.truth
 
 
-def judged(signal):
+def judged(record, truth):
     """Return errors over truth and over stated uncertainties, or the reason of a refusal."""
     try:
-        found = evaluate(signal.record, **signal.known)
+        found = evaluate(record)
     except ValueError as error:
         return str(error)
     if not found.cycles:
@@ -134,5 +125,5 @@ def judged(signal):
     answers = [getattr(cycle, name) for name in QUANTITIES]
     return [
         ((one.value - true) / abs(true), (one.value - true) / max(one.uncertainty, 1e-300))
-        for one, true in zip(answers, signal.truth, strict=True)
+        for one, true in zip(answers, truth, strict=True)
     ]

@@ -252,6 +252,17 @@ FORMS = {
         "Complex viscosity (Pa.s)": np.hypot(STORAGE, LOSS) / OMEGA,
         "Tan(delta)": LOSS / STORAGE,
     },
+    "size and angle": {
+        "Frequency (Hz)": HERTZ,
+        "|G*| (Pa)": np.hypot(STORAGE, LOSS),
+        "delta (°)": np.degrees(np.arctan2(LOSS, STORAGE)),
+    },
+    "size and angle in radians": {
+        "Frequency (Hz)": HERTZ,
+        "|G*| (Pa)": np.hypot(STORAGE, LOSS),
+        "δ (rad)": np.arctan2(LOSS, STORAGE),
+    },
+    "storage and tangent": {"f [Hz]": HERTZ, "G' [Pa]": STORAGE, "tan delta": LOSS / STORAGE},
     "compliance": {
         "f [Hz]": HERTZ,
         "J' [1/MPa]": 1e6 * COMPLIANCE.real,

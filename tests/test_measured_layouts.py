@@ -52,12 +52,6 @@ def test_a_name_that_holds_another_is_another_quantity(text):
 # ---- layouts -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "unit"), [("delta", "°"), ("δ", "rad"), ("tan delta", "-")])
-def test_size_and_angle_make_both_moduli(file, name, unit):
-    sweeps = read_dma(file(lab_files.polar(name, unit)))
-    assert_the_film(sweeps, rtol=1e-13)
-
-
 def test_json_in_lists_is_read(file):
     columns = [{"name": "Time", "unit": "s"}, {"name": "Shear Strain", "unit": ""},
                {"name": "Relaxation Modulus", "unit": "kPa"}]  # fmt: skip
@@ -71,7 +65,7 @@ def test_json_in_lists_is_read(file):
 
 
 def test_numbers_without_a_name_above_columns_must_be_identified(file):
-    bare = lab_files.wide().replace(" °C".encode(), b"")
+    bare = lab_files.TEXTS["wide"].replace(" °C".encode(), b"")
     with pytest.raises(
         ValueError, match=r"'-40' above the columns is a temperature in C or K \(--temp"
     ):
@@ -83,12 +77,11 @@ def test_numbers_without_a_name_above_columns_must_be_identified(file):
 
 
 def test_only_the_first_columns_of_reptate_count(file):
-    cells = 6
-    sweeps = read_dma(file(lab_files.reptate_osc(cells=cells), "film.osc"))
+    sweeps = read_dma(file(lab_files.RHEOMETER, "film.osc"))
     assert_allclose(sweeps.storage, lab_files.PASCAL[0][8:], rtol=1e-11)
     assert_allclose(sweeps.loss, lab_files.PASCAL[1][8:], rtol=1e-11)
     assert_allclose(sweeps.temperature, 253.15)
-    lines = lab_files.reptate_osc(cells=cells).decode("latin-1").split("\n")
+    lines = lab_files.RHEOMETER.decode("latin-1").split("\n")
     lines[4] = "    ".join(lines[4].split()[1:])
     with pytest.raises(ValueError, match=r"line 5: .Temp. is 1.97, .*T=-20"):
         read_dma(file("\n".join(lines).encode("latin-1"), "film.osc"))
@@ -96,7 +89,9 @@ def test_only_the_first_columns_of_reptate_count(file):
 
 def test_steps_of_reptate_stand_in_its_first_line(file):
     relaxation = read(file("T=20;gamma=0.5; \nt sxy\n0.1 5e5\n1 3e5\n", "melt.gt"))
+    # the column is a stress, after a step of gamma
     assert relaxation.modulus.tolist() == [1e6, 6e5]
+    assert (relaxation.kind, relaxation.temperature, relaxation.strain) == ("G", 293.15, 0.5)
     assert read(file("gamma=0;\n0.1 5e5\n1 3e5\n", "melt.gt")).modulus[0] == 5e5
     creep = read(file("T=20;stress=50;\nt strain\ns -\n0 0\n1 0.001\n2 0.002\n", "melt.creep"))
     assert_allclose(creep.compliance, [2e-5, 4e-5])

@@ -18,7 +18,7 @@ from viscotack.lab import (
     read_dma,
     shift_factors,
 )
-from viscotack.lab.fit.kramers_kronig import causal_misfit
+from viscotack.lab.fit.master_curve import causal_misfit
 from viscotack.lab.fit.overlap import Curve, Hold, step_between
 from viscotack.model.materials import RetardationPowerLaw
 from viscotack.model.materials.shift import WLF, Arrhenius, TabulatedShift

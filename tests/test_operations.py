@@ -174,7 +174,7 @@ def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, monkeypa
         raise InputError(f"a rig of {stiffness:g} N/m")
 
     monkeypatch.setattr("viscotack.identify.rate_series.RateSeries", stiffness_of)
-    (folder / "curve.jpk-force").write_bytes(tack_files.jpk(tack_files.made()))
+    (folder / "curve.jpk-force").write_bytes(tack_files.BINARIES["curve.jpk-force"].read_bytes())
     question = Question("identify rates", RATES | {"files": ["curve.jpk-force"]})
     found = {
         "Python": by_python(question),

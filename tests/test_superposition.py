@@ -23,7 +23,7 @@ from viscotack.lab import (
     superposed,
     superposition,
 )
-from viscotack.lab.fit.passport import issued
+from viscotack.lab.fit.report import issued
 from viscotack.model.materials import FractionalZener, StandardSolid
 from viscotack.model.materials.passport_file import read_passport, write_passport
 from viscotack.model.materials.shift import WLF, Arrhenius
@@ -77,7 +77,7 @@ def test_shifting_by_storage_alone_has_an_error_for_a_melt_and_reports_it():
     off = np.abs(curve.shifts.log10_shift - TRUE[1:])
     assert np.max(off) > 0.3
     assert np.all(off <= QUANTILE * curve.shifts.uncertainty + 1e-9)
-    words = " ".join(superposition(sweeps, curve.shifts).words())
+    words = " ".join(superposition(sweeps, curve.shifts))
     assert "do not superpose in loss" in words
     assert "other shifts" in words
     assert "Kramers-Kronig" in contradiction(curve)
@@ -100,7 +100,7 @@ def test_a_sweep_that_is_off_is_named():
     bad = np.where(sweeps.sweep == 3, np.linspace(0.5, 2.0, len(sweeps)), 1.0)
     spoilt = replace(sweeps, loss=sweeps.loss * np.where(bad == 1, 1, 1.5), storage=sweeps.storage)
     curve = master_curve(sweeps, reference_temperature=REFERENCE)
-    words = " ".join(superposition(spoilt, curve.shifts).words())
+    words = " ".join(superposition(spoilt, curve.shifts))
     assert "do not superpose in loss" in words
     assert "-10 C" in words
 
@@ -110,7 +110,7 @@ def test_a_loss_that_contradicts_storage_is_found_out_and_the_shifts_are_called_
     sweeps = read_dma(DMA / "freq_user_raw.csv")
     sweeps = sweeps.chosen((sweeps.temperature > 244) & (sweeps.temperature < 300))
     curve = master_curve(sweeps, reference_temperature=298.15)
-    assert "do not superpose in loss" in superposition(sweeps, curve.shifts).words()[0]
+    assert "do not superpose in loss" in superposition(sweeps, curve.shifts)[0]
     assert "Kramers-Kronig" in contradiction(curve)
     assert curve.shifts.uncertainty[0] > 0.5
 

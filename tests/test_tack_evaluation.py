@@ -12,7 +12,7 @@ import tack_files
 from viscotack.errors import InputError
 from viscotack.lab import tack
 from viscotack.lab.tack import Measured, evaluation
-from viscotack.lab.tack.extremum import extremum
+from viscotack.lab.tack.baseline import extremum
 from viscotack.theory import jkr
 
 PULL_OFF = jkr.pull_off(**tack_files.SPHERE)
@@ -144,7 +144,7 @@ def test_a_retraction_alone_is_taken_where_that_is_said():
 
 def test_textbook_signals_are_evaluated_within_their_uncertainties():
     found = [
-        rig_signals.judged(rig_signals.textbook(np.random.default_rng([2, i]))) for i in range(40)
+        rig_signals.judged(*rig_signals.textbook(np.random.default_rng([2, i]))) for i in range(40)
     ]
     assert [one for one in found if isinstance(one, str)] == []
     errors, ratios = np.moveaxis(np.array(found), -1, 0)
@@ -236,7 +236,7 @@ def test_the_wander_of_the_zero_is_in_the_uncertainty_of_the_depth():
         noise = 0.002 * rng.standard_normal(test.time.size)
         force = test.force + test.range * (0.02 * walk + noise)
         record = tack.TackRecord(test.time, force, test.depth, into=1)
-        found = rig_signals.judged(rig_signals.Signal(record, test.truth, {}))
+        found = rig_signals.judged(record, test.truth)
         ratios.append(found[rig_signals.QUANTITIES.index("preload_depth")][1])
     assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 1.1
 

@@ -11,6 +11,7 @@ from viscotack.errors import InputError
 from viscotack.lab import tack
 
 WHOLE = tack_files.made()
+PLAIN = tack_files.plain(WHOLE)
 
 
 def read(tmp_path, content, name="test.csv", **said):
@@ -19,14 +20,26 @@ def read(tmp_path, content, name="test.csv", **said):
     return tack.read(path, **said)
 
 
-@pytest.mark.parametrize("name", tack_files.TEXTS)
-def test_every_text_layout_gives_the_same_test(name, tmp_path):
-    (record,) = read(tmp_path, tack_files.TEXTS[name](WHOLE))
+def test_the_columns_of_a_test_are_read(tmp_path):
+    (record,) = read(tmp_path, PLAIN)
     assert record.time == pytest.approx(WHOLE.time, rel=1e-6)
+    assert record.force == pytest.approx(WHOLE.force, rel=1e-6)
+    assert record.position == pytest.approx(WHOLE.drive, rel=1e-6)
+    assert record.into == 1
+
+
+@pytest.mark.parametrize("name", [*tack_files.TEXTS, "workbook"])
+def test_every_text_layout_gives_the_same_test(name):
+    path = tack_files.TEXTS.get(name, tack_files.LAYOUTS / "workbook.xlsx")
+    if name == "workbook":
+        pytest.importorskip("openpyxl")
+    (record,) = tack.read(path)
+    assert record.time == pytest.approx(WHOLE.time[::10], rel=1e-6)
     sign = -1 if name == "bluehill" else 1
-    assert sign * record.force == pytest.approx(WHOLE.force, rel=1e-6)
-    assert sign * record.position == pytest.approx(WHOLE.drive, rel=1e-6)
-    assert record.into == (1 if name in ("plain", "with camera", "nanoindenter") else 0)
+    assert sign * record.force == pytest.approx(WHOLE.force[::10], rel=1e-6)
+    assert sign * record.position == pytest.approx(WHOLE.drive[::10], rel=1e-6)
+    assert record.into == (name == "nanoindenter")
+    assert record.source.format == ("workbook" if name == "workbook" else "text")
 
 
 def test_a_contact_radius_is_read_where_there_is_one(tmp_path):
@@ -55,17 +68,9 @@ def test_intervals_in_files_of_their_own_are_one_test(tmp_path):
         tack.evaluate(only)
 
 
-def test_a_workbook_gives_the_sheet_with_a_test(tmp_path):
-    pytest.importorskip("openpyxl")
-    tack_files.workbook(WHOLE, tmp_path / "probe.xlsx")
-    (record,) = tack.read(tmp_path / "probe.xlsx")
-    assert record.force == pytest.approx(WHOLE.force, rel=1e-12)
-    assert record.source.format == "workbook"
-
-
 @pytest.mark.parametrize("name", tack_files.BINARIES)
-def test_every_microscope_gives_the_same_test(name, tmp_path):
-    (record,) = read(tmp_path, tack_files.BINARIES[name](WHOLE), name)
+def test_every_microscope_gives_the_same_test(name):
+    (record,) = tack.read(tack_files.BINARIES[name])
     assert record.source.format == name.partition(".")[2]
     (cycle,) = tack.evaluate(record, compliance=0.0).cycles
     assert cycle.pull_off_force.value == pytest.approx(-WHOLE.force.min(), rel=2e-3)
@@ -73,8 +78,8 @@ def test_every_microscope_gives_the_same_test(name, tmp_path):
     assert cycle.dwell_time == pytest.approx(tack_files.DWELL, rel=0.02)
 
 
-def test_a_cantilever_that_the_file_names_bends(tmp_path):
-    (record,) = read(tmp_path, tack_files.jpk(WHOLE), "curve.jpk-force")
+def test_a_cantilever_that_the_file_names_bends():
+    (record,) = tack.read(tack_files.BINARIES["curve.jpk-force"])
     assert record.compliance == pytest.approx(1 / tack_files.STIFFNESS)
     (bent,), (stiff,) = tack.evaluate(record).cycles, tack.evaluate(record, compliance=0).cycles
     force = bent.pull_off_force.value
@@ -82,7 +87,6 @@ def test_a_cantilever_that_the_file_names_bends(tmp_path):
     assert shift == pytest.approx(force / tack_files.STIFFNESS, rel=1e-2)
 
 
-PLAIN = tack_files.plain(WHOLE)
 REFUSED = {
     "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
     "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
@@ -122,11 +126,12 @@ def test_values_missing_from_a_file_can_be_given(tmp_path):
 
 
 def test_a_microscope_that_was_not_calibrated_is_refused(tmp_path):
-    content = tack_files.ibw(WHOLE).replace(b"SpringConstant", b"SpringConstanT")
-    with pytest.raises(InputError, match="lacks SpringConstant"):
+    wave, nid = (tack_files.BINARIES[f"curve.{end}"].read_bytes() for end in ("ibw", "nid"))
+    content = wave.replace(b"SpringConstant", b"SpringConstanT")
+    with pytest.raises(InputError, match="SpringConstant"):
         read(tmp_path, content, "curve.ibw")
-    with pytest.raises(InputError, match="ends after"):
-        read(tmp_path, tack_files.nid(WHOLE)[:-100], "curve.nid")
+    with pytest.raises(InputError, match="curve.nid"):
+        read(tmp_path, nid[:-100], "curve.nid")
 
 
 class Curve(dict):
@@ -151,7 +156,7 @@ def test_a_map_is_read_by_afmformats_curve_by_curve(tmp_path, monkeypatch):
         return [Curve(WHOLE, 7, **bent), Curve(WHOLE, 8, **bare)]
 
     stand_in(monkeypatch, load_data)
-    packed = tack_files.jpk(WHOLE)
+    packed = tack_files.BINARIES["curve.jpk-force"].read_bytes()
     first, second = read(tmp_path, packed, "map.jpk-force-map")
     assert np.array_equal(first.force, WHOLE.force) and np.array_equal(first.time, WHOLE.time)
     assert (first.into, first.compliance, second.compliance) == (-1, 1e-4, 0.0)

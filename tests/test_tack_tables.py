@@ -11,7 +11,7 @@ import pytest
 
 from command_line import exit_status
 from viscotack.lab.tack import Measured, survey
-from viscotack.lab.tack.speed_table import jkr_work, speed_table
+from viscotack.lab.tack.repeats import jkr_work, speed_table
 from viscotack.theory import jkr
 
 RIG = Path(__file__).parents[1] / "examples" / "from_rig"

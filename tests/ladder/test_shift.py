@@ -8,8 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.constants import gas_constant
 
 from reference_data import VALUES
-from viscotack.lab import loss_from_storage
-from viscotack.model.materials import Prony, StandardSolid
+from viscotack.model.materials import StandardSolid
 from viscotack.model.materials.passport import Evidence, Passport
 from viscotack.model.materials.shift import (
     WLF,
@@ -106,36 +105,6 @@ def test_wlf_tends_to_arrhenius_near_its_reference():
     step = np.array([0.1, 0.2, 0.4])
     gap = law.log10_shift(ROOM + step) - Arrhenius(ROOM, energy).log10_shift(ROOM + step)
     assert np.polyfit(np.log(step), np.log(np.abs(gap)), 1)[0] == pytest.approx(2, abs=0.02)
-
-
-# ---- the relation of Kramers and Kronig (Eq. 4.26) ---------------------------------------------
-
-PRONY = Prony(
-    rubbery_modulus=1e6, branches=[(3e7, 1e-4), (4e6, 5e-2), (8e5, 3.0)], poisson_ratio=0.5
-)
-
-
-def test_the_loss_of_a_solid_follows_from_its_storage_at_second_order():
-    error, spacing = [], np.array([0.2, 0.1, 0.05])
-    for step in spacing:
-        # 60 decades, so that what is cut off at the ends is small
-        omega = np.exp(np.arange(-69, 69, step))
-        modulus = PRONY.complex_modulus(omega)
-        inside = (omega > 1e-2) & (omega < 1e4)
-        found = loss_from_storage(omega, modulus.real)
-        error.append(np.max(np.abs(found / modulus.imag - 1)[inside]))
-    slope = np.polyfit(np.log(spacing), np.log(error), 1)[0]
-    assert slope == pytest.approx(2, abs=0.1)
-    assert error[-1] < 1e-3
-
-
-def test_a_step_of_storage_has_the_loss_of_the_closed_form():
-    # E' rises by 1 MPa within a narrow step at 1 rad/s: E'' = (1 MPa/pi) ln coth|ln(omega)/2|
-    omega = np.array([1e-3, 1e-2, 0.3, 1 - 1e-4, 1 + 1e-4, 5.0, 1e2])
-    storage = np.where(omega < 1, 1e6, 2e6)
-    expected = 1e6 / np.pi * np.log(1 / np.tanh(np.abs(np.log(omega)) / 2))
-    far = [0, 1, 2, 5, 6]
-    assert_allclose(loss_from_storage(omega, storage)[far], expected[far], rtol=1e-6)
 
 
 def test_a_table_goes_on_straight_for_a_kelvin():

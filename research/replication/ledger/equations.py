@@ -270,15 +270,27 @@ def two_materials(of: Of) -> Measured:
 
 def kramers_kronig(of: Of) -> Measured:
     """Return the largest miss of Eq. 4.26 by the fitted modulus, over the loss modulus."""
-    from viscotack.lab import loss_from_storage
-
     w = np.geomspace(1e-6, 1e22, 421)
     modulus: object = PDMS.complex_modulus(w)
     storage, loss = np.real(np.asarray(modulus)), np.imag(np.asarray(modulus))
-    found = np.asarray(loss_from_storage(w, storage))
+    found = _loss_from_storage(w, storage)
     inside = (w > 1e-2) & (w < 1e12)
     off = float(np.max(np.abs(found[inside] / loss[inside] - 1)))
     return Measured(off, f"met within {100 * off:.2g} % over 14 decades")
+
+
+def _loss_from_storage(omega: np.ndarray, storage: np.ndarray) -> np.ndarray:
+    """Return the loss modulus by Eq. 4.26 integrated by parts, storage linear in ln omega.
+
+    The integral of ln coth|t/2| from 0 to y is pi^2/4 less half the difference of two dilogarithms.
+    """
+    from scipy.special import spence
+
+    y = np.log(omega)
+    apart = y[None, :] - y[:, None]
+    z = np.exp(-np.abs(apart))
+    integral = np.sign(apart) * (np.pi**2 / 4 - (spence(1 - z) - spence(1 + z)))
+    return np.diff(integral, axis=1) @ (np.diff(storage) / np.diff(y)) / np.pi
 
 
 def creep_forms(of: Of) -> Measured:

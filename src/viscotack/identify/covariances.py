@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.lab.grouping import GAP
+from viscotack.lab.sweeps import GAP
 from viscotack.model.materials import Passport
 from viscotack.model.materials.conversion import slowed
 from viscotack.model.materials.passport_uncertainty import allowed, shift_error

@@ -20,7 +20,7 @@ from scipy.stats import t
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
-from viscotack.lab.tack.cycle import Measured
+from viscotack.lab.tack.record import Measured
 from viscotack.lab.tack.repeats import same_speeds, temperature_of
 
 from .contacts import MODELS

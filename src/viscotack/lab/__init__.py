@@ -2,22 +2,17 @@
 
 from viscotack.model.materials.shift import FittedShift as ShiftFit
 
-from .fit.fitting import fit
-from .fit.kramers_kronig import contradiction, loss_from_storage
-from .fit.master_curve import master_curve, superposed
-from .fit.passport import issued
-from .fit.report import FitReport
+from .fit.fitting import allow_for_shifts, fit
+from .fit.master_curve import contradiction, master_curve, superposed
+from .fit.report import FitReport, issued
 from .fit.shift_factors import shift_factors
 from .fit.shift_laws import fit_arrhenius, fit_wlf, nearest_law
-from .fit.shift_spread import allow_for_shifts
-from .fit.superposition import Superposition, superposition
+from .fit.superposition import superposition
 from .options import Options, TackOptions
 from .reading import (
     FORMATS,
     read,
-    read_creeps,
     read_dma,
-    read_relaxations,
     read_shifts,
 )
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
@@ -33,7 +28,6 @@ __all__ = [
     "ShiftFit",
     "ShiftTable",
     "Source",
-    "Superposition",
     "TackOptions",
     "allow_for_shifts",
     "contradiction",
@@ -41,13 +35,10 @@ __all__ = [
     "fit_arrhenius",
     "fit_wlf",
     "issued",
-    "loss_from_storage",
     "master_curve",
     "nearest_law",
     "read",
-    "read_creeps",
     "read_dma",
-    "read_relaxations",
     "read_shifts",
     "shift_factors",
     "superposed",

@@ -16,10 +16,18 @@ from .formats.columns import MaterialColumns, refuse_pooled
 from .formats.file import LabFile
 from .formats.numbers import doubtful_modulus
 from .formats.tables import Table
-from .grouping import GAP, grouped, levels
-from .joining import numbered_on
 from .options import Options
-from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable, Source
+from .sweeps import (
+    GAP,
+    CreepTest,
+    FrequencySweeps,
+    RelaxationTest,
+    ShiftTable,
+    Source,
+    grouped,
+    levels,
+    numbered_on,
+)
 
 STIFFEST = 1.2e12  # Pa, diamond
 _ONE_STATE = "all points have one temperature and one frequency (an amplitude or time sweep?)"
@@ -29,7 +37,7 @@ _TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is 
 _TOLERANCE, _DAMAGED = 0.02, 0.1
 
 
-def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) -> FrequencySweeps:
+def sweeps(file: LabFile, tables: Sequence[Table], given: Options) -> FrequencySweeps:
     """Return the frequency sweeps of all tables that contain them, in the order of the file."""
     parts, read, states, notes = [], [], [], list(file.notes)
     for table in tables:
@@ -52,7 +60,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Options) 
     refuse_pooled(read)
     if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
-    source = source_of(file, format, notes)
+    source = source_of(file, notes)
     # a single table keeps its own sweep numbers
     return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
 
@@ -261,9 +269,9 @@ def headings_of(tables: Sequence[Table]) -> str:
     return ", ".join(f'"{heading}"' for heading in dict.fromkeys(headings)) or "no headings"
 
 
-def source_of(file: LabFile, format: str, notes: Sequence[str]) -> Source:
+def source_of(file: LabFile, notes: Sequence[str]) -> Source:
     """Return the source of the numbers, with each note once."""
-    return Source(file.path, file.sha256, format, tuple(dict.fromkeys(notes)))
+    return Source(file.path, file.sha256, file.format, tuple(dict.fromkeys(notes)))
 
 
 # ---- step tests and shift factors ----------------------------------------------------------------
@@ -277,13 +285,7 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 }
 
 
-def tests(
-    kind: type[Test],
-    file: LabFile,
-    format: str,
-    tables: Sequence[Table],
-    given: Options,
-) -> list[Test]:
+def tests(kind: type[Test], file: LabFile, tables: Sequence[Table], given: Options) -> list[Test]:
     """Return the tests of a kind in a file, one per temperature.
 
     Rows with monotonic time are one test, whose temperature may drift.
@@ -292,7 +294,7 @@ def tests(
     steps = np.diff(time)
     runs_on = np.all(steps > 0) or np.all(steps < 0)
     whole = runs_on or np.any(np.isnan(temperature))
-    source = source_of(file, format, [*file.notes, *columns.notes])
+    source = source_of(file, [*file.notes, *columns.notes])
     held = _MEASURED[kind][2]
     found = []
     for part in [np.arange(time.size)] if whole else levels(temperature):

@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.errors import InputError
 
 from .formats.columns import MaterialColumns
-from .grouping import GAP
+from .sweeps import GAP
 
 _SWEPT = 0.05  # relative range of a frequency or a temperature that is swept
 # Pairs of columns that determine the complex modulus, the most direct ones first.

@@ -18,10 +18,9 @@ from .formats import reptate, text, trios_json, workbook
 from .formats.columns import MaterialColumns
 from .formats.file import LabFile, first_fitting, load
 from .formats.headings import MATERIAL
-from .formats.tables import Table, pieces, where
-from .joining import joined, kelvin_in_name
+from .formats.tables import Table, kelvin_in_name, pieces, where
 from .options import Options
-from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
+from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable, joined
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
@@ -30,26 +29,30 @@ _NOTHING = Options()
 
 # reader of the tables of each format, in order of detection
 FORMATS: dict[str, Callable[..., list[Table] | None]] = {
-    "eplexor": workbook.eplexor,
     "workbook": workbook.tables,
     "reptate": reptate.tables,
     "trios-json": trios_json.tables,
     "trios": text.trios,
     "rheocompass": text.rheocompass,
     "wide": text.wide,
-    "pyvisco": text.pyvisco,
     "csv": text.plain,
 }
 
 
 def read(
-    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
+    path: Path | Sequence[Path],
+    options: Options = _NOTHING,
+    *,
+    test: str | None = None,
+    **more: Any,
 ) -> Test | tuple[RelaxationTest, ...] | tuple[CreepTest, ...]:
     r"""Read the test in a file: frequency sweeps, stress relaxation or creep.
 
     The columns identify the test; if both stress and strain are present, the one held constant
     does. Sweeps take precedence over step tests. Step tests at several temperatures are returned
-    as a tuple, from cold to hot.
+    as a tuple, from cold to hot; points within 1 K have one temperature, and rows with monotonic
+    time are one test. A time since the step takes precedence over a time of the whole test; rows at
+    time zero are ignored, with a note.
 
     Parameters
     ----------
@@ -57,6 +60,8 @@ def read(
         Text files or workbooks of one material, see :func:`read_dma`.
     options : Options
         What the caller states about the file.
+    test : {"dma", "relaxation", "creep"}, optional
+        Test to read where the file has several.
     **more
         Fields of :class:`Options` by name, which replace those of `options`.
 
@@ -83,12 +88,7 @@ def read(
     ('RelaxationTest', 'G')
     """
     opened = _opened(path, options, more)
-    tests = {
-        test_of(MaterialColumns(file, table, replace(given, kind=None)))
-        for file, _, tables, given in opened
-        for table in tables
-        if table.rows
-    }
+    tests = {test} if test else _tests_in(opened)
     if "dma" in tests or not tests & {"relaxation", "creep"}:
         return joined([assembly.sweeps(*each) for each in opened])
     if {"relaxation", "creep"} <= tests:
@@ -98,10 +98,9 @@ def read(
         raise file.error(
             "the file contains a relaxation and a creep test; set --test relaxation or --test creep"
         )
-    if "relaxation" in tests:
-        found = _each(RelaxationTest, opened)
-    else:
-        found = _each(CreepTest, opened)
+    kind = RelaxationTest if "relaxation" in tests else CreepTest
+    read = [test for one in opened for test in assembly.tests(kind, *one)]
+    found = tuple(sorted(read, key=lambda test: test.temperature or 0.0))
     return found[0] if len(found) == 1 else found
 
 
@@ -159,93 +158,6 @@ def read_dma(
     return joined([assembly.sweeps(*each) for each in opened])
 
 
-def read_relaxations(
-    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
-) -> tuple[RelaxationTest, ...]:
-    r"""Read the relaxation tests of one or more files, one per temperature, from cold to hot.
-
-    Points within 1 K have one temperature. Rows with
-    monotonic time are one test. A time since the step takes precedence over a time of the whole
-    test; rows at time zero are ignored, with a note.
-
-    Parameters
-    ----------
-    path : path-like, or sequence of them
-        Text files or workbooks of one material, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    tuple of RelaxationTest
-        In SI, from cold to hot.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless each file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "T,t,G(t)\nC,s,MPa\n20,1,4\n20,10,2\n0,1,8\n0,10,4\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_relaxations(file)
-    >>> [round(test.temperature, 2) for test in found]
-    [273.15, 293.15]
-    """
-    opened = _opened(path, options, more)
-    return _each(RelaxationTest, opened)
-
-
-def read_creeps(
-    path: Path | Sequence[Path], options: Options = _NOTHING, **more: Any
-) -> tuple[CreepTest, ...]:
-    r"""Read the creep tests of one or more files, one per temperature, from cold to hot.
-
-    Points within 1 K have one temperature. Rows with
-    monotonic time are one test, as in :func:`read_relaxations`.
-
-    Parameters
-    ----------
-    path : path-like, or sequence of them
-        Text files or workbooks of one material, see :func:`read_dma`.
-    options : Options
-        What the caller states about the file.
-    **more
-        Fields of :class:`Options` by name, which replace those of `options`.
-
-    Returns
-    -------
-    tuple of CreepTest
-        In SI, from cold to hot.
-
-    Raises
-    ------
-    ValueError
-        As :func:`read_dma`; also unless each file has exactly one table of this kind.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import TemporaryDirectory
-    >>> table = "T,t,J\nC,s,1/Pa\n20,1,1e-6\n20,10,2e-6\n0,1,5e-7\n0,10,1e-6\n"
-    >>> with TemporaryDirectory() as folder:
-    ...     file = Path(folder, "film.csv")
-    ...     _ = file.write_text(table)
-    ...     found = read_creeps(file, kind="G")
-    >>> [round(test.temperature, 2) for test in found]
-    [273.15, 293.15]
-    """
-    opened = _opened(path, options, more)
-    return _each(CreepTest, opened)
-
-
 def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTable:
     r"""Read a table of shift factors: temperature and log_aT, or aT and optionally bT.
 
@@ -285,14 +197,13 @@ def read_shifts(path: Path, options: Options = _NOTHING, **more: Any) -> ShiftTa
     [2.1, 0.0]
     """
     (opened,) = _opened([path], options, more)
-    return assembly.shifts(opened.file, opened.tables, opened.given)
+    return assembly.shifts(*opened)
 
 
 class _Opened(NamedTuple):
     """Tables of a file and the caller's options, the input of every reader of tests."""
 
     file: LabFile
-    format: str
     tables: list[Table]
     given: Options
 
@@ -305,20 +216,25 @@ def _opened(path: Path | Sequence[Path], options: Options, more: dict[str, Any])
         raise InputError("no file to read; give one or more paths")
     opened = []
     for one in paths:
-        file, found, tables = _tables(one, given)
+        file, tables = _tables(one, given)
         own = given
         if given.temperature_in_name:
             own = replace(given, temperature=kelvin_in_name(file), temperature_in_name=False)
-        opened.append(_Opened(file, found, tables, own))
+        opened.append(_Opened(file, tables, own))
     return opened
 
 
-def _each(kind: type[assembly.Test], opened: Sequence[_Opened]) -> tuple[assembly.Test, ...]:
-    tests = [test for one in opened for test in assembly.tests(kind, *one)]
-    return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
+def _tests_in(opened: Sequence[_Opened]) -> set[str | None]:
+    """Return the tests that the tables of files contain, of whatever kind of modulus."""
+    return {
+        test_of(MaterialColumns(one.file, table, replace(one.given, kind=None)))
+        for one in opened
+        for table in one.tables
+        if table.rows
+    }
 
 
-def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
+def _tables(path: Path, given: Options) -> tuple[LabFile, list[Table]]:
     file = load(path)
     if not given.names:
         file = text.upright(file, MATERIAL)
@@ -332,7 +248,7 @@ def _tables(path: Path, given: Options) -> tuple[LabFile, str, list[Table]]:
     pairs = enumerate(zip(parts, [None, *parts], strict=False), start=1)
     numbered = [replace(table, number=i, before=before) for i, (table, before) in pairs]
     tables, others = _selected(file, where(file, numbered, given.where), given)
-    return replace(file, notes=(*said, *file.notes, *cut, *others)), found, tables
+    return replace(file, notes=(*said, *file.notes, *cut, *others), format=found), tables
 
 
 def _selected(

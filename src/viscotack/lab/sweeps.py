@@ -7,9 +7,16 @@ Poisson ratio.
 Convention of shift factors: log10 a_T is positive where the solid is slower than at the
 reference temperature, that is below it. A point at omega and T is shifted to omega a_T; its moduli
 are multiplied by 10^log10_vertical to give those at the reference temperature.
+
+Points are assigned to sweeps by temperature or by the reversal of the frequency; sweeps of one
+temperature that contradict each other are refused, not pooled. Several files are joined as one
+material.
 """
 
+import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -135,13 +142,7 @@ class FrequencySweeps(_Moduli):
 
     def __post_init__(self):
         check_kind(self.kind)
-        store_columns(
-            self,
-            temperature=("K", True),
-            angular_frequency=("rad/s", False),
-            storage=("Pa", False),
-            loss=("Pa", False),
-        )
+        store_columns(self, "temperature", "angular_frequency", "storage", "loss")
         store_whole(self, "sweep", self.sweep, self.storage.size)
 
     @property
@@ -254,11 +255,8 @@ class MasterCurve(_Moduli):
     def __post_init__(self):
         check_kind(self.kind)
         store_temperature(self, "reference_temperature")
-        store_columns(
-            self, angular_frequency=("rad/s", False), storage=("Pa", False), loss=("Pa", False)
-        )
-        if self.temperature is not None:
-            store_columns(self, storage=("Pa", False), temperature=("K", True))
+        known = () if self.temperature is None else ("temperature",)
+        store_columns(self, "angular_frequency", "storage", "loss", *known)
         if self.sweep is not None:
             store_whole(self, "sweep", self.sweep, self.storage.size)
         sort_along(self, self.angular_frequency)
@@ -267,16 +265,15 @@ class MasterCurve(_Moduli):
 class _StepTest:
     """What relaxation and creep tests have in common: a number over the time since the step."""
 
-    # name and unit of the number, and the power of the modulus that it is
-    measured: ClassVar[tuple[str, str, int]]
+    # name of the number, and the power of the modulus that it is
+    measured: ClassVar[tuple[str, int]]
     time: Array
     kind: str
 
     def __post_init__(self):
-        name, unit, _ = self.measured
         check_kind(self.kind)
         store_temperature(self, "temperature")
-        store_columns(self, time=("s", False), **{name: (unit, False)})
+        store_columns(self, "time", self.measured[0])
         sort_along(self, self.time)
 
     def __len__(self) -> int:
@@ -284,7 +281,7 @@ class _StepTest:
 
     def in_tension(self, poisson_ratio: float) -> Self:
         """Convert a shear to a tensile modulus, 2 (1 + nu) G, or compliance, J/(2 (1 + nu))."""
-        name, _, power = self.measured
+        name, power = self.measured
         return in_tension(self, poisson_ratio, name, power=power)
 
 
@@ -313,7 +310,7 @@ class RelaxationTest(_StepTest):
     [6000000.0, 3000000.0]
     """
 
-    measured: ClassVar = ("modulus", "Pa", 1)
+    measured: ClassVar = ("modulus", 1)
 
     time: Array
     modulus: Array
@@ -348,7 +345,7 @@ class CreepTest(_StepTest):
     [1e-06, 2e-06]
     """
 
-    measured: ClassVar = ("compliance", "1/Pa", -1)
+    measured: ClassVar = ("compliance", -1)
 
     time: Array
     compliance: Array
@@ -388,10 +385,17 @@ def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None
     return row
 
 
-def store_columns(instance: Any, **units: tuple[str, bool]) -> None:
-    """Store positive read-only arrays of one length; some columns may contain nan (unknown)."""
+_UNITS = {
+    "temperature": "K", "angular_frequency": "rad/s", "storage": "Pa", "loss": "Pa", "time": "s",
+    "modulus": "Pa", "compliance": "1/Pa",
+}  # fmt: skip
+
+
+def store_columns(instance: Any, *names: str) -> None:
+    """Store positive read-only arrays of one length; a temperature may be nan (unknown)."""
     length = None
-    for name, (unit, may_miss) in units.items():
+    for name in names:
+        unit, may_miss = _UNITS[name], name == "temperature"
         row = array(name, getattr(instance, name), unit, length)
         length = row.size
         wrong = row[~((row > 0) & (row < np.inf) | (may_miss & np.isnan(row)))]
@@ -435,4 +439,182 @@ def in_tension(instance: Any, poisson_ratio: float, *names: str, power: int = 1)
         kind="E",
         source=instance.source.noted(f"shear converted to tension with Poisson ratio {nu:g}"),
         **{name: factor * getattr(instance, name) for name in names},
+    )
+
+
+# K least difference between two sweeps; chambers hold the temperature within a few tenths
+GAP = 1.0
+# K: sweeps closer than this must agree; a ramp may pass through neighbouring temperatures
+_ONE_TEMPERATURE = 0.3
+_UNLIKE = 0.1  # relative difference of sweeps of one state that is refused, if beyond their scatter
+_COMPARED = 3  # points that sweeps need to be compared
+
+
+def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[np.int64], str]:
+    """Assign each point to a frequency sweep; return the sweep numbers and a note.
+
+    Parameters
+    ----------
+    temperature, angular_frequency : ndarray, shape (N,)
+        Of the points, in the order of the file; temperatures may be nan (unknown).
+
+    Returns
+    -------
+    numbers : ndarray of int, shape (N,)
+        Sweep of each point, counted from 0.
+    how : str
+        Note on the method; empty for a single sweep.
+
+    Notes
+    -----
+    Points within 1 K are one sweep if no frequency occurs twice among them, in any order.
+    Otherwise a sweep ends where the frequency reverses direction. One frequency at many
+    temperatures is one sweep.
+
+    Examples
+    --------
+    >>> numbers, how = grouped(np.array([300.0, 290.1, 300.2, 290.0]), np.array([1.0, 1, 10, 10]))
+    >>> numbers.tolist(), how
+    ([0, 1, 0, 1], '2 sweeps separated by temperature')
+    """
+    one = np.zeros(temperature.size, dtype=np.int64)
+    if np.ptp(angular_frequency) <= 1e-3 * angular_frequency[0]:
+        return one, ""
+    clusters = np.empty(temperature.size, dtype=np.int64)
+    for number, points in enumerate(levels(temperature)):
+        clusters[points] = number
+    pairs = np.stack((clusters, np.round(1000 * np.log(angular_frequency))))
+    # each frequency once at each temperature
+    if not np.isnan(temperature).any() and np.unique(pairs, axis=1).shape[1] == clusters.size:
+        how = "temperature"
+    else:
+        clusters, how = _runs(angular_frequency), "frequency reversal"
+    # numbered in the order of the file
+    _, first, numbers = np.unique(clusters, return_index=True, return_inverse=True)
+    numbers = np.argsort(np.argsort(first))[numbers]
+    count = first.size
+    return numbers, f"{count} sweeps separated by {how}" if count > 1 else ""
+
+
+def levels(temperature: Array) -> list[npt.NDArray[np.int64]]:
+    """Return the indices of the points of each temperature, from cold to hot."""
+    order = np.argsort(temperature, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(temperature[order]) > GAP) + 1)
+
+
+def _runs(angular_frequency: Array) -> npt.NDArray[np.int64]:
+    """Return the number of the monotonic run of frequencies that each point belongs to."""
+    numbers = np.zeros(angular_frequency.size, dtype=np.int64)
+    direction = 0.0
+    for i in range(1, numbers.size):
+        step = np.sign(angular_frequency[i] - angular_frequency[i - 1])
+        numbers[i] = numbers[i - 1]
+        if step * direction < 0:
+            numbers[i] += 1
+            direction = 0.0
+        elif step:
+            direction = step
+    return numbers
+
+
+def refuse_unlike(sweeps: FrequencySweeps) -> None:
+    """Raise an error if sweeps at one temperature differ by more than their scatter.
+
+    They are then of several samples, positions or states, which are no one material.
+    """
+    parts = _passes(sweeps)
+    for (T, x, y), (other, u, v) in combinations(parts, 2):
+        if abs(T - other) > _ONE_TEMPERATURE or np.isnan(T) != np.isnan(other):
+            continue
+        inside = (x >= u[0] - 1e-9) & (x <= u[-1] + 1e-9)
+        if inside.sum() < _COMPARED:
+            continue
+        off = y[inside] - np.interp(x[inside], u, v)
+        apart, scatter = abs(float(np.median(off))), float(np.std(off))
+        if apart > max(np.log1p(_UNLIKE), 3 * scatter / np.sqrt(off.size)):
+            where = "unknown temperature" if np.isnan(T) else f"{T - 273.15:.4g} C"
+            raise InputError(
+                f"{sweeps.source.path or 'the sweeps'}: sweeps at {where} differ by "
+                f"{100 * np.expm1(apart):.2g} %: several samples, states or unstated "
+                "temperatures; choose one by --where or --table"
+            )
+
+
+def _passes(sweeps: FrequencySweeps) -> list[tuple[float, Array, Array]]:
+    """Return temperature, log10 of frequency and ln of the modulus of each run of frequencies.
+
+    A sweep in which a frequency occurs repeatedly has several runs; a ramp of the temperature none.
+    """
+    found = []
+    size = np.log(np.hypot(sweeps.storage, sweeps.loss))
+    keys = np.round(1000 * np.log(sweeps.angular_frequency)).astype(np.int64)
+    for number in np.unique(sweeps.sweep):
+        own = np.flatnonzero(sweeps.sweep == number)
+        temperature = sweeps.temperature[own]
+        if np.ptp(temperature) > GAP:
+            continue
+        order = own[np.argsort(keys[own], kind="stable")]
+        begins = np.flatnonzero(np.diff(keys[order], prepend=keys[order[0]] - 1))
+        turn = np.arange(order.size) - np.repeat(begins, np.diff(begins, append=order.size))
+        for each in range(int(turn.max()) + 1):
+            points = order[turn == each]
+            if points.size >= _COMPARED:
+                x = np.log10(sweeps.angular_frequency[points])
+                found.append((float(np.mean(temperature)), x, size[points]))
+    return found
+
+
+def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
+    """Join the sweeps of several files into one set, with consecutive sweep numbers.
+
+    Raises
+    ------
+    ValueError
+        If some files are tensile and others shear, or two files are identical.
+
+    Notes
+    -----
+    The source names all files; its hash is the hash of the files' hashes in this order, and each
+    of these is noted.
+    """
+    if len(parts) == 1:
+        return parts[0]
+    if len({part.kind for part in parts}) > 1:
+        raise InputError(
+            "some files are tensile (E), others shear (G); read them separately, or set --kind"
+        )
+    return numbered_on(parts, joined_source([part.source for part in parts]))
+
+
+def numbered_on(parts: Sequence[FrequencySweeps], source: Source) -> FrequencySweeps:
+    """Join sweeps of one kind into one set, with consecutive sweep numbers."""
+    numbers, count = [], 0
+    for part in parts:
+        own, renumbered = np.unique(part.sweep, return_inverse=True)
+        numbers.append(renumbered + count)
+        count += own.size
+    names = ("temperature", "angular_frequency", "storage", "loss")
+    return FrequencySweeps(
+        **{name: np.concatenate([getattr(part, name) for part in parts]) for name in names},
+        kind=parts[0].kind,
+        sweep=np.concatenate(numbers),
+        source=source,
+    )
+
+
+def joined_source(sources: Sequence[Source]) -> Source:
+    """Join several files into one source of one material, with the notes of each."""
+    hashes = [source.sha256 for source in sources]
+    for i, digest in enumerate(hashes):
+        if digest and digest in hashes[:i]:
+            twin = sources[hashes.index(digest)].path
+            raise InputError(f"{sources[i].path} is the same file as {twin}; omit one of them")
+    notes = [f"{len(sources)} files joined as one material"]
+    notes += [f"{source.path}: sha256 {source.sha256}" for source in sources]
+    notes += [f"{source.path}: {note}" for source in sources for note in source.notes]
+    return Source(
+        path=", ".join(source.path for source in sources),
+        sha256=hashlib.sha256("".join(hashes).encode()).hexdigest(),
+        format=", ".join(dict.fromkeys(source.format for source in sources)),
+        notes=tuple(notes),
     )

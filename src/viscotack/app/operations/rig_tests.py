@@ -64,7 +64,7 @@ class ReadTests(Rig, ShiftLaw):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the files and evaluate their cycles."""
-        from viscotack.lab.tack.speed_table import speed_table
+        from viscotack.lab.tack.repeats import speed_table
         from viscotack.plot.tack import draw_tests
 
         from .parts.drawn import retraction
@@ -112,7 +112,7 @@ class ReadTests(Rig, ShiftLaw):
 
 def _unread_names(found: Any) -> tuple[str, ...]:
     """Return a note if temperatures in file names were not read and differ."""
-    from viscotack.lab.joining import kelvins_in_name
+    from viscotack.lab.formats.tables import kelvins_in_name
 
     files = {one.source.path for one in found.cycles if one.temperature is None}
     named = {kelvin for file in files for kelvin in kelvins_in_name(file)}

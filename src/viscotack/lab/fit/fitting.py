@@ -1,22 +1,211 @@
 """Fit a material model to measured moduli, with intervals and cautions.
 
 :func:`fit` fits every model and returns a report of the quality of the fit.
+
+Sentences state constants and ranges that a measurement does not determine. The uncertainty of shift
+factors is propagated by fitting shifted curves again.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from statistics import NormalDist
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from viscotack.errors import InputError
+from viscotack.lab.sweeps import MasterCurve, ShiftTable
+from viscotack.model.materials import Prony
+from viscotack.model.materials.passport import LIQUID
 from viscotack.model.materials.words import FITS_ONLY
 from viscotack.threads import one_blas_thread
 from viscotack.units import readable
 
-from .cautions import few_arms_caution, misfit_cautions, series_cautions, undetermined
 from .observed import Data, Observed, observed, only, thinned
 from .power_law import KINDS, fit_constants, fitted_constants
-from .prony import fit_series, with_noise
-from .report import ALIKE, FitReport, information_criterion
+from .prony import NAMES, change, fit_series, open_ends, with_noise
+from .report import ALIKE, FitReport, Fitted, Interval, information_criterion
+
+# Ratio of a plateau to the measured moduli above which the law extrapolates.
+_BEYOND = 1.25
+# Smallest number of points at which the shapes of the two moduli are compared.
+_SHAPE = 8
+# Decades between neighbouring points above which single arms show as steps.
+_GAP = 1.5
+# Root mean square of ln(measured/fitted) above which a model has failed.
+_MISSED = 0.4
+# Loss tangent at the slowest point above which a material flows. The most lossy
+# rubbers reach 2 to 2.5 at their peak.
+_FLOWS = 3.0
+# Slope of ln(compliance) or -ln(modulus) over ln(time) above which a material flows.
+_FLOWING = 0.8
+
+
+def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
+    """Return sentences on undetermined constants and on the ends of the measured range."""
+    if getattr(material, "no_contact", ""):
+        flowing = flow(data, material)
+        liquid = (f"{LIQUID}: at the slowest point {flowing}",) if flowing else ()
+        return (*liquid, material.no_contact, *_constants(data, material, intervals), _ends(data))
+    if scatter_of(data, material) > _MISSED:
+        return (_ends(data),)
+    return (*_constants(data, material, intervals), _ends(data))
+
+
+def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
+    """Return sentences on single undetermined constants."""
+    words = []
+    for each in intervals:
+        if each.known:
+            continue
+        if each.name in NAMES:
+            if each.told or each.name in open_ends(data, material):
+                words += _plateau(data, material, each)
+        elif not each.bounded:
+            words.append(f"{each.name}: the data give no bound on one or both sides")
+        elif each.high > 3 * each.low:
+            words.append(f"{each.name} is known only to a factor of {each.high / each.low:.2g}")
+    return tuple(words)
+
+
+def misfit_cautions(data: Observed, found: Fitted) -> tuple[str, ...]:
+    """Return sentences on a poor fit and on correlated residuals."""
+    words, missed = [], scatter_of(data, found.material)
+    if missed > _MISSED:
+        words.append(
+            f"this model does not describe the measurement, off by a factor of {np.exp(missed):.2g}"
+            ": its constants and intervals are meaningless; choose another model"
+        )
+    if np.max(data.noise) > 1:
+        noise = dict(zip(data.parts, data.noise, strict=True))
+        worse = max(noise, key=lambda part: noise[part])
+        words.append(
+            f"the {worse} modulus scatters {noise[worse]:.2g} times as much as the other part; its "
+            "weight is reduced accordingly"
+        )
+    if found.shared:
+        words.append(f"{found.shared}; the intervals are widened accordingly")
+    return tuple(words)
+
+
+def scatter_of(data: Observed, material: Any) -> float:
+    """Return the root mean square of ln(measured/fitted)."""
+    return float(np.sqrt(np.mean(data.weighed(data.residuals(material)) ** 2)))
+
+
+def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, ...]:
+    """Return sentences on too many arms, gaps between points, and contradictory moduli."""
+    words = []
+    arms, numbers = found.grid, data.values.size
+    if 2 * arms + 1 > numbers:
+        words.append(
+            f"{arms} arms have {2 * arms + 1} constants for {numbers} numbers: between the points "
+            "the series is not determined"
+        )
+    steps = np.diff(np.log10(data.at))
+    if np.max(steps) > _GAP:
+        words.append(
+            f"points are up to {np.max(steps):.2g} decades apart: in gaps beyond a decade the "
+            "series rises in steps that were not measured; a power law interpolates smoothly"
+        )
+    if few:
+        return tuple(words)
+    if len(data.parts) == 2 and data.at.size >= _SHAPE and found.scatter > 0.05:
+        alone = fit_series(only(data, "storage"))
+        if found.scatter > 3 * alone.scatter:
+            off = np.median(np.abs(np.expm1(data.residuals(alone.material)[1])))
+            words.append(
+                "storage and loss modulus contradict each other (Kramers-Kronig): a series that "
+                f"fits storage to {100 * alone.scatter:.2g} % is {100 * off:.2g} % off "
+                "the loss (median). A shift, a sweep or a calibration is wrong; this fit is a "
+                "compromise"
+            )
+    return tuple(words)
+
+
+def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
+    """Return sentences on the accuracy lost by a given small number of arms."""
+    few = len(found.material.branches)
+    if data.values.size < 6:
+        return ()
+    free = fit_series(data)
+    many, own = len(free.material.branches), scatter_of(data, found.material)
+    best = scatter_of(data, free.material)
+    if few >= many or own < 1.1 * best:
+        return ()
+    worst = float(np.max(np.abs(np.expm1(-data.residuals(found.material)))))
+    return (
+        f"the error of {few} arms is {100 * own:.2g} % and at most {100 * worst:.2g} %; the best "
+        f"number, {many}, has {100 * best:.2g} %",
+    )
+
+
+def _ends(data: Observed) -> str:
+    slow, fast = data.frequencies
+    return (
+        f"the measurement covers {1 / fast:.2g} s to {1 / slow:.2g} s; faster or slower "
+        "response is an extrapolation"
+    )
+
+
+def flow(data: Observed, material: Any) -> str:
+    """Describe the flow and viscosity of a liquid at the slowest point; empty for a solid."""
+    shear = 2 * (1 + data.poisson_ratio)
+    if data.in_frequency:
+        slow = data.frequencies[0]
+        modulus = complex(material.complex_modulus(slow))
+        if modulus.imag < _FLOWS * modulus.real:
+            return ""
+        ratio = modulus.imag / max(modulus.real, 1e-12 * modulus.imag)
+        how = f"the loss modulus is {ratio:.2g} times the storage modulus"
+        viscosity = modulus.imag / slow
+    else:
+        end = float(data.at[-1])
+        near = data.predicted(material, [end / np.sqrt(10), end])[0]
+        slope = float(np.log(near[1] / near[0]) / np.log(np.sqrt(10)))
+        creeping = data.quantity == "creep"
+        if (slope if creeping else -slope) < _FLOWING:
+            return ""
+        what = "compliance rises" if creeping else "modulus falls"
+        how = f"the {what} with time to the power {abs(slope):.2g}"
+        # creep: stress over strain rate; relaxation: a lower bound
+        viscosity = end / near[1] / slope if creeping else end * near[1]
+    return f"{how} (shear viscosity about {viscosity / shear:.2g} Pa s)"
+
+
+def _plateau(data: Observed, material: Any, interval: Interval) -> list[str]:
+    """Return a sentence on a plateau that was not measured, or lies beyond the measurement."""
+    rubbery = interval.name == "rubbery_modulus"
+    if rubbery and (flowing := flow(data, material)):
+        return [
+            f"{LIQUID}: at the slowest point {flowing}. It has no rubbery plateau; rubbery_modulus "
+            f"= {interval.value:.3g} Pa is the end of the fit, not a property: relaxed contact and "
+            "slow detachment cannot be predicted"
+        ]
+    if interval.bounded:
+        beyond = data.moduli[0] / interval.value if rubbery else interval.value / data.moduli[1]
+        end = "below the softest" if rubbery else "above the stiffest"
+        words = f"{interval.name} lies {beyond:.3g} times {end} point: it extrapolates the law"
+        return [words] if beyond > _BEYOND else []
+    ratio = material.rubbery_modulus / max(
+        interval.low if interval.told else interval.value, material.rubbery_modulus
+    )
+    at, unknown = (
+        ("slowest", "slow detachment cannot be predicted")
+        if rubbery
+        else ("fastest", f"modulus_ratio at most {ratio:.2g}: the largest pull-off is unknown")
+    )
+    bound = "not bounded" if interval.told else "a guess"
+    if interval.told and np.isfinite(interval.high):
+        bound = f"at most {interval.high:.3g} Pa"
+    elif interval.told and interval.low > 0:
+        bound = f"at least {interval.low:.3g} Pa"
+    return [
+        f"the {interval.name.partition('_')[0]} plateau was not measured: at the {at} point the "
+        f"modulus still changes by {100 * change(data, material, interval.name):.2g} % per decade. "
+        f"{interval.name} is {bound}, and {unknown}; give {interval.name} if you know it"
+    ]
+
 
 MODELS = (*KINDS, "prony")
 # Candidates of `best`: contacts can be simulated on all of them.
@@ -136,7 +325,7 @@ def fit(
             found = fit_constants(seen, model=model, known=known or {}, **more)
         if tried:
             found = replace(found, compared=tuple((one.model, one.criterion) for one in tried))
-        cautions = (*misfit_cautions(seen, found.material, found.scatter), *cautions)
+        cautions = (*misfit_cautions(seen, found), *cautions)
         unknown = undetermined(seen, found.material, found.intervals)
         return FitReport(
             **vars(found),
@@ -200,3 +389,113 @@ def _tried(data: Observed, model: str) -> Tried:
     material, constants = fitted_constants(data, model=model, known={})
     criterion = information_criterion(data.weighed(data.residuals(material)), constants)
     return Tried(model, material, criterion, constants)
+
+
+_DRAWS = 12
+_WORTH = 1.05  # ratio of half-widths above which a caution is added
+
+
+def allow_for_shifts(report: FitReport, data: Any, shifts: Any) -> FitReport:
+    """Widen the intervals of a report by the uncertainty of the shifts.
+
+    Parameters
+    ----------
+    report : FitReport
+        A fit to `data`.
+    data : MasterCurve or another measurement
+        Fitted data; tests over time leave the report unchanged.
+    shifts : ShiftTable or a law
+        Shifts with their uncertainty; without one the report is unchanged.
+
+    Returns
+    -------
+    FitReport
+        With wider intervals, and a caution if they are much wider.
+
+    Notes
+    -----
+    Twelve tables with independent errors of the steps between rows are sampled. Each shifts the
+    master curve, and the same law is fitted again. The spread of ln(constant) is added in
+    quadrature to the half-width of its interval. The band of the report is not widened.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscotack.lab import MasterCurve, fit
+    >>> from viscotack.model.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
+    >>> omega = np.geomspace(0.1, 1e4, 16)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> curve = MasterCurve(293.15, omega, modulus.real, modulus.imag, "E")
+    >>> report = fit(curve, poisson_ratio=0.5, model="sls")
+    >>> allow_for_shifts(report, curve, shifts=None) is report
+    True
+    """
+    if not isinstance(data, MasterCurve) or not isinstance(shifts, ShiftTable):
+        return report
+    if shifts.uncertainty is None or data.temperature is None or not np.any(shifts.uncertainty):
+        return report
+    rng = np.random.default_rng(0)
+    found = [_refitted(report, _moved(data, shifts, rng)) for _ in range(_DRAWS)]
+    quantile = NormalDist().inv_cdf((1 + report.level) / 2)
+    intervals, more = [], 1.0
+    for each in report.intervals:
+        logs = np.log([getattr(solid, each.name) for solid in found])
+        wider = quantile * float(np.std(logs, ddof=1))
+        intervals.append(_wider(each, wider))
+        if each.bounded and not each.known and each.high > each.low:
+            last = intervals[-1]
+            more = max(more, float(np.log(last.high / last.low) / np.log(each.high / each.low)))
+    cautions = report.cautions
+    if more > _WORTH:
+        worst = int(np.argmax(shifts.uncertainty))
+        cautions = (
+            *cautions,
+            f"the uncertainty of the shifts, {shifts.uncertainty[worst]:.2g} decades at "
+            f"{shifts.temperature[worst] - 273.15:.4g} C, widens intervals by up to a factor of "
+            f"{more:.2g}, but not the band",
+        )
+    return replace(report, intervals=tuple(intervals), cautions=cautions)
+
+
+def _moved(curve: MasterCurve, shifts: ShiftTable, rng: np.random.Generator) -> MasterCurve:
+    """Return the curve with random shifts within their uncertainty."""
+    assert shifts.uncertainty is not None and curve.temperature is not None, "checked by the caller"
+    variance = shifts.uncertainty**2
+    zero = int(np.argmin(variance))
+    error = np.zeros(variance.size)
+    for side in (range(zero + 1, variance.size), range(zero - 1, -1, -1)):
+        before = zero
+        for i in side:
+            # a smaller uncertainty than in the previous row counts as independent
+            step = np.sqrt(max(variance[i] - variance[before], 0.0))
+            kept = min(1.0, np.sqrt(variance[i] / variance[before])) if variance[before] else 0.0
+            error[i] = kept * error[before] + step * rng.standard_normal()
+            before = i
+    moved = np.interp(curve.temperature, shifts.temperature, error)
+    return replace(curve, angular_frequency=curve.angular_frequency * 10**moved)
+
+
+def _refitted(report: FitReport, curve: MasterCurve) -> Any:
+    seen = observed(curve, poisson_ratio=report.observed.poisson_ratio)
+    if len(report.observed.parts) == 1:
+        seen = only(seen, report.observed.parts[0])
+    else:
+        seen = replace(seen, noise=report.observed.noise)
+    if isinstance(report.material, Prony):
+        arms = len(report.material.branches)
+        return fit_series(seen, arms=arms).material
+    known = {each.name: each.value for each in report.intervals if each.known}
+    return fitted_constants(seen, model=report.model, known=known)[0]
+
+
+def _wider(each: Interval, wider: float) -> Interval:
+    """Add another error to an interval in quadrature; an unbounded side stays unbounded."""
+    if each.known:
+        return each
+    low, high = each.low, each.high
+    if low > 0:
+        low = each.value * np.exp(-np.hypot(np.log(each.value / low), wider))
+    if np.isfinite(high):
+        high = each.value * np.exp(np.hypot(np.log(high / each.value), wider))
+    return replace(each, low=float(low), high=float(high))

@@ -1,8 +1,15 @@
-"""Master curves: time-temperature superposition of sweeps and tests at many temperatures.
+r"""Master curves: time-temperature superposition of sweeps and tests at many temperatures.
 
 A time t at temperature T is shifted to t/a_T, as a frequency 1/t is shifted to omega a_T. With one
 curve per temperature, there is no second modulus to separate a vertical shift from a time shift; on
 the plateau of a melt this matters, and the stated uncertainty includes it.
+
+Storage and loss modulus belong to one causal solid if they obey the relation of Kramers and Kronig,
+
+.. math:: E''(\omega) = -\frac{2\omega}{\pi} \int_0^\infty \frac{E'(u)}{\omega^2 - u^2}\,du
+
+(Eq. 4.26 of Maghami, PhD thesis (2025); principal value). A master curve that obeys it may still be
+wrong, but one that violates it has a wrong shift, a faulty sweep or a compliance error of the rig.
 """
 
 from collections.abc import Sequence
@@ -14,22 +21,21 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.grouping import GAP, refuse_unlike
-from viscotack.lab.joining import joined_source
-from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable
+from viscotack.lab.sweeps import (
+    GAP,
+    CreepTest,
+    FrequencySweeps,
+    MasterCurve,
+    RelaxationTest,
+    ShiftTable,
+    joined_source,
+    refuse_unlike,
+)
 from viscotack.model.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
-from .kramers_kronig import causal_misfit
-from .shift_factors import (
-    THERMOMETER,
-    curve,
-    shift_factors,
-    shifts_between,
-    temperature_levels,
-)
+from .prony import nonnegative
+from .shift_factors import THERMOMETER, curve, shift_factors, shifts_between, temperature_levels
 
-# methods that use most of the data come first
-_WAYS = (("both", "none"), ("storage", "none"))
 _CAUSAL = 0.03  # Kramers-Kronig misfit within the accuracy of rheometers
 _CLEARLY = 0.8  # ratio of misfits that counts as clearly better
 _PARTS = {
@@ -166,27 +172,31 @@ def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> Ma
     ValueError
         As :func:`shift_factors`, if no method determines the shifts.
     """
-    best, misfit, first = None, np.inf, None
-    for by, vertical in _WAYS:
-        try:
-            curve = master_curve(
-                sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
-            )
-        except InputError as error:
-            first = first or error
-            continue
+
+    def curve(by: str) -> MasterCurve:
+        return master_curve(sweeps, reference_temperature=reference_temperature, by=by)
+
+    def misfit(curve: MasterCurve) -> float:
         off = causal_misfit(curve)
-        total = np.inf if off is None else float(np.hypot(*off))
-        if best is None or total < _CLEARLY * misfit:
-            best, misfit = curve, total
-        if misfit < _CAUSAL:
-            break  # no improvement possible
-    if best is None:
-        raise first or InputError("overlap does not determine the shifts")
-    if first is None:
-        return best
-    note = f"storage and loss do not determine the shifts: {first}"
-    return replace(best, source=best.source.noted(note))
+        return np.inf if off is None else float(np.hypot(*off))
+
+    try:
+        both = curve("both")
+    except InputError as error:
+        try:
+            storage = curve("storage")
+        except InputError:
+            raise error from None
+        note = f"storage and loss do not determine the shifts: {error}"
+        return replace(storage, source=storage.source.noted(note))
+    off = misfit(both)
+    if off < _CAUSAL:
+        return both  # no improvement possible
+    try:
+        storage = curve("storage")
+    except InputError:
+        return both
+    return storage if misfit(storage) < _CLEARLY * off else both
 
 
 def _moving(vertical: str | float) -> str:
@@ -248,7 +258,6 @@ def superposed(
     reference_temperature: float,
     shift: Shift | ShiftTable | None = None,
     vertical: str | float = "none",
-    temperature_uncertainty: float = THERMOMETER,
 ) -> tuple[Test, ShiftTable]:
     """Superpose tests at several temperatures; return one test and the shifts.
 
@@ -260,7 +269,7 @@ def superposed(
         Temperature of the result [K].
     shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
         As in :func:`viscotack.lab.master_curve`; without it the shifts follow from overlap.
-    vertical, temperature_uncertainty
+    vertical : {"none", "auto", "free"} or float
         As in :func:`viscotack.lab.shift_factors`. With one curve per temperature, "auto" assumes
         typical vertical shifts where the curve is straight; a coefficient of expansion is more
         exact. By default "none".
@@ -291,14 +300,14 @@ def superposed(
     """
     ordered = _ordered(tests)
     first, column = ordered[0], ordered[0].measured[0]
-    sign = first.measured[2]  # a compliance is the inverse of a modulus
+    sign = first.measured[1]  # a compliance is the inverse of a modulus
     temperature = np.array([test.temperature for test in ordered], dtype=float)
     if shift is None:
         curves = [
             curve(T, -np.log10(test.time[::-1]), sign * np.log10(getattr(test, column)[::-1]))
             for T, test in zip(temperature, ordered, strict=True)
         ]
-        more = "both", vertical, temperature_uncertainty
+        more = "both", vertical, THERMOMETER
         shift = shifts_between(temperature, curves, reference_temperature, *more)
         how = f"shifts from the overlap of the tests, {_moving(vertical)}"
     else:
@@ -334,3 +343,71 @@ def _ordered(tests: Sequence[Test]) -> list[Test]:
         if other - one <= GAP:
             raise InputError(f"two tests have the same temperature, {one:.2f} K; superpose one")
     return ordered
+
+
+_PER_DECADE = 5.0  # relaxation times; a time between grid points causes a 3 % error of loss
+_TOLERANCE = 0.1  # relative deviation from the nearest causal pair that is accepted
+_BEYOND = 1.5  # decades beyond the data, for relaxation outside the range
+
+
+def causal_misfit(master: MasterCurve) -> tuple[float, float] | None:
+    """Return the root mean square of ln(measured/causal) of storage and of loss modulus.
+
+    Each relaxation mode obeys Eq. 4.26 exactly, and so does every sum of modes with positive
+    weights. Non-negative least squares of relative residuals gives the nearest such sum, with five
+    modes per decade and equal weights of all points and both moduli. None with fewer than four
+    points or less than half a decade.
+    """
+    omega = master.angular_frequency
+    decades = float(np.log10(omega[-1] / omega[0]))
+    if omega.size < 4 or decades < 0.5:
+        return None
+    count = int(_PER_DECADE * (decades + 2 * _BEYOND)) + 1
+    times = np.geomspace(10**-_BEYOND / omega[-1], 10**_BEYOND / omega[0], count)
+    ratio = omega[:, None] * times
+    # first column: rubbery modulus
+    storage = np.hstack((np.ones((omega.size, 1)), ratio**2 / (1 + ratio**2)))
+    loss = np.hstack((np.zeros((omega.size, 1)), ratio / (1 + ratio**2)))
+    columns = np.vstack((storage / master.storage[:, None], loss / master.loss[:, None]))
+    columns /= np.linalg.norm(columns, axis=0)
+    sides = np.column_stack((columns, np.ones(2 * omega.size)))
+    # QR: the triangular factor replaces thousands of rows
+    triangle = np.asarray(np.linalg.qr(sides, mode="r"))
+    causal = np.maximum(columns @ nonnegative(triangle[:, :-1], triangle[:, -1]), 1e-12)
+    storage_off, loss_off = np.split(np.log(causal), 2)
+    return float(np.sqrt(np.mean(storage_off**2))), float(np.sqrt(np.mean(loss_off**2)))
+
+
+def contradiction(master: MasterCurve) -> str:
+    """Describe how storage and loss modulus violate causality; empty if they do not.
+
+    The nearest pair that obeys the Kramers-Kronig relation is fitted with equal weights of all
+    points.
+
+    Parameters
+    ----------
+    master : MasterCurve
+        Storage and loss modulus.
+
+    Returns
+    -------
+    str
+        A sentence, or an empty string.
+
+    Examples
+    --------
+    >>> from viscotack.model.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e9, tau0=1.0, poisson_ratio=0.5)
+    >>> omega = np.geomspace(1e-2, 1e6, 40)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> contradiction(MasterCurve(293.15, omega, modulus.real, modulus.imag, "E"))
+    ''
+    """
+    off = causal_misfit(master)
+    if off is None or max(off) <= _TOLERANCE:
+        return ""
+    return (
+        "storage and loss modulus contradict each other (Kramers-Kronig): the nearest causal solid "
+        f"is {100 * np.expm1(off[0]):.2g} % off in storage and {100 * np.expm1(off[1]):.2g} % in "
+        "loss. A shift, a sweep or a calibration is wrong"
+    )

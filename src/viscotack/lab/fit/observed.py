@@ -12,8 +12,14 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.grouping import refuse_unlike
-from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Source
+from viscotack.lab.sweeps import (
+    CreepTest,
+    FrequencySweeps,
+    MasterCurve,
+    RelaxationTest,
+    Source,
+    refuse_unlike,
+)
 from viscotack.model.materials import Material
 
 Data = MasterCurve | FrequencySweeps | RelaxationTest | CreepTest

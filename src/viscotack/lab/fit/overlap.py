@@ -54,6 +54,11 @@ class Hold:
     spread: float = 0.0
     moves: bool = True
 
+    @property
+    def free(self) -> bool:
+        """Whether the fit adjusts the vertical shift."""
+        return self.moves and self.spread > 0
+
 
 @dataclass(frozen=True)
 class Step:
@@ -92,7 +97,6 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
         If the curves fit best end to end, so that the data do not determine the shift.
     """
     hotter = Curve(hotter.x, tuple(y + hold.expected for y in hotter.y))
-    free = hold.moves and hold.spread > 0
     found, degree = _found(colder, hotter, hold)
     pair = _pair(colder, hotter, np.array([found]), hold, hold.spread > 0, degree)
     variance, _, both = _variances(pair)
@@ -102,7 +106,7 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
     others = _without_blocks(colder, hotter, found, hold, degree)
     jackknife = (_BLOCKS - 1) / _BLOCKS * float(np.sum((others - np.mean(others)) ** 2))
     # a movable vertical shift is the last unknown of the pair
-    vertical = float(_solved(pair)[0][0, -1, 0]) if free else 0.0
+    vertical = float(_solved(pair)[0][0, -1, 0]) if hold.free else 0.0
     return Step(
         found,
         hold.expected + vertical,
@@ -127,12 +131,11 @@ def free_vertical(colder: Curve, hotter: Curve) -> tuple[float, float]:
 
 def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
     """Return the best shift and the degree of the common polynomial."""
-    free = hold.moves and hold.spread > 0
     low, high = _range(colder, hotter)
     tried = np.linspace(low, high, max(5, int((high - low) / _COARSE) + 1))
     costs = np.full((len(_DEGREES), tried.size), np.inf)
     for row, degree in enumerate(_DEGREES):
-        costs[row] = _costs(_pair(colder, hotter, tried, hold, free, degree), _FEW)
+        costs[row] = _costs(_pair(colder, hotter, tried, hold, hold.free, degree), _FEW)
         if row > 2 and np.min(costs[row]) > np.min(costs[row - 1]) > np.min(costs[row - 2]):
             break  # higher degrees do not improve the criterion
     degree, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
@@ -147,7 +150,7 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
 
 def vertical_at(colder: Curve, hotter: Curve, shift: float, hold: Hold) -> float:
     """Return the best vertical shift at a known horizontal shift."""
-    if not (hold.moves and hold.spread > 0):
+    if not hold.free:
         return hold.expected
     hotter = Curve(hotter.x, tuple(y + hold.expected for y in hotter.y))
     at = np.array([shift])
@@ -165,10 +168,9 @@ def _refined(
     spacings: tuple[float, ...] = _FINE,
 ) -> float:
     """Refine a shift found by the coarse search."""
-    free = hold.moves and hold.spread > 0
     for spacing in spacings:
         tried = found + spacing * np.arange(-5.0, 6.0)
-        costs = _costs(_pair(a, b, tried, hold, free, degree), _ROUNDS)
+        costs = _costs(_pair(a, b, tried, hold, hold.free, degree), _ROUNDS)
         # too few points for this degree: not usable
         if np.isfinite(costs).any():
             found = _lowest(tried, costs)

@@ -32,7 +32,7 @@ from viscotack.model.materials.interconversion import reciprocal
 
 from .errors import errors
 from .observed import Observed
-from .report import Fitted, Interval, information_criterion, scatter
+from .report import Fitted, Interval, deviation, information_criterion
 
 _POOR = 0.25  # half-width of the interval of ln(constant) above which the profile is computed
 
@@ -306,7 +306,6 @@ def fit_constants(
     best = search.minimum()
     residuals = data.weighed(data.residuals(search.solid(best.x)))
     known_errors = errors(data, residuals, best.jac)
-    spread = scatter(residuals, len(search.free), known_errors.words())
     influences = np.linalg.pinv(best.jac)
     half = known_errors.half_width(influences, level)
     poor = bool(np.any(half > _POOR) or np.min([best.x - search.low, search.high - best.x]) < 1e-3)
@@ -335,7 +334,8 @@ def fit_constants(
     return Fitted(
         material=material,
         intervals=tuple(intervals),
-        scatter=spread,
+        scatter=deviation(residuals, len(search.free)),
+        shared=known_errors.words(),
         constants=len(search.free),
         criterion=criterion,
         draws=sample,

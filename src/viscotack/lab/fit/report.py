@@ -1,4 +1,4 @@
-"""Report of a fit: constants, intervals, scatter and cautions."""
+"""Report of a fit: constants, intervals, scatter and cautions; the passport issued from it."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,8 +8,12 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab.sweeps import ShiftTable
+from viscotack.model.materials.passport import Evidence, Origin, Passport
+from viscotack.model.materials.shift import Shift
 
 from .observed import Observed
+from .shift_laws import nearest_law
 
 # Difference of the criterion within which the data do not distinguish two models.
 ALIKE = 2.0
@@ -72,25 +76,6 @@ class Interval:
         return f"{line}  (not bounded)"
 
 
-@dataclass(frozen=True)
-class Scatter:
-    """Distance between measured and fitted numbers, in natural logarithms.
-
-    Attributes
-    ----------
-    deviation : float
-        Standard deviation of one number, corrected for the number of constants.
-    degrees : int
-        Numbers minus constants.
-    shared : str
-        Correlation of the errors in words; empty for independent errors or if not computed.
-    """
-
-    deviation: float
-    degrees: int
-    shared: str = ""
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Fitted:
     """A fitted solid with the intervals of its constants and sampled solids.
@@ -101,8 +86,10 @@ class Fitted:
         The fitted solid, tensile.
     intervals : tuple of Interval
         Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
-    scatter : Scatter
-        Size of the residuals.
+    scatter : float
+        Standard deviation of ln(measured/fitted), corrected for the number of constants.
+    shared : str
+        Correlation of the errors in words; empty for independent errors or if not computed.
     constants : int
         Number of fitted constants.
     criterion : float
@@ -118,18 +105,18 @@ class Fitted:
 
     material: Any
     intervals: tuple[Interval, ...]
-    scatter: Scatter
+    scatter: float
     constants: int
     criterion: float
     draws: tuple[Any, ...]
     compared: tuple[tuple[str, float], ...] = ()
     grid: int = 0
+    shared: str = ""
 
 
-def scatter(residuals: Array, constants: int, shared: str = "") -> Scatter:
-    """Return the scatter of residuals of shape (P, N) after a fit of a number of constants."""
-    degrees = residuals.size - constants
-    return Scatter(float(np.sqrt(np.sum(residuals**2) / max(degrees, 1))), degrees, shared)
+def deviation(residuals: Array, constants: int) -> float:
+    """Return the standard deviation of residuals after a fit of a number of constants."""
+    return float(np.sqrt(np.sum(residuals**2) / max(residuals.size - constants, 1)))
 
 
 def information_criterion(residuals: Array, constants: int, *, floor: float = 0.0) -> float:
@@ -234,3 +221,96 @@ class FitReport(Fitted):
         lines += [f"  Not determined: {sentence}" for sentence in self.undetermined]
         lines += [f"  Note: {sentence}" for sentence in self.cautions]
         return "\n".join(lines)
+
+
+_ALLOWED = 24  # largest number of sampled solids in a passport
+
+
+def issued(
+    report: FitReport,
+    *,
+    name: str,
+    shift: Shift | ShiftTable | None = None,
+    reference: str = "",
+    made_by: str = "",
+) -> Passport:
+    """Return the passport of a fitted material.
+
+    Parameters
+    ----------
+    report : FitReport
+        The fit.
+    name : str
+        Name of the material.
+    shift : WLF, Arrhenius, TabulatedShift, ShiftTable or None
+        Temperature dependence of its times; a table is interpolated, never extrapolated.
+    reference : str
+        Origin of the measurement, as text.
+    made_by : str
+        Program and version.
+
+    Returns
+    -------
+    Passport
+        The fitted material with its intervals and sampled solids.
+
+    Raises
+    ------
+    ValueError
+        If a shift is given but the temperature of the measurement is unknown.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscotack.lab import MasterCurve, fit
+    >>> from viscotack.model.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
+    >>> omega = np.geomspace(0.1, 1e4, 16)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> curve = MasterCurve(293.15, omega, modulus.real, modulus.imag, "E")
+    >>> passport = issued(fit(curve, poisson_ratio=0.5, model="sls"), name="rubber")
+    >>> passport.name, passport.temperature
+    ('rubber', 293.15)
+    """
+    seen = report.observed
+    source = seen.source
+    fitted = None
+    if isinstance(shift, ShiftTable):
+        zero, rows = seen.temperature, len(shift)
+        if zero is None and rows > 1:
+            raise InputError("a table of shifts needs the temperature of the master curve [K]")
+        if zero is not None and rows > 2:
+            fitted = nearest_law(shift, reference_temperature=zero)
+        # a table of one row contains no shift
+        shift = shift.at_reference(zero) if zero is not None and rows > 1 else None
+    elif shift is not None and seen.temperature is not None:
+        shift = shift.at_reference(seen.temperature)
+    return Passport(
+        name=name,
+        material=report.material,
+        temperature=seen.temperature,
+        shift=shift,
+        fitted_shift=fitted,
+        temperatures=seen.temperatures,
+        frequencies=seen.frequencies,
+        measured=seen.kind,
+        origin=Origin(
+            reference=reference,
+            file=source.path,
+            sha256=source.sha256,
+            format=source.format,
+            made_by=made_by,
+            notes=source.notes,
+        ),
+        evidence=Evidence(
+            numbers=int(seen.values.size),
+            constants=report.constants,
+            scatter=report.scatter,
+            level=report.level,
+            intervals=tuple((i.name, i.low, i.high) for i in report.intervals if i.told),
+            undetermined=report.undetermined,
+            cautions=report.cautions,
+        ),
+        # evenly, at most _ALLOWED
+        allowed=report.draws[:: max(len(report.draws) // _ALLOWED, 1)][:_ALLOWED],
+    )

@@ -21,8 +21,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.grouping import GAP, levels
-from viscotack.lab.sweeps import FrequencySweeps, ShiftTable
+from viscotack.lab.sweeps import GAP, FrequencySweeps, ShiftTable, levels
 from viscotack.model.materials.shift import TabulatedShift
 
 from .overlap import Curve, Hold, Step, free_vertical, step_between, vertical_at

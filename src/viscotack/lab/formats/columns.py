@@ -20,6 +20,7 @@ from .headings import (
     MATERIAL,
     POSSIBLE,
     UNITS,
+    WORDS,
     Heading,
     Vocabulary,
     bare,
@@ -48,7 +49,6 @@ from .numbers import (
     without_fillers,
 )
 from .tables import Table
-from .words import WORDS
 
 # the option that sets the unit of a column without one, and examples of units
 _FLAGS = {

@@ -3,7 +3,7 @@
 import hashlib
 import io
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
@@ -34,7 +34,8 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 class LabFile:
     """Content of one file; `lines` is empty for a workbook.
 
-    `rest` is the text after the last line end. It may be truncated and is not read.
+    `rest` is the text after the last line end. It may be truncated and is not read. `format` is the
+    name of its layout, once that is known.
     """
 
     path: str
@@ -42,6 +43,7 @@ class LabFile:
     lines: tuple[str, ...]
     notes: tuple[str, ...]
     rest: str = ""
+    format: str = ""
 
     @property
     def sha256(self) -> str:
@@ -177,20 +179,28 @@ def first_fitting(
 ) -> tuple[str, Found] | None:
     """Return the format given by the caller, or the first that fits, and what its reader returns.
 
-    A reader returns None for a file of another layout.
+    A reader returns None for a file of another layout. A damaged header lacks an entry, or has no
+    number there, which the reader does not expect.
     """
     for name, reader in readers.items():
-        if said in (None, name) and (found := reader(file, *more)) is not None:
+        if said not in (None, name):
+            continue
+        try:
+            found = reader(file, *more)
+        except InputError:
+            raise
+        except (LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
+            raise file.error(
+                f"read as {name}, the file is truncated, damaged or of another layout: {error!r}"
+            ) from None
+        if found is not None:
             return name, found
     if said is not None:
         raise file.error(f"the file does not have the format {said}; leave out --format")
     return None
 
 
-# ---- force curves of microscopes, and numbers of their headers -----------------------------------
-
-Words = Mapping[str, str]
-MOST_POINTS = 5_000_000
+# ---- force curves of microscopes -----------------------------------------------------------------
 
 
 class Curve(NamedTuple):
@@ -208,29 +218,11 @@ class Curve(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def whole(file: LabFile, words: Words, key: str, section: str = "") -> int:
-    """Return an integer of a header; raise an error if it is missing or malformed."""
-    value = words.get(key, "")
-    if re.fullmatch(r"[0-9]{1,8}", value) is None:
-        raise file.error(f"{section}{key} must be an integer, got {value[:20]!r}")
-    return int(value)
-
-
-def real(file: LabFile, words: Words, key: str, section: str = "") -> float:
-    """Return a finite number of a header; raise an error if it is missing or malformed."""
-    value = words.get(key, "")
-    try:
-        number = float(value)
-    except ValueError:
-        number = np.nan
-    if not np.isfinite(number):
-        raise file.error(f"{section}{key} must be a number, got {value[:20]!r}")
-    return number
-
-
-def positive(file: LabFile, words: Words, key: str) -> float:
-    """Return a positive number of a header; raise an error otherwise."""
-    number = real(file, words, key)
-    if number <= 0:
-        raise file.error(f"{key} must be positive, got {number:g}")
-    return number
+def in_sequence(parts: Iterable[Sequence[Array]]) -> tuple[Array, Array, Array]:
+    """Return time, force and position of parts whose time begins with each of them."""
+    rows: list[Array] = []
+    for time, *numbers in parts:
+        begin = rows[-1][0, -1] if rows else 0.0
+        rows.append(np.array([begin + time, *numbers]))
+    time, force, position = np.hstack(rows)
+    return time, force, position

@@ -6,17 +6,22 @@ second, and tensile (E) and shear (G) moduli, are never confused silently.
 
 import math
 import re
+import tomllib
 import unicodedata
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from pathlib import Path
 from typing import NamedTuple
 
 from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .numbers import is_number
-from .words import WORDS
+
+_TEXT = Path(__file__).with_name("words.toml").read_text(encoding="utf-8")
+WORDS: dict[str, dict[str, str]] = tomllib.loads(_TEXT)
+
 
 _GREEK = "ωδητσγɣ"
 # words of temperature inside headings
@@ -49,8 +54,12 @@ _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
 _LONGEST_UNIT = 3  # letters; a longer bracketed word that is not a unit is a description
 
 POSSIBLE = 0.0, 3000.0  # K: possible temperatures of a test
-_CELSIUS = {"°C", "ºC", "˚C", "oC", "C", "degC", "deg C", "Celsius", "℃"}
-_FAHRENHEIT = {"°F", "F", "degF", "Fahrenheit"}
+# factor and offset to kelvin
+_KELVIN = {
+    **dict.fromkeys(("°C", "ºC", "˚C", "oC", "C", "degC", "deg C", "Celsius", "℃"), (1.0, 273.15)),
+    **dict.fromkeys(("°F", "F", "degF", "Fahrenheit"), (5 / 9, 273.15 - 32 * 5 / 9)),
+    "K": (1.0, 0.0),
+}
 _NO_UNIT = {"", "-", "[-]", "1", "–"}
 _DEGREES = {"°", "º", "˚", "deg", "degree", "degrees", "grad"}
 # units as they are written in names of variables; pint reads "pa" as 1e-12 years
@@ -59,9 +68,18 @@ _LOWER = {
     "1/pa": "1/Pa", "rads": "rad/s", "c": "C", "degc": "degC", "k": "K", "pct": "%",
 }  # fmt: skip
 _PASCAL_SECOND = re.compile(r"Pa[-.·⋅ ]?s(ec)?")
-_GRAMS = {"g": 1e-3, "gf": 1e-3, "kg": 1.0, "kgf": 1.0, "gram": 1e-3, "grams": 1e-3}
 STANDARD_GRAVITY = 9.80665  # m/s2: texture analysers give forces in grams
-_SECONDS = {"sec", "secs", "sek", "seconds", "Sec"}
+# factors of units that the unit library does not read, or reads as others
+_FACTORS = {
+    **dict.fromkeys(((unit, "1") for unit in _NO_UNIT), 1.0),
+    ("%", "1"): 0.01,
+    **dict.fromkeys(((unit, "rad") for unit in _DEGREES), math.pi / 180),
+    **dict.fromkeys(((unit, "N") for unit in ("kg", "kgf")), STANDARD_GRAVITY),
+    **dict.fromkeys(
+        ((unit, "N") for unit in ("g", "gf", "gram", "grams")), 1e-3 * STANDARD_GRAVITY
+    ),
+    **dict.fromkeys(((unit, "s") for unit in ("sec", "secs", "sek", "seconds", "Sec")), 1.0),
+}
 _PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
 
 
@@ -217,7 +235,7 @@ def nearness_to_sample(text: str) -> int:
 
 
 def _is_degree(unit: str) -> bool:
-    return unit in _CELSIUS | _FAHRENHEIT - {"F"} | {"K"}
+    return unit in _KELVIN and unit != "F"
 
 
 def _with_suffix(text: str) -> Heading | None:
@@ -267,9 +285,7 @@ def is_unit(text: str) -> bool:
     (True, True, False)
     """
     unit = bare(text)
-    if unit in _CELSIUS | _FAHRENHEIT | _NO_UNIT | _DEGREES | _PER_SECOND | {"%", "K", "rpm"}:
-        return True
-    if is_clock_unit(unit):
+    if unit in {*_KELVIN, *_NO_UNIT, *_DEGREES, *_PER_SECOND, "%", "rpm"} or is_clock_unit(unit):
         return True
     for target in ("Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "N*m", "m", "1"):
         try:
@@ -368,18 +384,10 @@ def scale(unit: str, target: str) -> float:
     (1000000.0, 1e-06, 0.01)
     """
     unit = bare(unit)
-    if target == "1" and no_unit(unit):
-        return 1.0
-    if unit == "%" and target == "1":
-        return 0.01
-    if unit in _DEGREES and target == "rad":
-        return math.pi / 180
+    if (unit, target) in _FACTORS:
+        return _FACTORS[unit, target]
     if target == "Pa*s":
         unit = _PASCAL_SECOND.sub("Pa*s", unit)
-    if target == "N" and unit in _GRAMS:
-        return _GRAMS[unit] * STANDARD_GRAVITY
-    if target == "s" and unit in _SECONDS:
-        return 1.0
     return parse(f"1 {unit}", target)
 
 
@@ -417,14 +425,9 @@ def is_clock_unit(unit: str) -> bool:
 
 def kelvin(unit: str) -> tuple[float, float]:
     """Return the factor and the offset that convert a temperature to kelvin."""
-    unit = bare(unit)
-    if unit in _CELSIUS:
-        return 1.0, 273.15
-    if unit in _FAHRENHEIT:
-        return 5 / 9, 273.15 - 32 * 5 / 9
-    if unit == "K":
-        return 1.0, 0.0
-    raise InputError(f"{unit!r} is not a unit of temperature; expected C, K or F")
+    if bare(unit) not in _KELVIN:
+        raise InputError(f"{bare(unit)!r} is not a unit of temperature; expected C, K or F")
+    return _KELVIN[bare(unit)]
 
 
 def in_kelvin(number: float, unit: str) -> float:

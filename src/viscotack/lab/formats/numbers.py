@@ -188,15 +188,15 @@ def doubtful_temperature(kelvins: Array, in_kelvin: bool) -> list[str]:
     if not known.size:
         return []
     low, high = float(known.min()), float(known.max())
-    if in_kelvin:
-        far = f"check: temperatures from {low:.4g} to {high:.4g} K would be usual if in Celsius"
-        return [far] if high < _COLD else []
+    if in_kelvin and high < _COLD:
+        return [f"check: temperatures from {low:.4g} to {high:.4g} K would be usual if in Celsius"]
     low, high = low - 273.15, high - 273.15
-    room = (
+    if in_kelvin or low < _ROOM[0] or high > _ROOM[1]:
+        return []
+    return [
         f"check: temperatures from {low:.4g} to {high:.4g} C would be room temperatures if in "
         "kelvin"
-    )
-    return [room] if _ROOM[0] <= low and high <= _ROOM[1] else []
+    ]
 
 
 def doubtful_modulus(modulus: Array) -> list[str]:
@@ -205,13 +205,11 @@ def doubtful_modulus(modulus: Array) -> list[str]:
     Examples
     --------
     >>> doubtful_modulus(np.array([1e-3, 2e-3]))
-    ['check: the modulus stays below 0.002 Pa, less than that of weak gels']
+    ['check: moduli from 0.001 to 0.002 Pa are unusual, below weak gels or above bone']
     """
     low, high = float(np.min(modulus)), float(np.max(modulus))
-    if high < _SOFT:
-        return [f"check: the modulus stays below {high:.2g} Pa, less than that of weak gels"]
-    if high > _HARD:
-        return [
-            f"check: the modulus reaches {high:.2g} Pa, from {low:.2g} Pa, more than that of bone"
-        ]
-    return []
+    if _SOFT <= high <= _HARD:
+        return []
+    return [
+        f"check: moduli from {low:.2g} to {high:.2g} Pa are unusual, below weak gels or above bone"
+    ]

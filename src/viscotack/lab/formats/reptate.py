@@ -137,9 +137,7 @@ def _quantity(heading: str) -> str | None:
 
 
 def _same_unit(given: str, fixed: str) -> bool:
-    given = bare(given)
-    if fixed == "C":
-        return given.lstrip("°ºo�") == "C"
+    given = bare(given).lstrip("°ºo�")
     return given in (fixed, "-") or (fixed == "rad/s" and given in ("1/s", "s-1"))
 
 

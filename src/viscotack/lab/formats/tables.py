@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from pathlib import PurePath
 from typing import Any
 
 from viscotack.errors import InputError
@@ -15,6 +16,7 @@ from viscotack.errors import InputError
 from .file import LabFile
 from .headings import (
     POSSIBLE,
+    WORDS,
     Heading,
     Vocabulary,
     are_columns,
@@ -26,7 +28,6 @@ from .headings import (
     unquoted,
 )
 from .numbers import is_number
-from .words import WORDS
 
 _STATED = re.compile(r'([+-]?[0-9]+(?:[.,][0-9]*)?)[\s;,"]*([^\t;,"]*).*')
 # "Temperature,25.0 degC", "Temp. [C] = 25,0", "Test temperature 25 °C"
@@ -316,3 +317,45 @@ def _temperature(label: str) -> Heading | None:
     first, _, rest = label.strip().partition(" ")
     heading = recognise(rest if first.casefold() in _OF_TEST else label)
     return heading if heading is not None and heading.quantity == "temperature" else None
+
+
+# ---- temperatures in the names of files ---
+
+_IN_NAME = re.compile(
+    r"(?<![0-9.A-SU-Za-su-z])(?P<number>[+-]?[0-9]+(?:\.[0-9]+)?) ?(?P<unit>degC|°C|C|K)"
+    r"(?![A-Za-z0-9])"
+)
+_HYPHEN = re.compile(r"[A-Za-z0-9](-[0-9.]+ ?(?:degC|°C|C|K))(?![A-Za-z0-9])")
+
+
+def kelvins_in_name(path: str) -> set[float]:
+    """Return the temperatures in the name of a file [K].
+
+    Examples
+    --------
+    >>> kelvins_in_name("probe_300K_2.csv"), kelvins_in_name("probe_2.csv")
+    ({300.0}, set())
+    """
+    found = _IN_NAME.finditer(PurePath(path).stem)
+    return {in_kelvin(float(one["number"]), one["unit"]) for one in found}
+
+
+def kelvin_in_name(file: LabFile) -> float:
+    """Return the single temperature in the name of a file [K].
+
+    Examples
+    --------
+    >>> round(kelvin_in_name(LabFile("data/foam_dma_-25C.csv", b"", (), ())), 2)
+    248.15
+    """
+    stem = PurePath(file.path).stem
+    if match := _HYPHEN.search(stem):
+        raise file.error(
+            f"{match[1]!r} in the file name has a minus sign or a hyphen; write '_' for a hyphen"
+        )
+    found = kelvins_in_name(file.path)
+    if len(found) != 1 or min(found) <= 0:
+        raise file.error(
+            f"--temperature-in-name needs one temperature such as '25C', found {len(found)}"
+        )
+    return found.pop()

@@ -44,7 +44,6 @@ from .tables import (
 LOOKED = 300  # lines searched for the headings
 _FEWEST, _MOST_ROWS = 3, 50  # numbers in a row of a table on its side, and its rows
 _SEPARATORS = ("\t", ";", ",", None)
-_PYVISCO = {"E_stor", "E_loss", "G_stor", "G_loss", "E_relax", "G_relax", "log_aT"}
 _STEP, _COUNTED, _STEP_LOOKED = "[step]", "number of points", 500
 _LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
 _WHOLE = re.compile(r"\s*[0-9]+(\.0)?\s*")  # workbooks have floats
@@ -89,13 +88,6 @@ def geometry(rows: Sequence[Sequence[str]]) -> str:
 
 
 # ---- plain tables ------------------------------------------------------------------------------
-
-
-def pyvisco(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table] | None:
-    """Return the tables of a file with the headings of pyvisco; None for other files."""
-    found = _headings(file, words)
-    known = found and _PYVISCO & {heading.strip() for heading in found[2]}
-    return plain(file, words, names) if known else None
 
 
 def plain(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table]:

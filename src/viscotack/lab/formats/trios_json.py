@@ -9,8 +9,6 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from viscotack.errors import InputError
-
 from .file import LabFile
 from .headings import MATERIAL
 from .tables import Table, tabulated
@@ -30,19 +28,7 @@ def tables(file: LabFile, *_: object) -> list[Table] | None:
         return None
     # keep numbers as written, so that damaged ones are detected as in text files
     text = "\n".join(file.lines) + file.rest
-    try:
-        record = json.loads(text, parse_float=str, parse_int=str)
-        return list(_tables(file, record))
-    except InputError:
-        raise
-    except (ValueError, RecursionError) as error:
-        raise file.error(
-            f"the JSON cannot be read; it may be truncated or damaged: {error}"
-        ) from None
-    except (KeyError, TypeError, AttributeError, IndexError) as error:
-        raise file.error(
-            f"expected Results of TRIOS with ColumnHeaders and Rows; see {error!r}"
-        ) from None
+    return list(_tables(file, json.loads(text, parse_float=str, parse_int=str)))
 
 
 def _tables(file: LabFile, record: dict[str, Any]) -> Iterator[Table]:

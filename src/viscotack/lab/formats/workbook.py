@@ -27,13 +27,6 @@ MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 500, 5_000_000
 Cells = list[list[str]]
 
 
-def eplexor(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table] | None:
-    """Return the tables of a workbook of Eplexor; None for other files."""
-    # old workbooks store sheet names as plain bytes, new ones compressed
-    known = file.is_workbook and _SHEET.encode() in file.content
-    return tables(file, words, names) if known else None
-
-
 def tables(file: LabFile, words: Vocabulary, names: Sequence[str] = ()) -> list[Table] | None:
     """Return the tables of all sheets, first that of ``Exported Data``; None for other files.
 

@@ -4,12 +4,9 @@ A record contains the raw data of a test. A cycle is one approach, dwell and ret
 for zero, tilt, drift and compliance, with its pull-off force, work, depths and true speed.
 """
 
-from .cycle import Cycle, Measured
-from .evaluation import Evaluation, Refusal, evaluate
+from .evaluation import Evaluation, Refusal, Survey, Unread, evaluate, survey
 from .reading import FORMATS, read
-from .record import TackRecord
-from .segments import Segments
-from .surveying import Survey, Unread, survey
+from .record import Cycle, Measured, Segments, TackRecord
 
 __all__ = [
     "FORMATS",

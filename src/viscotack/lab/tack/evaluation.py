@@ -3,9 +3,15 @@
 A valid cycle has a retraction that ends free of contact, a pull-off above the noise with more
 than one point, no force at the end of the sensor's range, and a zero more certain than the
 pull-off. Each rejection states the failed criterion with numbers.
+
+Of many files those that cannot be read are listed with the reason.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from os import fspath
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -16,17 +22,17 @@ from viscotack.units import readable
 from .baseline import (
     Baseline,
     Contact,
+    Extremum,
     baseline,
     contact_of,
+    extremum,
     point_noise,
     rounding,
     straight,
     without_spikes,
 )
-from .cycle import Cycle, Measured
-from .extremum import Extremum, extremum
-from .record import TackRecord
-from .segments import Segments, depth_of, force_sign, segments
+from .reading import AnyPath, groups, read
+from .record import Cycle, Measured, Segments, TackRecord, depth_of, force_sign, segments
 
 _POINTS = 20  # smallest number of points of a retraction
 _FREE = 8  # smallest number of points out of contact at its end
@@ -429,3 +435,94 @@ def _speed(time: Array, way: Array, begin: int, end: int) -> Measured:
 def _slope(t: Array, x: Array) -> float:
     u = t - t.mean()
     return float(u @ x / max(u @ u, 1e-300))
+
+
+@dataclass(frozen=True)
+class Unread:
+    """An unreadable file (or the first file of a test), and the reason."""
+
+    path: str
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """Evaluated records of many files, and the unreadable files."""
+
+    evaluations: tuple[Evaluation, ...]
+    unread: tuple[Unread, ...]
+
+    @property
+    def cycles(self) -> tuple[Cycle, ...]:
+        """All evaluated cycles."""
+        return tuple(cycle for one in self.evaluations for cycle in one.cycles)
+
+    @property
+    def cautions(self) -> tuple[tuple[str, str], ...]:
+        """File and caution of every cycle whose signal contradicts the theories."""
+        return tuple(
+            (one.source.path, f"cycle {one.number}: {said}")
+            for one in self.cycles
+            for said in one.cautions
+        )
+
+    @property
+    def reasons(self) -> tuple[tuple[str, str], ...]:
+        """File and reason of every rejected file and cycle."""
+        files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in self.unread]
+        cycles = [
+            (one.record.source.path, f"cycle {refused.number}: {refused.reason}")
+            for one in self.evaluations
+            for refused in one.refused
+        ]
+        return (*files, *cycles)
+
+
+def survey(
+    paths: Sequence[AnyPath],
+    *,
+    reading: Mapping[str, Any] | None = None,
+    evaluation: Mapping[str, Any] | None = None,
+) -> Survey:
+    """Evaluate files of tack tests; an unreadable file does not stop the others.
+
+    Parameters
+    ----------
+    paths : sequence of path-like
+        Files, or folders, of which all files are read but hidden ones and those in folders
+        inside; intervals of one test are joined as in :func:`read`.
+    reading, evaluation : mapping, optional
+        Keyword arguments of :func:`read` and :func:`evaluate`.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be opened.
+    ValueError
+        If a folder contains no file.
+    """
+    found: list[Evaluation] = []
+    unread: list[Unread] = []
+    for group in groups([file for path in paths for file in _files(path)]):
+        try:
+            records = read(group, **(reading or {}))
+        except InputError as error:
+            unread.append(Unread(fspath(group[0]), str(error)))
+            continue
+        for record in records:
+            try:
+                found.append(evaluate(record, **(evaluation or {})))
+            except InputError as error:
+                unread.append(Unread(record.source.path, str(error)))
+    return Survey(tuple(found), tuple(unread))
+
+
+def _files(path: AnyPath) -> list[AnyPath]:
+    """Return the visible files of a folder by name; a file itself."""
+    if not Path(path).is_dir():
+        return [path]
+    inside = sorted(Path(path).iterdir())
+    found: list[AnyPath] = [x for x in inside if x.is_file() and not x.name.startswith(".")]
+    if not found:
+        raise InputError(f"{path}: the folder contains no file")
+    return found

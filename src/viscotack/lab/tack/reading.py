@@ -6,7 +6,7 @@ the fields of :class:`TackOptions` have the same names, for example ``--force-un
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -16,11 +16,11 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.formats import afm, ibw, jpk, jpk_text, mems_text, nid, tables, text, workbook
+from viscotack.lab.formats import microscopes, tables, text, workbook
 from viscotack.lab.formats.columns import Columns, refuse_pooled
 from viscotack.lab.formats.file import Curve, LabFile, first_fitting, load
 from viscotack.lab.formats.headings import POSITIONS, TACK
-from viscotack.lab.joining import kelvin_in_name
+from viscotack.lab.formats.tables import kelvin_in_name
 from viscotack.lab.options import TackOptions
 from viscotack.lab.sweeps import Source
 from viscotack.units import readable
@@ -29,20 +29,9 @@ from .record import TackRecord
 
 AnyPath = str | PathLike[str]
 
-# readers of the curves of microscopes, in order of detection
-_MICROSCOPES: dict[str, Callable[[LabFile, TackOptions], list[Curve] | None]] = {
-    "afmformats": afm.curves,
-    "jpk-force": jpk.curves,
-    "jpk-text": jpk_text.curves,
-    "mems-text": mems_text.curves,
-    "nid": nid.curves,
-    "ibw": ibw.curves,
-}
 _TABLES = {"workbook": workbook.tables, "text": text.plain}
-FORMATS = (*_MICROSCOPES, *_TABLES)
+FORMATS = (*microscopes.READERS, *_TABLES)
 _INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
-# first bytes of formats that are neither text nor workbooks
-_RAW = (nid.MARK, ibw.START, afm.HDF)
 _INTO = {"gap": -1, "depth": 1, "travel": 0}
 _NEEDED = 20  # smallest number of rows needed to identify the parts of a test
 
@@ -84,34 +73,34 @@ def read(paths: AnyPath | Sequence[AnyPath], **options: Any) -> list[TackRecord]
     if not chosen:
         raise InputError("no file to read; give one or more paths")
     found: list[TackRecord] = []
-    for group in _groups(chosen):
-        if len(group) == 1:
-            found += _records(group[0][1], given)
-        else:
-            found += _joined(group, given)
+    for group in groups(chosen):
+        found += _joined(group, given) if len(group) > 1 else _records(group[0], given)
     return found
 
 
 def groups(paths: Sequence[AnyPath]) -> list[list[AnyPath]]:
     """Group files by test, with intervals in the order of their numbers."""
-    return [[path for _, path in group] for group in _groups(paths)]
-
-
-def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
-    groups: dict[tuple[str, str], list[tuple[int, AnyPath]]] = {}
+    groups: dict[tuple[str, str], list[AnyPath]] = {}
     for count, path in enumerate(paths):
         match = _INTERVAL.fullmatch(Path(path).stem)
         key = (str(Path(path).parent), match[1]) if match else (str(path), f"\0{count}")
-        groups.setdefault(key, []).append((int(match[2]) if match else 0, path))
-    return [sorted(group, key=lambda item: item[0]) for group in groups.values()]
+        groups.setdefault(key, []).append(path)
+    return [sorted(group, key=_interval) for group in groups.values()]
 
 
-def _joined(group: list[tuple[int, AnyPath]], given: TackOptions) -> list[TackRecord]:
+def _interval(path: AnyPath) -> int:
+    """Return the number of an interval in the name of its file, 0 without one."""
+    match = _INTERVAL.fullmatch(Path(path).stem)
+    return int(match[2]) if match else 0
+
+
+def _joined(group: list[AnyPath], given: TackOptions) -> list[TackRecord]:
     """Read the intervals of one test and join those with consecutive numbers."""
     stretches: list[list[TackRecord]] = []
     before = None
     skipped: list[str] = []
-    for number, path in group:
+    for path in group:
+        number = _interval(path)
         if not Path(path).stat().st_size:
             # an interval without data
             skipped.append(f"interval {number} is empty")
@@ -153,15 +142,16 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
 
 def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackRecord]:
     """Return the records of a file; one of several intervals may have `few` rows."""
-    file = load(path, raw=_RAW)
+    file = load(path, raw=microscopes.RAW)
     given.check_format(FORMATS)
     # a damaged number may overflow; the record rejects it with its name
     with np.errstate(all="ignore"):
         found = None
         if given.format not in _TABLES:
-            found = first_fitting(file, _MICROSCOPES, given.format, given)
+            found = first_fitting(file, microscopes.READERS, given.format, given)
         if found is not None:
-            records = [_record(file, found[0], curve, curve.notes) for curve in found[1]]
+            file = replace(file, format=found[0])
+            records = [_record(file, curve, curve.notes) for curve in found[1]]
         else:
             if not file.lines and not file.is_workbook:
                 raise file.error("the file is neither text nor a workbook; export it as text")
@@ -170,18 +160,16 @@ def _records(path: AnyPath, given: TackOptions, few: bool = False) -> list[TackR
                 file = text.upright(file, TACK)
             fitting = first_fitting(file, _TABLES, given.format, TACK, given.names)
             assert fitting is not None, "plain tables raise their own error"
-            name, whole = fitting
-            read = tables.where(file, whole, given.where)
-            records = [_from_table(file, table, given, name, few) for table in read]
+            file = replace(file, format=fitting[0])
+            read = tables.where(file, fitting[1], given.where)
+            records = [_from_table(file, table, given, few) for table in read]
     if not given.temperature_in_name:
         return records
     kelvin = kelvin_in_name(file)
     return [replace(one, temperature=np.full(len(one), kelvin)) for one in records]
 
 
-def _record(
-    file: LabFile, format: str, curve: Curve, notes: Sequence[str], **more: Any
-) -> TackRecord:
+def _record(file: LabFile, curve: Curve, notes: Sequence[str], **more: Any) -> TackRecord:
     notes = [*file.notes, *notes]
     if curve.stiffness:
         rig = f"cantilever of {readable(curve.stiffness, 'N/m')}"
@@ -193,16 +181,14 @@ def _record(
             curve.position,
             into=curve.into,
             compliance=1 / curve.stiffness if curve.stiffness else 0.0,
-            source=Source(file.path, file.sha256, format, tuple(notes)),
+            source=Source(file.path, file.sha256, file.format, tuple(notes)),
             **more,
         )
     except InputError as error:
         raise file.error(str(error)) from None
 
 
-def _from_table(
-    file: LabFile, table: tables.Table, given: TackOptions, format: str, few: bool
-) -> TackRecord:
+def _from_table(file: LabFile, table: tables.Table, given: TackOptions, few: bool) -> TackRecord:
     """Return the record in a table."""
     columns = Columns(file, table, given, TACK)
     known = ", ".join(repr(text) for text in table.headings if text)
@@ -238,7 +224,7 @@ def _from_table(
         time = given.time_of(file, way, columns.notes)
     curve = Curve(time[keep], force[keep], way[keep], _INTO[kind])
     rows = {name: None if row is None else row[keep] for name, row in more.items()}
-    return _record(file, format, curve, columns.notes, **rows)
+    return _record(file, curve, columns.notes, **rows)
 
 
 def _contact_radius(columns: Columns) -> Array | None:

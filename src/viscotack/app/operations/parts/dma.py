@@ -89,9 +89,7 @@ class Dma(Request):
 
     def measured(self, files: tuple[Path, ...]) -> "Measured":
         """Read the files: sweeps of one material, or tests over time."""
-        from viscotack.lab import read, read_creeps, read_dma, read_relaxations
+        from viscotack.lab import read
 
         said: dict[str, Any] = {name: getattr(self, name) for name in Dma.model_fields}
-        test = said.pop("test")
-        readers = {"dma": read_dma, "relaxation": read_relaxations, "creep": read_creeps}
-        return readers.get(test, read)(files, **said)
+        return read(files, **said)

@@ -64,7 +64,7 @@ def cycle_row(cycle: Any, radius: float | None = None, law: Any = None) -> dict[
 
 def _jkr(force: float, radius: float | None) -> dict[str, float]:
     """Return the work of adhesion of an elastic JKR sphere; empty without a radius."""
-    from viscotack.lab.tack.speed_table import jkr_work
+    from viscotack.lab.tack.repeats import jkr_work
 
     return {} if radius is None else {"jkr_work_of_adhesion_J_m2": jkr_work(force, radius)}
 
@@ -123,11 +123,11 @@ def series_record(table: Any) -> dict[str, Any]:
         "exponent_standard_error": None if exponent is None else exponent.uncertainty,
         "exponents": [
             {
-                "temperature_K": one.temperature,
-                "exponent": one.exponent.value,
-                "exponent_standard_error": one.exponent.uncertainty,
+                "temperature_K": temperature,
+                "exponent": one.value,
+                "exponent_standard_error": one.uncertainty,
             }
-            for one in table.exponents
+            for temperature, one in table.exponents
         ],
     }
 

@@ -158,7 +158,7 @@ class Shifting(ShiftLaw):
         # before anything is counted by less
         cautions = [contradiction(curve)]
         if curve.shifts is not None and len(curve.shifts) > 1:
-            cautions += superposition(sweeps, curve.shifts).words()
+            cautions += superposition(sweeps, curve.shifts)
         if self.glass_transition is not None:
             cautions += _below(known, self.glass_transition)
         shift = law if isinstance(law, WLF) else curve.shifts

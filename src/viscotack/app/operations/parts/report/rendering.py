@@ -13,7 +13,7 @@ import numpy as np
 
 from viscotack.errors import InputError, install_command
 from viscotack.identify import RateForecast
-from viscotack.lab.tack.speed_table import SpeedTable, jkr_work, speed_table
+from viscotack.lab.tack.repeats import SpeedTable, jkr_work, speed_table
 from viscotack.model.geometry import Layer
 from viscotack.model.materials.passport_words import in_words
 from viscotack.version import __version__
