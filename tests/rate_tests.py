@@ -36,8 +36,7 @@ def fitted(forces, relative, speeds=SPEEDS, **more):
 
 def of_other(fit, **changes):
     """Return a fit as if its series had other settings."""
-    search = replace(fit.found.search, series=replace(fit.given, **changes))
-    return replace(fit, found=replace(fit.found, search=search))
+    return replace(fit, search=replace(fit.search, series=replace(fit.given, **changes)))
 
 
 def holds(forecast, forces):

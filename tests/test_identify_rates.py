@@ -28,7 +28,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.force_ratios import yielding_near
 from viscotack.identify.forward import Forward, Interface
-from viscotack.identify.travel import travels
+from viscotack.identify.pull_off import travels
 from viscotack.lab.tack import survey
 from viscotack.model.materials.library import published
 

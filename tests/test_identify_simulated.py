@@ -10,11 +10,9 @@ import viscotack as vt
 from rate_tests import LENS, measured
 from viscotack.identify import RateSeries, forecast_rates, identify_rates, pull_offs
 from viscotack.identify.covariances import SphereTests
-from viscotack.identify.force_ratios import LENGTHS
+from viscotack.identify.force_ratios import LENGTHS, KnownRatios, Simulations
 from viscotack.identify.forward import Forward
 from viscotack.identify.pull_off import History
-from viscotack.identify.simulated_tests import KnownRatios
-from viscotack.identify.simulations import Simulations
 from viscotack.lab.tack import survey
 from viscotack.model.materials import Passport
 from viscotack.model.protocol import Approach, Dwell
@@ -49,7 +47,7 @@ def test_a_series_at_a_low_tabor_number_gives_back_its_interface(fit):
     assert fit.equilibrium_gap == pytest.approx(LENGTH / 3, rel=0.03)
     ends = fit.intervals["equilibrium_gap"]
     assert ends.low < LENGTH / 3 < ends.high
-    assert np.all(fit.found.search.model.simulation > 0) and fit.simulations > 0
+    assert np.all(fit.search.model.simulation > 0) and fit.simulations > 0
 
 
 @pytest.mark.slow
@@ -74,7 +72,7 @@ def test_a_finite_dwell_is_simulated():
     with Simulations() as runs:
         passport = Passport(name="", material=SOLID)
         tests = SphereTests(FORWARD, passport, speed, np.array([PRELOAD]), moves=(moves,))
-        tiers = KnownRatios.none(tests, runs).at(np.log([[WORK, LENGTH / 3]]) / LENGTHS)
+        tiers = KnownRatios.none(tests, runs).adding(np.log([[WORK, LENGTH / 3]]) / LENGTHS)
         assert runs.count == 1
     ratio = float(np.exp(tiers.log_ratio[0, 0]))
     rigid = float(FORWARD.pulled(WORK, LENGTH / 3, speed, PRELOAD).force[0])

@@ -14,7 +14,7 @@ from viscotack.errors import InputError
 from viscotack.identify import PullOff, RateSeries, forecast_rates, identify_rates
 from viscotack.identify.covariances import shift_covariance
 from viscotack.identify.pull_off import History
-from viscotack.identify.temperatures import shifted
+from viscotack.identify.rate_series import shifted
 from viscotack.lab.tack import Measured
 from viscotack.model.materials import Passport
 from viscotack.model.materials.shift import WLF, TabulatedShift
@@ -85,7 +85,7 @@ def test_errors_of_temperature_and_of_the_table_of_shifts_are_in_the_covariance(
         identify_rates(RateSeries(SERIES, material=one, temperature_uncertainty=0.0, **CASE))
         for one in (table, doubted)
     )
-    more = wide.covariance - sure.covariance
+    more = wide.search.spread - sure.search.spread
     at = np.array([one.temperature for one in wide.series])
     assert np.all(np.diag(more) > 0)
     # at different temperatures the errors of the table are independent

@@ -16,7 +16,7 @@ force is a straight line: a curved one is read as attraction.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -74,6 +74,7 @@ class Attraction:
         return inside * (self.travel[-1] / np.maximum(travel, self.travel[-1])) ** 2
 
 
+@lru_cache(maxsize=400)
 def attraction(
     law: LennardJones, *, radius: float, contact_modulus: float, stiffness: float | None = None
 ) -> Attraction:
@@ -264,11 +265,6 @@ class _Before:
         places = np.linspace(self.drive[-1], self.next_drive, _PLACES)
         return min(misfit(self.force + curve.at(place - self.drive)) for place in places)
 
-    @property
-    def without_last(self) -> "_Before":
-        """The samples but the last, with the jump anywhere behind them."""
-        return _Before(self.drive[:-1], self.force[:-1], self.next_drive, self.noise)
-
 
 @dataclass(frozen=True, eq=False)
 class _Scan:
@@ -296,54 +292,37 @@ class _Scan:
         return float(np.exp(low)) * (1 - _ERROR), float(np.exp(high)) * (1 + _ERROR)
 
 
-@dataclass(frozen=True)
-class _Rig:
-    """Sphere, solid and machine, in SI."""
+def _scan(before: _Before, work: float, pull_off: float | None, **rig: Any) -> _Scan:
+    """Try ranges from small ones up, until they are hopeless or do not jump.
 
-    radius: float
-    contact_modulus: float
-    stiffness: float | None
+    The work is at most that of the pull-off force [N] with forces of this range, if one is given;
+    `rig` are the sphere, solid and machine of :func:`attraction`.
+    """
+    R, modulus, none = rig["radius"], rig["contact_modulus"], before.chi2(None)
+    found: dict[float, float] = {}
 
-    def scan(self, before: _Before, work: float, pull_off: float | None) -> _Scan:
-        """Try ranges from small ones up, until they are hopeless or do not jump.
+    def attempt(gap: float) -> bool:
+        most = work
+        if pull_off is not None:
+            by_jkr = pull_off / (1.5 * np.pi * R)
+            tabor = (R * (by_jkr / modulus) ** 2) ** (1 / 3) / gap
+            most = min(work, by_jkr / float(lennard_jones.pull_off_ratio(tabor)))
+        try:
+            found[gap] = before.chi2(attraction(LennardJones(most, gap), **rig))
+        except OutOfRange:
+            return False
+        return found[gap] < min(*found.values(), none) + _HOPELESS
 
-        The work is at most that of the pull-off force [N] with forces of this range, if one is
-        given.
-        """
-        unit = (self.radius * (work / self.contact_modulus) ** 2) ** (1 / 3)
-        none = before.chi2(None)
-        found: dict[float, float] = {}
-
-        def attempt(gap: float) -> bool:
-            most = work
-            if pull_off is not None:
-                by_jkr = pull_off / (1.5 * np.pi * self.radius)
-                tabor = (self.radius * (by_jkr / self.contact_modulus) ** 2) ** (1 / 3) / gap
-                most = min(work, by_jkr / float(lennard_jones.pull_off_ratio(tabor)))
-            try:
-                found[gap] = before.chi2(_attraction(most, gap, self))
-            except OutOfRange:
-                return False
-            return found[gap] < min(*found.values(), none) + _HOPELESS
-
-        gaps = unit * np.geomspace(_LEAST, _MOST_RANGE, _RANGES)
-        for gap in gaps:
-            if not attempt(float(gap)):
-                break
-        # again between the neighbours of the best
-        best = min(found, key=lambda gap: found[gap])
-        for gap in best * np.geomspace(gaps[0] / gaps[1], gaps[1] / gaps[0], _FINER):
-            attempt(float(gap))
-        every = np.array(sorted(found))
-        return _Scan(every, np.array([found[gap] for gap in every]), none, before.drive.size)
-
-
-@lru_cache(maxsize=400)
-def _attraction(work: float, gap: float, rig: _Rig) -> Attraction:
-    law = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
-    return attraction(
-        law, radius=rig.radius, contact_modulus=rig.contact_modulus, stiffness=rig.stiffness
-    )
+    gaps = (R * (work / modulus) ** 2) ** (1 / 3) * np.geomspace(_LEAST, _MOST_RANGE, _RANGES)
+    for gap in gaps:
+        if not attempt(float(gap)):
+            break
+    # again between the neighbours of the best
+    best = min(found, key=lambda gap: found[gap])
+    for gap in best * np.geomspace(gaps[0] / gaps[1], gaps[1] / gaps[0], _FINER):
+        attempt(float(gap))
+    every = np.array(sorted(found))
+    return _Scan(every, np.array([found[gap] for gap in every]), none, before.drive.size)
 
 
 def _before(cycle: Cycle) -> tuple[_Before, float]:
@@ -413,21 +392,20 @@ def identify_approach(
     if not 0 < level < 1:
         raise InputError(f"level must lie between 0 and 1, got {level!r}", field="level")
     before, tension = _before(cycle)
-    stiffness = 1 / cycle.compliance if cycle.compliance > 0 else None
-    solid = {"radius": radius, "contact_modulus": contact_modulus}
+    rig: dict[str, Any] = {"radius": radius, "contact_modulus": contact_modulus}
+    rig["stiffness"] = 1 / cycle.compliance if cycle.compliance > 0 else None
     if work_of_adhesion is not None:
         works = (work_of_adhesion, work_of_adhesion)
     else:
-        by_jump = work_of_jump_in(tension, **solid, stiffness=stiffness)
+        by_jump = work_of_jump_in(tension, **rig)
         by_pull = cycle.pull_off_force.value / (1.5 * np.pi * radius)
         works = (min(by_jump, by_pull), by_pull)
-    softest = _Rig(radius, contact_modulus, stiffness)
-    hardest = _Rig(radius, instantaneous or contact_modulus, stiffness)
     pull_off = None if work_of_adhesion is not None else cycle.pull_off_force.value
-    during, soft = 0, softest.scan(before, works[0], pull_off)
+    during, soft = 0, _scan(before, works[0], pull_off, **rig)
     while during < _DURING and soft.chance < _POOR:
-        before, during = before.without_last, during + 1
-        soft = softest.scan(before, works[0], pull_off)
+        # without the last sample, with the jump anywhere behind the others
+        before = replace(before, drive=before.drive[:-1], force=before.force[:-1])
+        during, soft = during + 1, _scan(before, works[0], pull_off, **rig)
     if soft.chance < _POOR:
         raise OutOfRange(
             "attraction of no range fits the forces before the jump-in; they have a baseline that "
@@ -436,7 +414,8 @@ def identify_approach(
     interval, likely = None, None
     if soft.none - min(soft.chi2) > _SHARP:
         allowed = float(chi2.ppf(level, 1))
-        low = hardest.scan(before, works[1], pull_off).ends(allowed)[0]
+        hard = rig | {"contact_modulus": instantaneous or contact_modulus}
+        low = _scan(before, works[1], pull_off, **hard).ends(allowed)[0]
         interval = Interval(low, soft.ends(allowed)[1], True, True)
         likely = float(soft.gaps[int(np.argmin(soft.chi2))])
     baseline = np.polyfit(before.drive[: -_FEWEST // 2], before.force[: -_FEWEST // 2], 1)
@@ -472,10 +451,6 @@ def range_bound(
     cycles: Sequence[Cycle], radius: float, contact_modulus: float, level: float
 ) -> float | None:
     """Return the upper bound of h0 by a few of the approaches [m], their median; None without."""
-    fits, _ = identify_approaches(
-        cycles[:: max(len(cycles) // _APPROACHES, 1)][:_APPROACHES],
-        radius=radius,
-        contact_modulus=contact_modulus,
-        level=level,
-    )
+    some = cycles[:: max(len(cycles) // _APPROACHES, 1)][:_APPROACHES]
+    fits, _ = identify_approaches(some, radius=radius, contact_modulus=contact_modulus, level=level)
     return float(np.median([fit.bound for fit in fits])) if fits else None

@@ -23,13 +23,11 @@ from viscotack.theory.sphere import edge_law
 from viscotack.units import readable
 
 from .covariances import ModelError
-from .force_ratios import Yielding
+from .force_ratios import ForceRatios
 from .forward import Forward
-from .interpolated_forces import Table, lattice
 from .rate_series import RateSeries
-from .rate_words import edge_misfit_words, edge_words
-from .search import Search, settled
-from .series_fit import SeriesFit
+from .search import Search, SeriesFit, Table, lattice, settled
+from .words import edge_words
 
 _LEAST = 4  # speeds
 # Searched: works of adhesion below the largest that the forces allow, speeds v0 beyond those of the
@@ -46,15 +44,10 @@ class EdgeFit(SeriesFit):
     The unknowns are "work_of_adhesion" [J/m2], "reference_speed" [m/s] and "exponent".
     """
 
-    @property
-    def misfit(self) -> str:
-        """Sentence on tests that the fit does not describe; empty if it describes them."""
-        return "" if self.describes_tests else edge_misfit_words(self)
-
     @cached_property
     def words(self) -> tuple[str, ...]:
         """Sentences on the result and on what the data do not determine."""
-        return (*([self.misfit] if self.misfit else []), *edge_words(self))
+        return tuple(edge_words(self))
 
 
 def identify_edge(series: RateSeries) -> EdgeFit:
@@ -92,7 +85,7 @@ def identify_edge(series: RateSeries) -> EdgeFit:
         Forward(series.passport.material, series.radius),
         Table(axes, np.log(forces), speed.size),
         series.noise + model.covariance(speed),
-        Yielding.of_a_rigid_machine(speed.size),
+        ForceRatios.of_a_rigid_machine(speed.size),
         model,
     )
     if series.stiffness is not None:

@@ -1,13 +1,13 @@
 r"""Ratios of pull-off forces to those of a relaxed contact and a rigid machine by theory.
 
-Tables of forces (:mod:`.interpolated_forces`) are for relaxed contacts and rigid machines. While
-the tension grows, a compliant machine stretches, so the sphere moves more slowly than the drive:
-:class:`Yielding` is the effect near one interface. The logarithm of this ratio is nearly
-proportional to the compliance, so its product with the relative uncertainty of the compliance is an
-error common to all forces.
+Tables of forces (:mod:`.search`) are for relaxed contacts and rigid machines. While
+the tension grows, a compliant machine stretches, so the sphere moves more slowly than the drive.
+The logarithm of this ratio is nearly proportional to the compliance, so its product with the
+relative uncertainty of the compliance is an error common to all forces.
 
-Where tests are simulated, the ratio is known at a few interfaces. :class:`SmoothRatio` interpolates
-by a Gaussian process in :math:`x = (\ln w, \ln h_0)`, scaled, with the covariance
+Where the theory does not hold for a test, its ratio is computed at interfaces spread over the
+likely ones, each by simulation or, where the theory holds, by theory (:class:`KnownRatios`), and
+interpolated by a Gaussian process in :math:`x = (\ln w, \ln h_0)`, scaled, with the covariance
 
 .. math:: k(x, y) = a^2 + b^2\, x\cdot y + c^2 e^{-|x - y|^2/2} ,
 
@@ -15,18 +15,99 @@ a plane with a smooth deviation from it. Its error is that of each point when it
 (Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), Eq. 5.12).
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
+from viscotack.clock import limited, met
+from viscotack.errors import InputError
+from viscotack.model.problem import Problem
+from viscotack.result.observables import pull_off_force
+from viscotack.system import Processes, begin_worker
 
+from .computed import Computed, packaged
+from .covariances import SphereTests
 from .forward import Changed, Forward, Interface
 from .rate_series import RateSeries
 
+ACCURACY = 5e-3
+_WORKERS = 2
+_FEW = 40  # cases up to which no process is started, because that takes longer
+_LONGEST = 60.0  # time of a simulation [s]
+
+
+class Simulations:
+    """Pull-off forces of problems by simulation; no problem is simulated twice.
+
+    A context manager: worker processes begin with the first large batch and end with the block.
+    """
+
+    def __init__(self, computed: Computed | None = None) -> None:
+        self._pool: Processes | None = None
+        self._computed = Computed() if computed is None else computed
+        self._known: dict[Problem, float] = {}
+
+    def __enter__(self) -> Simulations:
+        return self
+
+    def __exit__(self, kind: Any, *_: object) -> None:
+        if self._pool is not None:
+            self._pool.kill() if kind is not None else self._pool.shutdown()
+
+    @property
+    def count(self) -> int:
+        """Number of simulated problems."""
+        return len(self._known)
+
+    def forces(self, problems: Sequence[Problem]) -> Array:
+        """Return the pull-off forces [N], nan where a simulation ends without one."""
+        if new := [one for one in dict.fromkeys(problems) if one not in self._known]:
+            kept = packaged(new[0].material)
+
+            def compute() -> dict[str, Array]:
+                return {"force": np.array(list(self._simulated(new, kept)))}
+
+            found = self._computed.of((ACCURACY, new), compute) if kept else compute()
+            self._known |= dict(zip(new, found["force"].tolist(), strict=True))
+        return np.array([self._known[one] for one in problems])
+
+    def _simulated(self, problems: Sequence[Problem], known_to_workers: bool) -> Iterator[float]:
+        forces = map(_force, problems)
+        if len(problems) > _FEW and known_to_workers:
+            self._pool = self._pool or Processes(_WORKERS, begin_worker, ())
+            forces = self._pool.map(_force, problems)
+        for force in forces:
+            if limit := met():  # that of the caller
+                raise InputError(f"{limit} while tests were simulated; give more time")
+            yield force
+
+
+def _force(problem: Problem) -> float:
+    # imported on first use, because most series need no simulation
+    from viscotack.simulate import SimulationError, solve
+
+    with suppress(InputError, SimulationError), limited(_LONGEST):
+        found = solve(problem, until="pull-off", accuracy=ACCURACY, estimate_error=False)
+        return pull_off_force(found) * problem.scales().force
+    return np.nan
+
+
+GOOD_TABOR = 5.0  # effective: from it the theory is within its stated error
+# Largest Tabor numbers that are simulated, from rest and after an approach.
+_MOST_TABOR, _MOVED_TABOR = 100.0, 30.0
+# Up to it a test whose force is simulated for some interfaces is simulated for all.
+_CHEAP_TABOR = 40.0
+_BAND = 0.033  # largest band of a good theory: 1.645 times its stated error
+_MOST_POINTS = 10  # most interfaces that are added at a time
+_NEAR = 1.0  # distance of an interface from the likely ones up to which its error counts
 # |ln ratio| above which derivatives are computed, and steps in ln of work and range.
 _FAR, _WORK, _GAP = 0.1, 0.1, -0.3
 # Lengths in ln of work and range over which the deviation from a plane changes.
@@ -36,8 +117,8 @@ _CONSTANT, _SLOPE, _DEVIATION, _SCATTER = 0.5, 0.3, 0.1, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Yielding:
-    """Ratio of forces with a compliant machine to those with a rigid one.
+class ForceRatios:
+    """Ratios of the forces of all tests, with a compliant machine and by simulation.
 
     Parameters
     ----------
@@ -48,31 +129,42 @@ class Yielding:
         Derivatives with respect to ln of the work of adhesion and of the range.
     work, gap : float
         Reference interface [J/m2] and [m].
+    known : KnownRatios, optional
+        Ratios that are interpolated between interfaces.
+    which : tuple of int
+        Indices of these tests.
     """
 
     log_ratio: Array
     slopes: Array
     work: float = 1.0
     gap: float = 1.0
+    known: KnownRatios | None = None
+    which: tuple[int, ...] = ()
 
     @classmethod
-    def of_a_rigid_machine(cls, speeds: int) -> "Yielding":
+    def of_a_rigid_machine(cls, speeds: int) -> ForceRatios:
         """Return the ratios of a rigid machine, which are 1."""
         return cls(np.zeros(speeds), np.zeros((2, speeds)))
 
     def __call__(self, values: Mapping[str, Any]) -> Array:
         """Return the ratios of one interface, shape (S,), or of many, shape (N, S)."""
-        if not self.slopes.any():
+        if self.known is None and not self.slopes.any():
             shape = (*np.shape(values["work_of_adhesion"]), self.log_ratio.size)
             return np.broadcast_to(np.exp(self.log_ratio), shape)
         work, gap = (np.asarray(values[x]) for x in ("work_of_adhesion", "equilibrium_gap"))
         away = np.stack([np.log(work / self.work), np.log(gap / self.gap)], axis=-1)
-        return np.exp(self.log_ratio + away @ self.slopes)
+        found = np.exp(self.log_ratio + away @ self.slopes)
+        if self.known is not None:
+            x = scaled(work, gap)
+            ratio = self.known.at(x.reshape(-1, 2))
+            found[..., list(self.which)] = ratio.reshape(*x.shape[:-1], -1)
+        return found
 
 
 def yielding_near(
     series: RateSeries, forward: Forward, interface: Interface
-) -> tuple[Yielding, Changed]:
+) -> tuple[ForceRatios, Changed]:
     """Compute the effect of the machine near an interface, and at the interface."""
     work, gap, growth = interface
     speed, load, stiffness = series.speed, series.load, series.stiffness
@@ -93,7 +185,7 @@ def yielding_near(
     told = [i for i in np.argsort(speed) if changed.holds[i]]
     if told:
         middle = np.interp(np.log(speed), np.log(speed[told]), middle[told])
-    return Yielding(middle, slopes, work, gap), changed
+    return ForceRatios(middle, slopes, work, gap), changed
 
 
 def scaled(work: Any, gap: Any) -> Array:
@@ -107,63 +199,161 @@ def _kernel(x: Array, y: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class SmoothRatio:
-    """Ratios of forces of several tests as functions of the interface.
+class KnownRatios:
+    """Ratios of forces at some interfaces.
 
     Parameters
     ----------
+    tests : SphereTests
+        Tests, S in number.
+    runs : Simulations
+        Simulations.
     points : ndarray, shape (N, 2)
-        Interfaces at which the ratios are known, from :func:`scaled`.
-    weights : ndarray, shape (N, tests)
-        Weights of the points; 0 where a ratio is not known.
-    left_out : ndarray, shape (N, tests)
-        Error of ln(ratio) at each point when it is left out; nan where it is not known.
+        Interfaces, as of :func:`scaled`.
+    log_ratio : ndarray, shape (N, S)
+        ln of the force over that of a relaxed contact and a rigid machine by theory; nan where
+        neither theory nor simulation has an answer.
+    simulated : ndarray of bool, shape (N, S)
+        Whether it is simulated.
     """
 
+    tests: SphereTests
+    runs: Simulations
     points: Array
-    weights: Array
-    left_out: Array
+    log_ratio: Array
+    simulated: npt.NDArray[np.bool_]
 
     @classmethod
-    def through(cls, points: Array, log_ratio: Array) -> "SmoothRatio":
-        """Interpolate ln(ratio), shape (N, tests), nan where it is not known."""
-        middle = points.mean(axis=0)
-        weights, left_out = np.zeros(log_ratio.shape), np.full(log_ratio.shape, np.nan)
-        for test, column in enumerate(log_ratio.T):
+    def none(cls, tests: SphereTests, runs: Simulations) -> KnownRatios:
+        """Return the ratios at no interface."""
+        empty = np.empty((0, tests.speed.size))
+        return cls(tests, runs, np.empty((0, 2)), empty, empty.astype(bool))
+
+    def over(self, likely: Array, apart: float) -> KnownRatios:
+        """Add interfaces, until all likely ones (points) have one nearby.
+
+        They are the farthest from those known and from each other, the first likely one first.
+        """
+        away = distance(likely, self.points)
+        found = [0] if away[0] > apart / 2 else []
+        while len(found) < _MOST_POINTS:
+            nearer = np.minimum(away, distance(likely, likely[found]))
+            farthest = int(np.argmax(nearer))
+            if nearer[farthest] <= apart:
+                break
+            found.append(farthest)
+        return self.adding(likely[found])
+
+    def adding(self, new: Array) -> KnownRatios:
+        """Add interfaces (points)."""
+        if not len(new):
+            return self
+        works, gaps = np.exp(new * LENGTHS).T
+        tests = self.tests
+        rigid = tests.forward.pulled(works[:, None], gaps[:, None], tests.speed, tests.load)
+        low = rigid.effective_tabor < GOOD_TABOR
+        low |= (length_of(tests.forward, works) / gaps < _CHEAP_TABOR)[:, None] | bool(tests.moves)
+        log_ratio = np.full(low.shape, np.nan)
+        simulated = np.zeros(low.shape, dtype=bool)
+        problems: dict[tuple[int, int], Problem] = {}
+        for n, (work, gap) in enumerate(zip(works, gaps, strict=True)):
+            # of a low Tabor number, or where the theory does not hold
+            some = self._problems(work, gap, np.flatnonzero(low[n]))
+            others = np.setdiff1d(np.arange(low.shape[1]), list(some))
+            log_ratio[n, others], poor = self._by_theory(work, gap, others)
+            some |= self._problems(work, gap, poor[~low[n, poor]])
+            problems |= {(n, test): problem for test, problem in some.items()}
+        if problems:
+            at = tuple(np.array(list(problems)).T)
+            log_ratio[at] = np.log(self.runs.forces(list(problems.values())) / rigid.force[at])
+            simulated[at] = True
+        return replace(
+            self,
+            points=np.concatenate([self.points, new]),
+            log_ratio=np.concatenate([self.log_ratio, log_ratio]),
+            simulated=np.concatenate([self.simulated, simulated]),
+        )
+
+    def _by_theory(
+        self, work: float, gap: float, which: npt.NDArray[np.intp]
+    ) -> tuple[Array, npt.NDArray[np.intp]]:
+        """Return ln(ratio) of some tests by theory, and those for which it does not hold."""
+        some, none = self.tests.some(which), np.full(which.size, np.nan)
+        if not which.size:
+            return none, which
+        try:
+            changed = some.changed(Interface(work, gap))
+        except InputError:  # strains too large
+            return none, which
+        return np.where(changed.holds, np.log(changed.ratio), np.nan), which[beyond(changed)]
+
+    def _problems(self, work: float, gap: float, which: npt.NDArray[np.intp]) -> dict[int, Problem]:
+        """Return the problems of some tests, without those that cannot be simulated."""
+        tests = self.tests
+        most = _MOVED_TABOR if tests.moves else _MOST_TABOR
+        found = {}
+        with suppress(InputError):  # strains too large
+            for test in map(int, which):
+                load, speed = float(tests.load[test]), float(tests.speed[test])
+                moves = tests.moves[test] if tests.moves else ()
+                problem = tests.forward.problem(
+                    work, gap, load, speed, stiffness=tests.stiffness, moves=moves
+                )
+                if problem.groups().tabor <= most:
+                    found[test] = problem
+        return found
+
+    @property
+    def unanswered(self) -> npt.NDArray[np.bool_]:
+        """Tests for which less than half of the interfaces have an answer, shape (S,)."""
+        return np.mean(np.isfinite(self.log_ratio), axis=0) < 0.5
+
+    @cached_property
+    def _weights(self) -> tuple[Array, Array]:
+        """Weights of the points, and errors of ln(ratio) when each is left out, or nan."""
+        near = self.points - self.points.mean(axis=0)
+        weights = np.zeros(self.log_ratio.shape)
+        left_out = np.full(self.log_ratio.shape, np.nan)
+        for test, column in enumerate(self.log_ratio.T):
             at = np.flatnonzero(np.isfinite(column))
-            near = points[at] - middle
-            inverse = np.linalg.inv(_kernel(near, near) + _SCATTER**2 * np.eye(at.size))
+            inverse = np.linalg.inv(_kernel(near[at], near[at]) + _SCATTER**2 * np.eye(at.size))
             weights[at, test] = inverse @ column[at]
             left_out[at, test] = weights[at, test] / np.diag(inverse)
-        return cls(points, weights, left_out)
+        return weights, left_out
 
     def at(self, points: Array) -> Array:
-        """Return the ratios at points, shape (M, tests)."""
+        """Return the interpolated ratios at points, shape (M, S)."""
         middle = self.points.mean(axis=0)
-        return np.exp(_kernel(points - middle, self.points - middle) @ self.weights)
+        return np.exp(_kernel(points - middle, self.points - middle) @ self._weights[0])
+
+    def error(self, likely: Array) -> Array:
+        """Return the relative standard error of the interpolation of each test, shape (S,).
+
+        It is the root mean square over the likely interfaces, with the error of the simulation.
+        """
+        left_out = self._weights[1][distance(self.points, likely) < _NEAR]
+        with np.errstate(invalid="ignore"):
+            size = np.sqrt(np.nanmean(np.atleast_2d(left_out) ** 2, axis=0))
+        return np.hypot(size, ACCURACY)
+
+    def by_simulation(self, work: float, gap: float) -> npt.NDArray[np.bool_]:
+        """Whether the force of each test is simulated near an interface, shape (S,)."""
+        away = distance(self.points, scaled(work, gap)[None])
+        return self.simulated[int(np.argmin(away))]
 
 
-@dataclass(frozen=True, eq=False)
-class Mixed:
-    """Ratios of all tests: some interpolated between interfaces, the others of a machine.
+def beyond(changed: Changed) -> npt.NDArray[np.bool_]:
+    """Whether the theory does not hold for a test within its stated error, shape (S,)."""
+    return (changed.band > _BAND) | ~changed.holds
 
-    Parameters
-    ----------
-    others : Yielding
-        Ratios by theory near one interface.
-    mixed : ndarray of int
-        Indices of the tests that are interpolated.
-    ratio : SmoothRatio
-        Their ratios.
-    """
 
-    others: Yielding
-    mixed: npt.NDArray[np.intp]
-    ratio: SmoothRatio
+def length_of(forward: Forward, work: Any) -> Any:
+    """Return the range of attraction at a Tabor number of 1 [m]."""
+    return (forward.radius * (work / forward.material.contact_modulus) ** 2) ** (1 / 3)
 
-    def __call__(self, values: Mapping[str, Any]) -> Array:
-        """Return the ratios of one interface, shape (S,), or of many, shape (N, S)."""
-        found = np.array(self.others(values))
-        x = scaled(values["work_of_adhesion"], values["equilibrium_gap"])
-        found[..., self.mixed] = self.ratio.at(x.reshape(-1, 2)).reshape(*x.shape[:-1], -1)
-        return found
+
+def distance(points: Array, others: Array) -> Array:
+    """Return the distance of each point from the nearest other, shape (N,)."""
+    if not len(others):
+        return np.full(len(points), np.inf)
+    return np.linalg.norm(points[:, None] - others, axis=-1).min(axis=1)

@@ -13,7 +13,7 @@ continues it; where the fit does not describe the tests, the band is widened to 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 from typing import Any
 
@@ -29,15 +29,13 @@ from viscotack.units import readable
 
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
 from .edge_fit import EdgeFit, edge_forces, refuse_far
-from .force_ratios import Mixed
 from .forward import law_of
 from .likelihood import Posterior
 from .pull_off import History
 from .rate_fit import RateSeriesFit
-from .rate_words import forecast_words, series_forecast_words, simulation_words
-from .search import LEAST_TABOR
-from .series_fit import SeriesFit
+from .search import LEAST_TABOR, SeriesFit
 from .simulated_tests import by_theory, tested
+from .words import forecast_words, series_forecast_words, simulation_words
 
 _MOST = 200  # largest number of speeds
 _SURELY = 2.0  # standard deviations of a measured force
@@ -65,6 +63,8 @@ class RateForecast:
         Time under the preload [s]; None for a contact that has relaxed.
     posterior : Posterior
         Sampled interfaces.
+    raised : ndarray
+        Speeds [m/s] at which the forecast is the force measured at a slower one.
     words : tuple of str
         Remarks on the validity.
     """
@@ -80,7 +80,8 @@ class RateForecast:
     temperature: float | None
     dwell: float | None
     posterior: Posterior
-    words: tuple[str, ...]
+    raised: Array
+    words: tuple[str, ...] = ()
 
 
 def forecast_rates(
@@ -91,10 +92,6 @@ def forecast_rates(
     temperature: float | None = None,
     dwell: float | None = None,
     approach_speed: float | None = None,
-    stiffness: float | None = None,
-    theory: float | None = None,
-    level: float | None = None,
-    seed: int = 0,
 ) -> RateForecast:
     """Predict pull-off forces with a band from a fitted rate series.
 
@@ -113,14 +110,6 @@ def forecast_rates(
         relaxes fully.
     approach_speed : float, optional
         Approach speed [m/s]; required with `dwell`.
-    stiffness : float, optional
-        Stiffness of the machine [N/m], inf for a rigid one; by default that of the series.
-    theory : float, optional
-        Relative standard uncertainty of the forward model; by default that of the fit.
-    level : float, optional
-        Confidence level of the band; by default that of the fit.
-    seed : int
-        Seed of the random numbers.
 
     Raises
     ------
@@ -132,11 +121,10 @@ def forecast_rates(
     """
     v = np.atleast_1d(np.asarray(speed, dtype=float))
     given, (work, gap, law) = fit.given, fit.interface
-    level = fit.level if level is None else level
     load = float(given.load.mean()) if preload is None else preload
-    spring = given.stiffness if stiffness is None else stiffness
-    _check(v, load, level, spring, dwell, approach_speed)
-    spring = None if spring == np.inf else spring
+    _check(v, preload=load, dwell=dwell, approach_speed=approach_speed)
+    if (dwell is None) != (approach_speed is None):
+        raise InputError("dwell and approach_speed must be given together")
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
     if law is not None and passport.temperature != fit.passport.temperature:
         raise InputError(
@@ -149,50 +137,37 @@ def forecast_rates(
     pressed: tuple[tuple[Move, ...], ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = (History(approach_speed, load, dwell).moves(load),) * v.size
-    tests = SphereTests(known, passport, v, loaded, spring, pressed)
+    tests = SphereTests(known, passport, v, loaded, given.stiffness, pressed)
     changed = tests.changed(fit.interface)
-    chain = fit.sampled(seed)
+    chain = fit.sampled()
     draws = chain.thinned(_DRAWS)
-    theory = fit.theory if theory is None else theory
     if law is not None or isinstance(known.body, Layer):
         _refuse_low_tabor(v, middle.effective_tabor)
-        found = by_theory(changed, v, theory)
+        found = by_theory(changed, v, given.theory_error)
     else:
         likely = np.log(np.vstack([(work, gap), draws]))
-        found = tested(likely, changed, tests, theory)
-    moved, left = conditioned(fit, [tests], draws, theory, found.model)
-    comparable = passport.temperature == fit.passport.temperature and dwell is None
-    band, raised = _banded(
+        found = tested(likely, changed, tests, given.theory_error)
+    moved, left = conditioned(fit, [tests], draws, found.model)
+    forecast = _banded(
         fit,
         v,
-        load,
+        chain,
         moved=moved,
         left=left,
         ratio=found.ratio,
         model=middle.force * np.median(np.atleast_2d(found.ratio), axis=0),
-        comparable=comparable and spring == given.stiffness,
-        level=level,
-        seed=seed,
-    )
-    return RateForecast(
-        **band,
+        comparable=passport.temperature == fit.passport.temperature and dwell is None,
+        preload=load,
         temperature=passport.temperature,
         dwell=dwell,
-        posterior=chain,
-        words=(
-            *forecast_words(fit, v, middle.crack_speed, chain, raised),
-            *simulation_words(v, found.model.simulation, found.simulations),
-        ),
     )
+    said = forecast_words(fit, forecast, middle.crack_speed)
+    simulated = simulation_words(v, found.model.simulation, found.simulations)
+    return replace(forecast, words=(*said, *simulated))
 
 
 def forecast_edge(
-    fit: EdgeFit,
-    speed: npt.ArrayLike,
-    *,
-    preload: float | None = None,
-    level: float | None = None,
-    seed: int = 0,
+    fit: EdgeFit, speed: npt.ArrayLike, *, preload: float | None = None
 ) -> RateForecast:
     """Predict pull-off forces with a band from a fitted edge law, as :func:`forecast_rates`.
 
@@ -205,76 +180,71 @@ def forecast_edge(
     """
     v = np.atleast_1d(np.asarray(speed, dtype=float))
     given, own = fit.given, fit.given.speed
-    level = fit.level if level is None else level
     load = float(given.load.mean()) if preload is None else preload
-    _check(v, load, level, None, None, None)
+    _check(v, preload=load)
     refuse_far(given, v)
-    chain = fit.sampled(seed)
+    chain = fit.sampled()
     names, draws = list(fit.best.values), chain.thinned(_DRAWS)
     laws = {name: draws[:, i : i + 1] for i, name in enumerate(names)}
     both, m = np.concatenate([own, v]), own.size
     loads = np.concatenate([given.load, np.full(v.size, load)])
     forces = edge_forces(given, laws, both, loads)
-    spread = ModelError.of_theory(fit.theory, both.size).covariance(both)
+    spread = ModelError.of_theory(given.theory_error, both.size).covariance(both)
     if fit.trend:
         spread = spread + trend_covariance(both, own, fit.between_speeds)
     gain, left = _left_open(fit, spread)
-    band, raised = _banded(
+    forecast = _banded(
         fit,
         v,
-        load,
+        chain,
         moved=np.log(forces[:, m:]) + np.log(given.force / forces[:, :m]) @ gain.T,
         left=left,
         ratio=np.ones(v.size),
         model=edge_forces(given, fit.best.values, v, load),
         comparable=True,
-        level=level,
-        seed=seed,
-    )
-    return RateForecast(
-        **band,
+        preload=load,
         temperature=fit.passport.temperature,
         dwell=None,
-        posterior=chain,
-        words=tuple(series_forecast_words(fit, v, chain, raised, "the law alone")),
     )
+    said = series_forecast_words(fit, forecast, "the law alone")
+    return replace(forecast, words=tuple(said))
 
 
 def _banded(
     fit: SeriesFit,
     v: Array,
-    load: float,
+    chain: Posterior,
     *,
     moved: Array,
     left: Array,
     ratio: Array,
     model: Array,
     comparable: bool,
-    level: float,
-    seed: int,
-) -> tuple[dict[str, Any], Array]:
-    """Return force and band of a forecast, and the speeds where it is a measured force.
+    preload: float,
+    **known: Any,
+) -> RateForecast:
+    """Return a forecast at speeds [m/s] without its words.
 
     Parameters
     ----------
-    fit : SeriesFit
-        Fit of the series.
-    v, load : ndarray, float
-        Speeds [m/s] and preload [N].
+    fit, v, chain : SeriesFit, ndarray, Posterior
+        Fit of the series, speeds [m/s] and the sampled interfaces.
     moved, left, ratio : ndarray
         ln of the forces of sampled interfaces, their covariance, and a factor on the forces.
     model : ndarray
         Forces of the model alone [N].
     comparable : bool
         Whether forces of the series at slower speeds are lower bounds.
-    level, seed : float, int
-        Confidence level, and seed of the random numbers.
+    preload : float
+        Preload [N].
+    **known
+        Temperature and dwell of the forecast.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ _root(left).T
     sample = (np.exp(moved + noise) * ratio).reshape(-1, v.size)
-    slower, uncertain = _slower(fit, v, load, comparable)
-    part = (1 - level) / 2
+    slower, uncertain = _slower(fit, v, preload, comparable)
+    part = (1 - fit.level) / 2
     # only where noise does not explain the larger force, the band rises, too
     surely = slower * (1 - _SURELY * uncertain) > np.median(sample, axis=0)
     floor = slower * (1 + uncertain * rng.standard_normal((len(sample), 1)))
@@ -286,18 +256,24 @@ def _banded(
         low, high = np.minimum(low, least), np.maximum(high, most)
     raised = v[slower > median]
     median, high = np.maximum(median, slower), np.maximum(high, slower)
-    one = _of_one(fit, sample, rng, part)
-    band = {
-        "speed": v,
-        "force": median,
-        "low": low,
-        "high": high,
-        "low_of_one": None if one is None else np.minimum(one[0], low),
-        "high_of_one": None if one is None else np.maximum(one[1], high),
-        "level": level,
-        "preload": load,
-    }
-    return band, raised
+    low_of_one = high_of_one = None
+    if scatter := max(fit.given.scatter, *(one.between_tests for one in fit.series)):
+        each = sample * np.exp(scatter * rng.standard_normal(sample.shape))
+        least, most = np.quantile(each, [part, 1 - part], axis=0)
+        low_of_one, high_of_one = np.minimum(least, low), np.maximum(most, high)
+    return RateForecast(
+        v,
+        median,
+        low,
+        high,
+        low_of_one,
+        high_of_one,
+        level=fit.level,
+        preload=preload,
+        posterior=chain,
+        raised=raised,
+        **known,
+    )
 
 
 def _departure(fit: SeriesFit, speed: Array, part: float) -> Array:
@@ -309,15 +285,6 @@ def _departure(fit: SeriesFit, speed: Array, part: float) -> Array:
     reach = NormalDist().inv_cdf(1 - part) * noise / force
     wanted, at = np.log(speed), np.log(fit.given.speed[order])
     return np.exp([np.interp(wanted, at, off + sign * reach) for sign in (-1, 1)])
-
-
-def _of_one(fit: SeriesFit, sample: Array, rng: np.random.Generator, part: float) -> Array | None:
-    """Return the limits of single tests [N], shape (2, n), from means; None without a scatter."""
-    scatter = max(fit.given.scatter, *(one.between_tests for one in fit.series))
-    if not scatter:
-        return None
-    each = sample * np.exp(scatter * rng.standard_normal(sample.shape))
-    return np.quantile(each, [part, 1 - part], axis=0)
 
 
 def interfaces(fit: RateSeriesFit, count: int, *, seed: int = 0) -> tuple[Any, ...]:
@@ -334,7 +301,6 @@ def conditioned(
     fit: RateSeriesFit,
     asked: Sequence[SphereTests],
     draws: Array,
-    theory: float,
     model: ModelError,
 ) -> tuple[Array, Array]:
     """Return ln of the forces of tests for sampled interfaces, given the series, and a covariance.
@@ -347,8 +313,6 @@ def conditioned(
         The n tests.
     draws : ndarray, shape (K, parameters)
         Sampled interfaces.
-    theory : float
-        Relative standard error of the forward model at the measured speeds.
     model : ModelError
         Errors of the forces of the tests.
 
@@ -361,16 +325,17 @@ def conditioned(
         series leaves open.
     """
     given, m = fit.given, len(fit.series)
-    own = fit.found.search.tests
+    own = fit.search.tests
     speed = np.concatenate([own.speed, *(x.speed for x in asked)])
-    simulation = fit.found.search.model.simulation
-    measured = ModelError(np.where(simulation > 0, 0.0, theory), simulation)
-    springy = np.concatenate([np.full(x.speed.size, x.stiffness is not None) for x in asked])
-    softer = _softer(fit, speed[m:], springy)
+    # the error by the compliance of the machine, extrapolated to the wanted speeds
+    ratio, order = fit.search.ratio, np.argsort(own.speed)
+    softer = given.compliance_error * ratio.log_ratio
+    beyond = np.interp(np.log(speed[m:]), np.log(own.speed[order]), softer[order])
     trend = np.zeros((speed.size, speed.size))
     if fit.trend:
         trend = trend_covariance(speed, own.speed, fit.between_speeds)
-    tests, error = [own, *asked], measured.joined(model)
+    tests, error = [own, *asked], fit.search.model.joined(model)
+    softer = np.append(softer, beyond)
     spread = joint_covariance(given, tests, fit.interface, error, softer, trend)
     gain, left = _left_open(fit, spread)
     works, gaps, laws = draws[:, :1], draws[:, 1:2], None
@@ -379,12 +344,11 @@ def conditioned(
     at, *others = (
         x.forward.pulled(works, gaps, x.speed, x.load, growth=laws).force for x in (own, *asked)
     )
-    ratio = fit.yielding
-    if isinstance(fit.found.search.ratio, Mixed):
-        values = {"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]}
-        ratio = fit.found.search.ratio(values)
+    factor = fit.yielding
+    if ratio.known is not None:
+        factor = ratio({"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]})
     forecast: Array = np.log(np.concatenate(others, axis=1))
-    return forecast + np.log(given.force / (at * ratio)) @ gain.T, left
+    return forecast + np.log(given.force / (at * factor)) @ gain.T, left
 
 
 def _left_open(fit: SeriesFit, spread: Array) -> tuple[Array, Array]:
@@ -394,33 +358,17 @@ def _left_open(fit: SeriesFit, spread: Array) -> tuple[Array, Array]:
     """
     m = len(fit.series)
     # covariance of the fit: noise, theory and material of the measured forces
-    gain = np.asarray(np.linalg.solve(fit.covariance, spread[:m, m:]).T, dtype=np.float64)
+    gain = np.asarray(np.linalg.solve(fit.search.spread, spread[:m, m:]).T, dtype=np.float64)
     return gain, spread[m:, m:] - gain @ spread[:m, m:]
 
 
-def _check(
-    speed: Array,
-    preload: float,
-    level: float,
-    stiffness: float | None,
-    dwell: float | None,
-    approach: float | None,
-) -> None:
+def _check(speed: Array, **numbers: float | None) -> None:
+    """Raise an error for speeds or other numbers that are out of their ranges."""
     if not (speed.ndim == 1 and 0 < speed.size <= _MOST and np.all(speed > 0)):
         raise InputError(f"a forecast needs 1 to {_MOST} positive speeds [m/s], got {speed!r}")
-    if not (preload > 0 and 0 < level < 1):
-        raise InputError(
-            f"preload must be positive and level between 0 and 1, got {preload} N and {level}"
-        )
-    if stiffness is not None and not stiffness > 0:
-        raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
-    if (dwell is None) != (approach is None):
-        raise InputError("dwell and approach_speed must be given together")
-    if dwell is not None and approach is not None and not (dwell >= 0 and approach > 0):
-        raise InputError(
-            f"dwell must not be negative and approach_speed must be positive, got {dwell} s, "
-            f"{approach} m/s"
-        )
+    for name, value in numbers.items():
+        if value is not None and not (value > 0 or (name == "dwell" and value == 0)):
+            raise InputError(f"{name} must be positive, got {value}")
 
 
 def _slower(fit: SeriesFit, speed: Array, preload: float, comparable: bool) -> tuple[Array, Array]:
@@ -447,18 +395,6 @@ def _refuse_low_tabor(speed: Array, effective: Array) -> None:
             f"at {readable(speed[bad].min(), 'm/s', digits=3)} the cohesive zone is as "
             "large as the contact, so the theory does not hold; choose slower speeds, or simulate"
         )
-
-
-def _softer(fit: RateSeriesFit, wanted: Array, springy: npt.NDArray[np.bool_]) -> Array:
-    """Return the error of ln(force) by the compliance of the machine, at both sets of speeds.
-
-    It counts at the wanted speeds where the machine is springy.
-    """
-    ratio, measured = fit.found.search.ratio, fit.given.speed
-    yielding = ratio.others if isinstance(ratio, Mixed) else ratio
-    error, order = fit.given.compliance_error * yielding.log_ratio, np.argsort(measured)
-    beyond = np.interp(np.log(wanted), np.log(measured[order]), error[order])
-    return np.concatenate([error, beyond * springy])
 
 
 def _root(covariance: Array) -> Array:

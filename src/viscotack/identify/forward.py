@@ -37,7 +37,7 @@ from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.units import readable
 
 from .computed import Arrays, Computed, packaged
-from .travel import travels_of
+from .pull_off import travels_of
 
 _APART = 20.0  # start of an approach, in ranges of attraction
 _SPEED = 1e-6  # m/s: reference speed of the groups; rates scale with it
@@ -74,7 +74,7 @@ class Pulled(NamedTuple):
         Contact radius of the relaxed start [m].
     travels : ndarray, shape (..., 4)
         Travels from the start to zero force, and from there to fractions of the pull-off force [m],
-        see :mod:`.travel`; nan for starts in tension.
+        see :mod:`.pull_off`; nan for starts in tension.
     energy, interface : ndarray
         Energy per area of the edge at pull-off, and the part dissipated by the interface [works of
         adhesion]; the bulk multiplies by their ratio.

@@ -295,12 +295,7 @@ class Posterior:
 
 
 def posterior(
-    objective: Objective,
-    best: Best,
-    *,
-    others: Sequence[Best] = (),
-    steps: int = _STEPS,
-    seed: int = 0,
+    objective: Objective, best: Best, *, others: Sequence[Best] = (), seed: int = 0
 ) -> Posterior:
     """Sample the parameters from the posterior density of an objective.
 
@@ -317,8 +312,6 @@ def posterior(
         Separate solutions. Walkers do not cross the unlikely range between solutions, so each has
         its own walkers, and their shares are the evidence of each solution, with the covariance of
         its samples (Laplace's approximation).
-    steps : int
-        Steps of each of the 16 walkers, after 100 discarded steps.
     seed : int
         Seed of the random numbers.
 
@@ -332,7 +325,7 @@ def posterior(
     Foreman-Mackey et al., emcee: the MCMC hammer (2013), doi:10.1086/670067.
     """
     starts = (best, *others)
-    chains = [_sampled(objective, one, steps, seed + i) for i, one in enumerate(starts)]
+    chains = [_sampled(objective, one, seed + i) for i, one in enumerate(starts)]
     evidence = np.array(
         [
             -start.misfit / 2 + _volume(inner)
@@ -351,7 +344,7 @@ def posterior(
     parameters = objective.parameters
     values = [p.outer_of(x) for p, x in zip(parameters, inner.T, strict=True)]
     time = max(time for _, time in chains)
-    enough = steps * _WALKERS > _INDEPENDENT * time
+    enough = _STEPS * _WALKERS > _INDEPENDENT * time
     return Posterior(parameters, np.stack(values, axis=1), time, enough)
 
 
@@ -360,7 +353,7 @@ def _volume(inner: Array) -> float:
     return float(np.linalg.slogdet(np.atleast_2d(np.cov(inner.T)))[1]) / 2
 
 
-def _sampled(objective: Objective, best: Best, steps: int, seed: int) -> tuple[Array, float]:
+def _sampled(objective: Objective, best: Best, seed: int) -> tuple[Array, float]:
     """Return samples around one solution in search coordinates, and the correlation time."""
     try:
         import emcee
@@ -380,6 +373,6 @@ def _sampled(objective: Objective, best: Best, steps: int, seed: int) -> tuple[A
     sampler.random_state = np.random.RandomState(seed).get_state()
     state = sampler.run_mcmc(np.clip(begin, low + margin, high - margin), _BEGIN)
     sampler.reset()
-    sampler.run_mcmc(state, steps)
+    sampler.run_mcmc(state, _STEPS)
     time = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
     return np.asarray(sampler.get_chain(flat=True)), time

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import groupby
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from viscotack.units import readable
 
 from .covariances import ModelError, SphereTests
 from .forecasting import conditioned
-from .forward import Forward
+from .forward import Interface
 from .pull_off import History
 from .rate_fit import RateSeriesFit
 from .search import LEAST_TABOR
@@ -134,7 +134,6 @@ def next_tests(
     noise: float | None = None,
     repeats: int = 1,
     count: int = 3,
-    seed: int = 0,
 ) -> NextTests:
     """Rank tests by how much each narrows a wanted answer.
 
@@ -152,8 +151,6 @@ def next_tests(
         Number of repetitions of each test.
     count : int
         Length of the sequence.
-    seed : int
-        Of the sampled interfaces.
 
     Returns
     -------
@@ -190,7 +187,7 @@ def next_tests(
     tests = [each for each in tests if not own[each]]
     if not tests:
         raise OutOfRange(f"the theory holds for none of the tests: {refused[0][1]}")
-    mean, covariance = _joint(fit, [*tests, *asked], about_interface, seed)
+    mean, covariance = _joint(fit, [*tests, *asked], about_interface)
     n, variance = len(tests), one**2 / repeats
     now = _left(covariance, n)
     ranked = [
@@ -249,18 +246,27 @@ def _stated(fit: RateSeriesFit, trial: Trial) -> Trial:
     )
 
 
-def _forward(fit: RateSeriesFit, radius: float) -> Forward:
-    """Return the forward model of another sphere."""
-    return fit.forward if radius == fit.forward.radius else replace(fit.forward, radius=radius)
+def _tests(fit: RateSeriesFit, trials: Sequence[Trial]) -> SphereTests:
+    """Return trials of one sphere as tests, with approach and dwell if all of them have these."""
+    radius, forward = trials[0].radius, fit.forward
+    if radius is not None and radius != forward.radius:
+        forward = replace(forward, radius=radius)
+    speed, load = (np.array([getattr(x, n) for x in trials], float) for n in ("speed", "preload"))
+    moves = tuple(
+        History(x.approach_speed, P, x.dwell).moves(P)
+        for x, P in zip(trials, load.tolist(), strict=True)
+        if x.dwell is not None and x.approach_speed is not None
+    )
+    moves = moves if len(moves) == len(trials) else ()
+    return SphereTests(forward, fit.passport, speed, load, fit.given.stiffness, moves)
 
 
 def _valid(fit: RateSeriesFit, trial: Trial) -> str:
     """Return why the theory does not hold for a test, or ""."""
-    known, (work, gap, law) = _forward(fit, trial.radius or 0.0), fit.interface
-    one, load = np.array([trial.speed]), np.array([trial.preload])
+    one, (work, gap, law) = _tests(fit, [trial]), fit.interface
     try:
-        known.check(moves=_moves(trial))
-        found = known.pulled(work, gap, one, load, growth=law)
+        one.forward.check(moves=one.moves)
+        found = one.forward.pulled(work, gap, one.speed, one.load, growth=law)
     except InputError as error:
         return str(error)
     effective = float(found.effective_tabor[0])
@@ -272,29 +278,18 @@ def _valid(fit: RateSeriesFit, trial: Trial) -> str:
     return "" if np.isfinite(found.force[0]) else "there is no pull-off"
 
 
-def _moves(trial: Trial) -> Any:
-    if trial.dwell is None or trial.approach_speed is None or trial.preload is None:
-        return ()
-    return (History(trial.approach_speed, trial.preload, trial.dwell).moves(trial.preload),)
-
-
 def _joint(
-    fit: RateSeriesFit, tests: Sequence[Trial], about_interface: bool, seed: int
+    fit: RateSeriesFit, tests: Sequence[Trial], about_interface: bool
 ) -> tuple[Array, Array]:
     """Return mean and joint covariance of ln of the forces, and of work and range if wanted."""
-    draws = fit.sampled(seed).thinned(_DRAWS)
-    order, groups = [], []
-    for radius in dict.fromkeys(each.radius or 0.0 for each in tests):
-        numbers = [i for i, each in enumerate(tests) if each.radius == radius]
-        some = [tests[i] for i in numbers]
-        speed, load = (
-            np.array([getattr(x, name) for x in some], float) for name in ("speed", "preload")
-        )
-        spring = fit.given.stiffness
-        groups.append(SphereTests(_forward(fit, radius), fit.passport, speed, load, spring))
-        order += numbers
-    model = ModelError.of_theory(fit.theory, len(tests))
-    moved, left = conditioned(fit, groups, draws, fit.theory, model)
+    draws = fit.sampled().thinned(_DRAWS)
+    order = sorted(range(len(tests)), key=lambda i: tests[i].radius or 0.0)
+    groups = [
+        _tests(fit, list(same))._replace(moves=())
+        for _, same in groupby((tests[i] for i in order), key=lambda x: x.radius)
+    ]
+    model = ModelError.of_theory(fit.given.theory_error, len(tests))
+    moved, left = conditioned(fit, groups, draws, model)
     back = np.argsort(order)
     moved, left = moved[:, back], left[np.ix_(back, back)]
     for i, each in enumerate(tests):
@@ -311,13 +306,10 @@ def _history_effect(fit: RateSeriesFit, trial: Trial, draws: Array) -> Array:
 
     It is linear in ln of work and range about the most likely interface.
     """
-    known, law = _forward(fit, trial.radius or 0.0), fit.interface.growth
-    middle = np.log(fit.interface[:2])
-    rest: dict[str, Any] = {"stiffness": fit.given.stiffness, "moves": _moves(trial), "growth": law}
+    middle, tests = np.log(fit.interface[:2]), _tests(fit, [trial])
 
     def ratio(at: Array) -> float:
-        work, gap = np.exp(at).tolist()
-        found = known.changed(work, gap, np.array([trial.speed]), np.array([trial.preload]), **rest)
+        found = tests.changed(Interface(*np.exp(at).tolist(), fit.interface.growth))
         if why := str(found.refused[0]):
             raise OutOfRange(f"{trial_words(trial)}: {why}")
         return float(np.log(found.ratio[0]))

@@ -2,7 +2,7 @@ r"""Identify the interface from a rate series: pull-off forces at several speeds
 
 The forward model is the contact whose edge is a steady crack (:mod:`.forward`), and simulation
 where that does not hold (:mod:`.simulated_tests`). Pull-off forces are computed on a grid of works
-of adhesion and ranges and interpolated in logarithms (:mod:`.interpolated_forces`), so that the
+of adhesion and ranges and interpolated in logarithms (:mod:`.search`), so that the
 search (:mod:`.search`) and its intervals are fast. Noise of the forces, error of the forward model
 and uncertainty of material, temperature and machine (:mod:`.covariances`) form one covariance of
 the relative forces.
@@ -24,17 +24,25 @@ from viscotack.units import readable
 from .computed import Computed
 from .covariances import joint_covariance, shift_covariance
 from .edge_fit import EdgeFit, identify_edge
-from .force_ratios import Mixed, yielding_near
+from .force_ratios import Simulations, yielding_near
 from .forward import Changed, Forward, Interface
 from .growth import FoundGrowth, shares_of
 from .likelihood import Best
 from .pull_off import PullOff
 from .rate_series import RateSeries
-from .rate_words import fit_words, misfit_words
-from .search import LEAST_TABOR, Search, Settled, closely, grown, opening_near, settled, widely
-from .series_fit import SeriesFit
+from .search import (
+    LEAST_TABOR,
+    Search,
+    SeriesFit,
+    Settled,
+    closely,
+    grown,
+    opening_near,
+    settled,
+    widely,
+)
 from .simulated_tests import with_simulations
-from .simulations import Simulations
+from .words import fit_words
 
 _OVER = 1.2  # overshoot of the limit on a layer that is left
 _ROUNDS = 6  # largest number of rounds in which speeds are excluded
@@ -65,12 +73,12 @@ class RateSeriesFit(SeriesFit):
     @property
     def forward(self) -> Forward:
         """Forward model of the material."""
-        return self.found.search.forward
+        return self.search.forward
 
     @property
     def interface(self) -> Interface:
         """The most likely interface."""
-        return self.found.search.interface(self.best)
+        return self.search.interface(self.best)
 
     @property
     def equilibrium_gap(self) -> float:
@@ -86,18 +94,13 @@ class RateSeriesFit(SeriesFit):
     @property
     def yielding(self) -> Array:
         """Ratio of these forces to those of a rigid machine by theory, shape (S,)."""
-        return self.found.search.ratio(self.best.values)
+        return self.search.ratio(self.best.values)
 
     @property
     def is_zone_length(self) -> bool:
         """Whether the approach excludes every h0 that fits the forces."""
         bound = self.given.range_bound
         return bound is not None and self.intervals["equilibrium_gap"].low > bound
-
-    @property
-    def misfit(self) -> str:
-        """Sentence on tests that the fit does not describe; empty if it describes them."""
-        return "" if self.describes_tests else misfit_words(self)
 
     @cached_property
     def edge(self) -> EdgeFit | None:
@@ -110,7 +113,7 @@ class RateSeriesFit(SeriesFit):
     @cached_property
     def words(self) -> tuple[str, ...]:
         """Sentences on the result and on what the data do not determine."""
-        return (*([self.misfit] if self.misfit else []), *fit_words(self))
+        return tuple(fit_words(self))
 
 
 def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> RateSeriesFit:
@@ -147,8 +150,8 @@ def identify_rates(series: RateSeries, *, computed: Computed | None = None) -> R
         found = settled(search)
         intervals = found.search.intervals(found.best, series.level)
     fit = RateSeriesFit.of(found, intervals, growth=None, excluded=excluded, simulations=runs.count)
-    _check_place(fit.found.search, fit.best)
-    return replace(fit, growth=_growth(fit.found, plain))
+    _check_place(fit.search, fit.best)
+    return replace(fit, growth=_growth(fit, plain))
 
 
 def _located(
@@ -240,8 +243,8 @@ def _check_place(search: Search, best: Best) -> None:
     Conditions whose forces are simulated need no theory.
     """
     series, gap = search.series, search.interface(best).gap
-    simulated = search.ratio.mixed if isinstance(search.ratio, Mixed) else ()
-    if not len(simulated) and search.table.effective(best.values) < LEAST_TABOR:
+    simulated = search.ratio.which
+    if not simulated and search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {readable(gap, 'm', digits=3)}, has a cohesive zone as large "
             "as the contact, so the theory does not hold: simulate"

@@ -6,7 +6,8 @@ interfaces, and a fine table covers only these.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -14,16 +15,128 @@ from scipy.optimize import root_scalar
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.model.materials import Passport
 from viscotack.simulate.crack_contact.by_crack import LEAST_TABOR
+from viscotack.theory.crack.contact.growing import lattice_spline
 
 from .covariances import TREND, ModelError, SphereTests, trend_covariance
-from .force_ratios import Mixed, Yielding
+from .force_ratios import ForceRatios
 from .forward import Forward, Interface
-from .growth import EXPONENT, Opening, growing, growth_parameters
-from .interpolated_forces import Table
-from .likelihood import Best, Interval, Objective, Parameter
+from .growth import EXPONENT, STRENGTHENING, Opening, growing, growth_parameters
+from .likelihood import Best, Interval, Objective, Parameter, Posterior, posterior
+from .pull_off import PARTS, PullOff
 from .rate_series import RateSeries
+from .words import misfit_words
 
+_AT_ONCE = 20_000  # points interpolated per batch
+
+
+class Table:
+    """Forces over the unknowns of an interface: splines in logarithms.
+
+    Parameters
+    ----------
+    axes : mapping
+        Unknown -> ascending values, at least four.
+    logs : ndarray, shape (values of each unknown, columns)
+        ln of the forces, and of what else is interpolated.
+    count : int
+        Number of forces.
+    """
+
+    def __init__(self, axes: Mapping[str, Array], logs: Array, count: int) -> None:
+        self.axes, self._count = dict(axes), count
+        self._spline = lattice_spline([_inner(name, x) for name, x in self.axes.items()], logs)
+
+    @classmethod
+    def of_cracks(
+        cls,
+        forward: Forward,
+        speed: Array,
+        preload: Array,
+        axes: Mapping[str, Array],
+        *,
+        opening: Opening | None = None,
+        travels: bool = False,
+        radii: int = 160,
+    ) -> "Table":
+        """Return the pull-off forces of a steady crack at the edge.
+
+        Parameters
+        ----------
+        forward : Forward
+            Forward model of the material.
+        speed, preload : ndarray, shape (S,)
+            Speeds [m/s] and preloads [N] of the series.
+        axes : mapping
+            Values of "work_of_adhesion" and "equilibrium_gap", with growth also of "strengthening"
+            and "exponent".
+        opening : Opening, optional
+            Opening speed at which the strengthening is defined.
+        travels : bool
+            Whether to interpolate the travels between forces as well.
+        radii : int
+            Number of points of a curve.
+        """
+        values = lattice(axes)
+        growth = None
+        if opening is not None:
+            gap = values["equilibrium_gap"]
+            growth = opening.growth(gap, values[STRENGTHENING], values[EXPONENT])
+        work, gap = values["work_of_adhesion"], values["equilibrium_gap"]
+        found = forward.pulled(work, gap, speed, preload, radii, growth)
+        least = found.effective_tabor.min(axis=-1)
+        columns = [np.log(found.force), np.log(least)[..., None]]
+        if travels:
+            # travels exist only for starts in compression
+            columns.append(np.log(found.travels).reshape(*least.shape, -1))
+        return cls(axes, np.concatenate(columns, axis=-1), speed.size)
+
+    def __call__(self, values: Mapping[str, float]) -> Array:
+        """Return forces [N], shape (S,)."""
+        return np.exp(self._at(values)[: self._count])
+
+    def effective(self, values: Mapping[str, float]) -> float:
+        """Return the smallest effective Tabor number of the series."""
+        return float(np.exp(self._at(values)[self._count]))
+
+    def travels(self, values: Mapping[str, float]) -> Array:
+        """Return travels between forces [m], shape (S, travels)."""
+        return np.exp(self._at(values)[self._count + 1 :]).reshape(-1, 1 + len(PARTS))
+
+    def forces(self, points: Array) -> Array:
+        """Return forces of many interfaces, shape (N, S), at points of :meth:`dense`."""
+        parts = [
+            self._spline(points[i : i + _AT_ONCE])[:, : self._count]
+            for i in range(0, len(points), _AT_ONCE)
+        ]
+        return np.exp(np.concatenate(parts))
+
+    def dense(self, times: int) -> Array:
+        """Return points of a finer lattice, in search coordinates."""
+        axes = []
+        for name, x in self.axes.items():
+            place = np.linspace(0, x.size - 1, times * (x.size - 1) + 1)
+            axes.append(np.interp(place, np.arange(x.size), _inner(name, x)))
+        return np.stack([x.ravel() for x in np.meshgrid(*axes, indexing="ij")], axis=1)
+
+    def _at(self, values: Mapping[str, float]) -> Array:
+        point = [_inner(name, values[name]) for name in self.axes]
+        return self._spline(np.array(point))
+
+
+def lattice(axes: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the values of each unknown at all points of a lattice, with a last axis of one."""
+    points = np.meshgrid(*axes.values(), indexing="ij")
+    return {name: x[..., None] for name, x in zip(axes, points, strict=True)}
+
+
+def _inner(name: str, value: Any) -> Any:
+    """Return the search coordinate of an unknown: its logarithm if positive."""
+    return np.asarray(value, dtype=float) if name == EXPONENT else np.log(value)
+
+
+_LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
 _WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth
 # Steps of work, range, strengthening and exponent of the coarse table, in search
 # coordinates; points of a curve, and number of pull-offs used.
@@ -59,7 +172,7 @@ class Search:
         Forces of relaxed contacts with a rigid machine, by theory.
     spread : ndarray, shape (S, S)
         Covariance of the relative forces.
-    ratio : Yielding or Mixed
+    ratio : ForceRatios
         Ratios of the forces to those of the table.
     model : ModelError
         Error of the forces, included in the covariance.
@@ -73,7 +186,7 @@ class Search:
     forward: Forward
     table: Table
     spread: Array
-    ratio: Yielding | Mixed
+    ratio: ForceRatios
     model: ModelError
     opening: Opening | None = None
     some: npt.NDArray[np.intp] | None = None
@@ -96,7 +209,7 @@ class Search:
         table = Table.of_cracks(forward, series.speed, series.load, axes, travels=series.curves)
         model = ModelError.of_theory(series.theory_error, series.speed.size)
         spread = series.noise + model.covariance(series.speed)
-        rigid = Yielding.of_a_rigid_machine(series.speed.size)
+        rigid = ForceRatios.of_a_rigid_machine(series.speed.size)
         return cls(series, forward, table, spread, rigid, model)
 
     @property
@@ -253,8 +366,8 @@ class Settled:
         Its best fit.
     scatter : float
         Root mean square of the residuals over their uncertainty, without that scatter.
-    between : float
-        Relative scatter between speeds.
+    between_speeds : float
+        Relative scatter from speed to speed beyond that of repeated tests and theory.
     trend : bool
         Whether most of its variance is an error that follows a power of the speed.
     """
@@ -262,13 +375,94 @@ class Settled:
     search: Search
     best: Best
     scatter: float
-    between: float = 0.0
-    trend: bool = False
+    between_speeds: float
+    trend: bool
 
     @property
     def surprise(self) -> float:
         """-2 ln(likelihood) at the best fit, up to a constant."""
         return self.best.misfit + float(np.linalg.slogdet(self.search.spread)[1])
+
+
+@dataclass(frozen=True, eq=False)
+class SeriesFit(Settled):
+    """Unknowns fitted to a rate series.
+
+    Parameters
+    ----------
+    solutions : tuple of Best
+        Separate solutions that fit the forces, the most likely first; mostly one.
+    intervals : dict of str to Interval
+        Profile likelihood intervals of the unknowns.
+    """
+
+    solutions: tuple[Best, ...]
+    intervals: dict[str, Interval]
+
+    @classmethod
+    def of(cls, found: Settled, intervals: dict[str, Interval], **more: Any) -> Self:
+        """Return a fit with all its solutions; intervals are those of the most likely one."""
+        search, level = found.search, found.search.series.level
+        several = search.objective.solutions(found.best, intervals, level)
+        if several[0].misfit < found.best.misfit:
+            found = replace(found, best=several[0])
+            intervals = search.intervals(found.best, level)
+        return cls(**vars(found), solutions=several, intervals=intervals, **more)
+
+    @property
+    def given(self) -> RateSeries:
+        """The fitted tests, with material, machine and assumptions."""
+        return self.search.series
+
+    @property
+    def series(self) -> tuple[PullOff, ...]:
+        """The fitted tests."""
+        return tuple(self.given.tests)
+
+    @property
+    def passport(self) -> Passport:
+        """Passport of the material."""
+        return self.given.passport
+
+    @property
+    def level(self) -> float:
+        """Confidence level of the intervals."""
+        return self.given.level
+
+    @property
+    def work_of_adhesion(self) -> float:
+        """Most likely work of adhesion [J/m2]."""
+        return self.best.values["work_of_adhesion"]
+
+    @cached_property
+    def forces(self) -> tuple[float, ...]:
+        """Pull-off forces of the most likely parameters at the measured speeds [N]."""
+        return tuple(self.search.forces(self.best).tolist())
+
+    @property
+    def objective(self) -> Objective:
+        """Objective function, for profiles and sampling."""
+        return self.search.objective
+
+    def sampled(self, seed: int = 0) -> Posterior:
+        """Sample the unknowns from the posterior, of all solutions."""
+        return posterior(self.objective, self.best, others=self.solutions[1:], seed=seed)
+
+    @property
+    def criterion(self) -> float:
+        """Bayesian information criterion, -2 ln L + k ln n; smaller is better."""
+        unknowns = len(self.best.values) + (self.between_speeds > 0)
+        return self.surprise + unknowns * float(np.log(len(self.series)))
+
+    @property
+    def describes_tests(self) -> bool:
+        """Whether residuals are as large as noise and theory let them be."""
+        return self.scatter <= _LOUD
+
+    @property
+    def misfit(self) -> str:
+        """Sentence on tests that the fit does not describe; empty if it describes them."""
+        return "" if self.describes_tests else misfit_words(self)
 
 
 def settled(search: Search) -> Settled:
@@ -282,9 +476,9 @@ def settled(search: Search) -> Settled:
     best = search.best()
     rest = search.objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
-    first = Settled(search, best, scatter)
+    first = Settled(search, best, scatter, 0.0, False)
     plain = _widened(first, trend=False)
-    if not plain.between or np.unique(search.series.speed).size < _TREND_SPEEDS:
+    if not plain.between_speeds or np.unique(search.series.speed).size < _TREND_SPEEDS:
         return plain
     trend = _widened(first, trend=True)
     return trend if trend.surprise + _PREFERRED < plain.surprise else plain

@@ -34,7 +34,7 @@ from viscotack.units import readable
 
 from .contacts import MODELS, RANGES, ElasticModel
 from .likelihood import EVIDENCE, Best, Interval, Objective, Parameter
-from .slow_words import slow_words, upper_bound_words
+from .words import slow_words, upper_bound_words
 
 _FEWEST, _MOST = 12, 300  # numbers of points
 _QUIET = 1e-6  # smallest noise over the pull-off force

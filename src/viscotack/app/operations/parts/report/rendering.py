@@ -79,7 +79,7 @@ def page(found: "Identified", forecast: RateForecast) -> str:
         forecast=_table(ahead[i] for i in shown),
         conditions=_said(read(forecast, "preload_N", "temperature_K", "dwell_s")),
         level=f"{fit.level:.0%}",
-        theory=f"{100 * fit.theory:.3g} %",
+        theory=f"{100 * fit.given.theory_error:.3g} %",
         layer=isinstance(found.fit.given.body, Layer),
         material=in_words(fit.passport),
         curves=_drawing(draw_tests(found.survey.cycles, _MOST_CURVES)),

@@ -1,4 +1,4 @@
-"""Sentences on a fitted rate series and on its forecast, made from their numbers."""
+"""Sentences on fits, forecasts and slow tests, made from their numbers at the end."""
 
 from __future__ import annotations
 
@@ -8,17 +8,21 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.model.geometry import Layer
+from viscotack.model.materials.passport import Passport
 from viscotack.model.materials.passport_uncertainty import allowed
 from viscotack.theory.crack.contact.films import ERROR_BY_ZONE
 from viscotack.units import readable, readable_interval
 
 from .growth import FoundGrowth
-from .likelihood import EVIDENCE, Interval, Posterior
-from .temperatures import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
+from .likelihood import EVIDENCE, Interval
+from .rate_series import DIFFERENT, apart, assumed_temperature, celsius, unshiftable
 
 if TYPE_CHECKING:
     from .edge_fit import EdgeFit
+    from .forecasting import RateForecast
     from .rate_fit import RateSeriesFit
+    from .search import SeriesFit
+    from .slow_tests import ModelFit, SamePull, SlowTestFit
 
 _NAMED = 4  # largest number of tests, or of speeds, that are named one by one
 _LEFT = 0.05  # part of the modulus that has not relaxed, from which a caution is given
@@ -38,7 +42,7 @@ _EDGE_LABELS = {
 
 def fit_words(fit: RateSeriesFit) -> list[str]:
     """Return sentences on a fit that describes its tests, or not."""
-    said = []
+    said = [fit.misfit] if fit.misfit else []
     for name, ends in fit.intervals.items():
         label, unit = _LABELS[name]
         if name == "strengthening" and fit.growth is not None:
@@ -55,7 +59,7 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
         *_of_edge(fit),
         *_of_solutions(fit),
         *_of_layer(fit),
-        *simulation_words(fit.given.speed, fit.found.search.model.simulation, fit.simulations),
+        *simulation_words(fit.given.speed, fit.search.model.simulation, fit.simulations),
         *_of_relaxation(fit),
         *_of_shifts(fit),
         *_of_temperature(fit),
@@ -64,8 +68,17 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
     ]
 
 
-def misfit_words(fit: RateSeriesFit) -> str:
+def misfit_words(fit: SeriesFit) -> str:
     """Return a sentence on tests that the fit does not describe."""
+    off = fit.given.force / np.array(fit.forces) - 1
+    worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
+    tests = ", ".join(f"{fit.series[i].at} {off[i]:+.0%}" for i in worst)
+    off_by = (
+        f"the fit does not describe these tests: measured over fitted forces are off by {tests}, "
+        f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory"
+    )
+    if "reference_speed" in fit.best.values:
+        return f"{off_by}. No energy w (1 + (v/v0)^n) of the edge explains them"
     if fit.given.growth:
         cure = "even an interface that grows; the material may be wrong, or nonlinear"
     elif isinstance(fit.given.body, Layer):
@@ -77,12 +90,7 @@ def misfit_words(fit: RateSeriesFit) -> str:
         )
     if not fit.trend:
         cure += ", or tests at one speed scatter by as much, which --scatter states"
-    return f"{_off_by(fit)}. No work of adhesion and range of a linear solid explain them{cure}"
-
-
-def edge_misfit_words(fit: EdgeFit) -> str:
-    """Return a sentence on tests that an edge law does not describe."""
-    return f"{_off_by(fit)}. No energy w (1 + (v/v0)^n) of the edge explains them"
+    return f"{off_by}. No work of adhesion and range of a linear solid explain them{cure}"
 
 
 def edge_words(fit: EdgeFit) -> list[str]:
@@ -93,6 +101,7 @@ def edge_words(fit: EdgeFit) -> list[str]:
         said += _of_one(label, unit, fit.best.values[name], ends, fit.level)
     modulus = readable(fit.passport.material.contact_modulus, "Pa", digits=3)
     return [
+        *([fit.misfit] if fit.misfit else []),
         "energy of the edge w (1 + (v/v0)^n) at its speed v, on an elastic solid with a contact "
         f"modulus of {modulus}, to whose cube root v0 is proportional",
         *said,
@@ -112,33 +121,18 @@ def _of_edge(fit: RateSeriesFit) -> list[str]:
     return [f"{said} ({EVIDENCE:g} is strong evidence for the lower one)"]
 
 
-def _off_by(fit: RateSeriesFit | EdgeFit) -> str:
-    """Name the tests that a fit does not describe."""
-    off = fit.given.force / np.array(fit.forces) - 1
-    worst = np.sort(np.argsort(np.abs(off))[-_NAMED:])
-    tests = ", ".join(f"{fit.series[i].at} {off[i]:+.0%}" for i in worst)
-    return (
-        f"the fit does not describe these tests: measured over fitted forces are off by {tests}, "
-        f"which is {fit.scatter:.2g} times the uncertainty of the tests and the theory"
-    )
-
-
-def forecast_words(
-    fit: RateSeriesFit, speed: Array, crack_speed: Array, chain: Posterior, raised: Array
-) -> list[str]:
-    """Return sentences on a forecast; `raised` are the speeds at which a measured force is it."""
+def forecast_words(fit: RateSeriesFit, forecast: RateForecast, crack_speed: Array) -> list[str]:
+    """Return sentences on a forecast by the theory, with the speeds of its cracks [m/s]."""
     edge = readable(crack_speed.min(), "m/s", digits=2, to=crack_speed.max())
     said = [f"the crack speed at pull-off is {edge}"]
     if not allowed(fit.passport):
         said.append("the band does not include the uncertainty of the material, which is unknown")
-    return series_forecast_words(fit, speed, chain, raised, "the material and the theory") + said
+    return series_forecast_words(fit, forecast, "the material and the theory") + said
 
 
-def series_forecast_words(
-    fit: RateSeriesFit | EdgeFit, speed: Array, chain: Posterior, raised: Array, rests_on: str
-) -> list[str]:
+def series_forecast_words(fit: SeriesFit, forecast: RateForecast, rests_on: str) -> list[str]:
     """Return sentences on a forecast by any model; `rests_on` is what it needs elsewhere."""
-    said, measured = [], fit.given.speed
+    said, measured, speed = [], fit.given.speed, forecast.speed
     if speed.min() < 0.5 * measured.min() or speed.max() > 2 * measured.max():
         said.append(
             f"measured speeds range from {_speed(measured.min(), measured.max())}; beyond them the "
@@ -146,12 +140,12 @@ def series_forecast_words(
         )
     if len(fit.solutions) > 1:
         said.append(f"the band covers the {len(fit.solutions)} interfaces that fit the forces")
-    if not chain.converged:
+    if not forecast.posterior.converged:
         said.append(
             "too few independent samples of the posterior: the correlation time is "
-            f"{chain.correlation_time:.0f} steps"
+            f"{forecast.posterior.correlation_time:.0f} steps"
         )
-    if raised.size:
+    if (raised := forecast.raised).size:
         said.append(
             f"at {_speed(raised.min(), raised.max())} the model predicts less than was measured at "
             "a slower speed; there the forecast is the measured force"
@@ -229,7 +223,7 @@ def _of_approach(fit: RateSeriesFit) -> list[str]:
     ]
 
 
-def _of_scatter(fit: RateSeriesFit | EdgeFit) -> list[str]:
+def _of_scatter(fit: SeriesFit) -> list[str]:
     if not fit.between_speeds:
         return []
     if fit.trend:
@@ -265,7 +259,7 @@ def _of_layer(fit: RateSeriesFit) -> list[str]:
     if not isinstance(body, Layer):
         return []
     pulled = fit.forward.pulled(*fit.interface[:2], given.speed, given.load)
-    radius, error = pulled.edge_radius, fit.theory + ERROR_BY_ZONE * pulled.through
+    radius, error = pulled.edge_radius, fit.given.theory_error + ERROR_BY_ZONE * pulled.through
     nu = body.poisson_ratio
     base = "sliding on its base" if nu is None else f"bonded, Poisson ratio {nu:.3g}"
     return [
@@ -338,3 +332,114 @@ def _of_excluded(fit: RateSeriesFit) -> list[str]:
     speeds = ", ".join(dict.fromkeys(one.at for one, _ in fit.excluded))
     why = fit.excluded[-1][1]
     return [f"excluded, because the theory does not hold there: {speeds} ({why})"]
+
+
+def upper_bound_words(fit: SlowTestFit) -> list[str]:
+    """Return the reasons why the work of a fit is an upper bound; empty for a slow test."""
+    said = []
+    if fit.inelastic:
+        said.append(
+            f"residuals are {fit.residual:.2g} times the noise: no elastic law fits. If the test "
+            "was not slow, energy dissipated at a viscoelastic edge appears as a longer range; use "
+            "a slower test, or `viscotack identify rates`"
+        )
+    if fit.modulus is not None and fit.contradicts_modulus:
+        modulus, uncertainty = (readable(x, "Pa") for x in fit.modulus)
+        said.append(
+            f"the fitted E0* {readable(fit.best.contact_modulus, 'Pa')} is {fit.modulus_apart:.2g} "
+            f"standard deviations from the given {modulus} +- {uncertainty}: the contact was not "
+            "that of the relaxed solid, or the given modulus or the compliance of the rig is wrong"
+        )
+    if fit.same_pull is not None and fit.same_pull.fast:
+        said.append(
+            f"{_of_pull(fit, fit.same_pull)}: the test was not slow. Use a slower test, or "
+            "`viscotack identify rates`"
+        )
+    return said
+
+
+def slow_words(fit: SlowTestFit) -> list[str]:
+    """Return sentences on the result and on what the data do not determine."""
+    alike, reasons, level = fit.alike, fit.upper_bound, fit.level
+    names = [one.model.upper() for one in alike]
+    if reasons:
+        most = readable(fit.work_of_adhesion.high, "J/m2")
+        said = [
+            f"the work of adhesion is at most {most} ({level:.0%}), an upper bound: an elastic fit "
+            "does not determine it from this test",
+            *reasons,
+        ]
+    elif fit.undetermined:
+        works = [_work(one, one.intervals["work_of_adhesion"], level) for one in alike]
+        by_each = " or ".join(f"{x} by {name}" for x, name in zip(works, names, strict=True))
+        apart = alike[1].criterion - alike[0].criterion
+        said = [
+            f"the work of adhesion is undetermined between models: {by_each} (criteria "
+            f"{apart:.1f} apart, {EVIDENCE:g} would be evidence); contact radii from a camera, "
+            "or E0* with its uncertainty, distinguish them"
+        ]
+    else:
+        work = _work(alike[0], fit.work_of_adhesion, level)
+        said = [f"work of adhesion {work} by {' and '.join(names)}"]
+    if len(names) > 1 and (reasons or not fit.undetermined):
+        others = " and ".join(names[1:])
+        said.append(
+            f"the data do not distinguish {names[0]} from {others} (criteria within {EVIDENCE:g})"
+        )
+    ranged = next((one for one in fit.fits if "tabor" in one.intervals), None)
+    if ranged is not None and not reasons:
+        said.append(_of_range(ranged, names, level))
+    if fit.test.against == "depth":
+        said.append(
+            "the zero of depth was also fitted; without a camera the range is poorly determined"
+        )
+    if fit.same_pull is None and fit.material is not None:
+        said.append("without speed and preload the material cannot show whether the test was slow")
+    if fit.same_pull is not None and not fit.same_pull.fast:
+        said.append(_of_pull(fit, fit.same_pull))
+    if isinstance(fit.material, Passport):
+        known = () if fit.test.temperature is None else (fit.test.temperature,)
+        said += assumed_temperature(fit.material, known)
+    return said
+
+
+def _of_pull(fit: SlowTestFit, pull: SamePull) -> str:
+    """Return whether the test was slow on its material."""
+    at = (
+        f"at {readable(fit.test.speed or 0.0, 'm/s')}, {readable(pull.work, 'J/m2')} and a range "
+        f"of {readable(pull.gap, 'm', digits=2)}"
+    )
+    if pull.assumed is not None:
+        at += (
+            f", assumed at a Tabor number of {pull.assumed:g} because the data do not determine it"
+        )
+    if pull.error:
+        return f"whether the test was slow is not checked {at}: {pull.error}"
+    if pull.ratio is None:
+        return f"whether the test was slow is not known {at}: simulate this pull"
+    said = f"the material gives {pull.ratio:.4g} times the slow force {at}"
+    return said if pull.fast else f"{said}: the test was slow"
+
+
+def _work(fit: ModelFit, ends: Interval, level: float) -> str:
+    both = readable_interval(ends.low, ends.high, "J/m2")
+    return f"{readable(fit.work_of_adhesion, 'J/m2')} ({both}, {level:.0%})"
+
+
+def _of_range(fit: ModelFit, alike: list[str], level: float) -> str:
+    """Describe the range; `alike` are the models that the data do not distinguish."""
+    ends, name = fit.intervals["tabor"], fit.model.upper()
+    if ends.told:
+        both = f"({ends.low:.3g} to {ends.high:.3g}, {level:.0%})"
+        return f"Tabor number {fit.tabor:.3g} {both} by {name}"
+    if ends.closed_below and "DMT" not in alike:
+        return (
+            f"the Tabor number is above {ends.low:.3g} ({level:.0%}, {name}); these data give no "
+            "upper bound, hence no range of attraction: JKR is sufficient"
+        )
+    if ends.closed_above and "JKR" not in alike:
+        return (
+            f"the Tabor number is below {ends.high:.3g} ({level:.0%}, {name}); these data give no "
+            "lower bound: DMT is sufficient"
+        )
+    return f"these data do not determine the range of attraction ({name})"
