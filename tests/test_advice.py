@@ -180,25 +180,6 @@ def test_in_si_speed_and_strain_are_judged():
     assert dimensionless.amplification == pytest.approx(fast.amplification, rel=1e-9, abs=0)
 
 
-@pytest.mark.slow
-def test_beyond_the_computed_threshold_force_hardly_grows():
-    case = groups(10**0.5, exponent=1.6)
-    radius = vt.threshold_contact_radius(case, slope=0.1)
-    forces = [
-        1.5
-        * vt.pull_off_force(
-            vt.solve(
-                groups(10**0.5, exponent=1.6, start=vt.AtRadius(x)),
-                until="pull-off",
-                accuracy=1e-3,
-                estimate_error=False,
-            )
-        )
-        for x in (radius - 0.1, radius + 0.1)
-    ]
-    assert (forces[1] - forces[0]) / 0.2 == pytest.approx(0.1, rel=0.3, abs=0)
-
-
 # The command line -----------------------------------------------------------------------------
 
 

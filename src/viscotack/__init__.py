@@ -92,7 +92,6 @@ if TYPE_CHECKING:
     from viscotack.prediction import predict as predict
     from viscotack.prediction import predict_table as predict_table
     from viscotack.prediction import prediction_summary as prediction_summary
-    from viscotack.prediction import threshold_contact_radius as threshold_contact_radius
     from viscotack.prediction.uncertainty import Uncertainty as Uncertainty
     from viscotack.prediction.uncertainty import uncertainty as uncertainty
     from viscotack.result import Energies as Energies
@@ -176,10 +175,7 @@ _NAMES = {
     "result.dead_load": "time_to_detachment",
     "result.edge_energy": "EdgeEnergy edge_energy",
     "result.loops": "Loop",
-    "prediction": (
-        "advise Advice Estimate predict predict_table Prediction prediction_summary "
-        "threshold_contact_radius"
-    ),
+    "prediction": "advise Advice Estimate predict predict_table Prediction prediction_summary",
     "plot.simulation": "draw_energy draw_force draw_radius draw_overview",
     "plot.regimes": "draw_regimes",
     "plot.style": "save_figure",

@@ -5,7 +5,6 @@ from .cautions import cautions_on
 from .closed_forms import Estimate
 from .predict import predict
 from .prediction import Prediction, prediction_summary
-from .preload_threshold import threshold_contact_radius
 from .table import predict_table
 
 __all__ = [
@@ -17,5 +16,4 @@ __all__ = [
     "predict",
     "predict_table",
     "prediction_summary",
-    "threshold_contact_radius",
 ]
