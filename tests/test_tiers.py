@@ -7,7 +7,7 @@ import pytest
 
 import viscotack as vt
 from tier_problems import PROBLEMS, refusal
-from viscotack.prediction.question import Question
+from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import AT_ONCE, EXACT, LEARNED, SOON, THEORIES, TIERS, best
 from viscotack.theory.elastic.lennard_jones import pull_off_ratio
 

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from viscotack.arrays import Array
-from viscotack.prediction.surrogate.answers import Answers
 from viscotack.prediction.surrogate.line import Curves
+from viscotack.prediction.surrogate.trust import Answers
 from viscotack.result.trajectory import PRESSED
 
 from .rows import Rows

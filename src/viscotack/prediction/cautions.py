@@ -23,9 +23,9 @@ from viscotack.units import readable
 
 from .closed_forms import is_classic, is_plain
 from .other_contacts import REST_ZONE
-from .question import Question
 from .steady_crack import crack_of
 from .theories import forms_of
+from .tier import Question
 
 if TYPE_CHECKING:
     from viscotack.model.materials.passport import Passport

@@ -15,8 +15,7 @@ from viscotack.prediction.surrogate.model import Surrogate
 
 from .beyond import Beyond
 from .prediction import MEASURED, Prediction, with_curve
-from .question import Question
-from .tier import Uncertain
+from .tier import Question, Uncertain
 
 INSIDE = "every input is in the training range"
 

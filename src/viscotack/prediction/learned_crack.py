@@ -15,7 +15,7 @@ from viscotack.theory.elastic.relaxed import contact_in_groups
 
 from .power_laws import VERIFIED, inputs_of_sphere
 from .prediction import Prediction, of_theory, with_curve
-from .question import Question
+from .tier import Question
 
 __all__ = ["LEARNED_CRACK", "VERIFIED", "by_learned_crack"]
 

@@ -14,8 +14,7 @@ from viscotack.prediction.surrogate import physics, store
 from .beyond import beyond
 from .learned import INSIDE, further_prediction, out_of_range, within
 from .prediction import Prediction
-from .question import Question
-from .tier import Verified
+from .tier import Question, Verified
 
 SURROGATE = "surrogate"
 VERIFIED = Verified(

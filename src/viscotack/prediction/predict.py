@@ -16,7 +16,7 @@ from viscotack.prediction.surrogate.trust import check_confidence
 
 from .cautions import cautions_on
 from .prediction import Prediction, depth_between
-from .question import Question
+from .tier import Question
 from .tiers import EXACT, SOON, best, by_model
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ from viscotack.version import __version__
 if TYPE_CHECKING:
     from viscotack.prediction.surrogate.line import Curves
 
-    from .question import Question
+    from .tier import Question
 
 MEASURED, NOT_MEASURED = "measured", "not measured"
 # Fraction of cases inside the bands of theories and the stated errors of simulations.

@@ -18,8 +18,7 @@ from viscotack.prediction.surrogate.punch_physics import INPUTS, PRELOAD
 from .beyond import slower
 from .learned import INSIDE, further_prediction, out_of_range, within
 from .prediction import Prediction
-from .question import Question
-from .tier import Verified
+from .tier import Question, Verified
 
 LEARNED_PUNCH = "surrogate of punches"
 VERIFIED = Verified(

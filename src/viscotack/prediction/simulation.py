@@ -12,7 +12,7 @@ from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
 from viscotack.simulate.crack_contact.crack_band import not_measured
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
-from .question import Question
+from .tier import Question
 
 SIMULATION = "simulation"
 

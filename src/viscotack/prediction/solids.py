@@ -17,8 +17,7 @@ from .beyond import beyond
 from .learned import INSIDE, further_prediction, within
 from .power_laws import SURROGATE, inputs_of_sphere
 from .prediction import Prediction
-from .question import Question
-from .tier import ANY, Uncertain
+from .tier import ANY, Question, Uncertain
 
 SOLIDS = "surrogate of solids"
 # Any linear solid: its creep is compared with that of the training data.

@@ -22,8 +22,7 @@ from viscotack.simulate.crack_contact.by_crack import (
 from viscotack.simulate.crack_contact.crack_band import FURTHER, not_measured
 
 from .prediction import Prediction, of_theory, with_curve
-from .question import Question
-from .tier import ANY, Verified
+from .tier import ANY, Question, Verified
 
 CRACK_CONTACT = "crack contact"
 # The theory describes a solid by its modulus and its creep, and was compared with simulations of

@@ -21,8 +21,7 @@ from viscotack.theory.elastic.relaxed import contact_in_groups, radius_without_a
 
 from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike
 from .prediction import Prediction, of_theory
-from .question import Question
-from .tier import Verified
+from .tier import Question, Verified
 
 # Ranges where nine of ten cases are inside the bands of the closed forms; rate in h0/tau0. Other
 # laws by their effective range and the steepest fall of the tension [strength^2/work].

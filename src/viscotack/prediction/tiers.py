@@ -20,12 +20,11 @@ from .learned_crack import LEARNED_CRACK, by_learned_crack
 from .power_laws import SURROGATE, by_power_laws
 from .prediction import NOT_MEASURED, Prediction
 from .punches import LEARNED_PUNCH, by_punches
-from .question import Question
 from .simulation import SIMULATION, by_simulation
 from .solids import SOLIDS, by_solids
 from .steady_crack import CRACK_CONTACT, by_crack_contact
 from .theories import CLOSED_FORM, ELASTIC, by_closed_form
-from .tier import Tier, Uncertain
+from .tier import Question, Tier, Uncertain
 
 # Time budgets [s]: surrogates alone; surrogates and theories, the default.
 AT_ONCE, SOON = 0.01, 1.0

@@ -24,11 +24,11 @@ from viscotack.prediction.advice import estimate_by
 from viscotack.prediction.power_laws import SURROGATE
 from viscotack.prediction.prediction import Prediction
 from viscotack.prediction.punches import inputs_of
-from viscotack.prediction.question import Question
 from viscotack.prediction.surrogate import store
 from viscotack.prediction.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.prediction.table import predict_table
 from viscotack.prediction.theories import forms_of
+from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import AT_ONCE, TIERS
 from viscotack.theory.elastic.relaxed import contact, curve, ends
 from viscotack.theory.punch import Pad, unloading

@@ -15,7 +15,7 @@ from viscotack.model.problem import Problem
 from viscotack.prediction import cautions_on, predict
 from viscotack.prediction.advice import advice_on, estimates_without_advice
 from viscotack.prediction.closed_forms import Estimate
-from viscotack.prediction.question import Question
+from viscotack.prediction.tier import Question
 from viscotack.prediction.tiers import SOON, best
 from viscotack.simulate.crack_contact import crack_contact
 from viscotack.simulate.crack_contact.by_crack import METHOD

@@ -25,10 +25,9 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from viscotack.arrays import Array
 
-from .answers import Answers
 from .line import Curves, curves
 from .network import Networks
-from .trust import error_inputs
+from .trust import Answers, error_inputs
 
 # A network's output is zero where the fraction is one half.
 STEEP = 4.0
@@ -79,7 +78,7 @@ class Further:
     force, work : ndarray, shape (n,)
         Added to the output that defines the fraction, and to log10 of work over force.
     more : mapping of str to ndarray
-        Further numbers for the :class:`~.answers.Answers`.
+        Further numbers for the :class:`~.trust.Answers`.
     """
 
     force: Array | None = None

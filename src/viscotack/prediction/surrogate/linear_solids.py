@@ -29,11 +29,11 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 
 from .alike import DECADES, Alike, alike, climbed
-from .answers import Answers
 from .contact import Contact, Further, mean_limit, share
 from .model import Surrogate
 from .network import Networks
 from .physics import MODULUS_RATIO, PRELOAD, TABOR, SphereContact
+from .trust import Answers
 
 SAMPLES = len(DECADES)
 # Times over depth over speed at which the second networks know the creep [decades].
@@ -53,7 +53,7 @@ class SolidContact(SphereContact):
     corrections. Constants are ``floor``, the smallest weight of a sample; ``usual``, the root mean
     square of the residuals; ``spread``, a matrix that normalises the residuals of the training
     data; and ``farthest``, their largest :attr:`.alike.Alike.unlike` and :attr:`far`. A further
-    output (:attr:`.answers.Answers.more`) is ``bends``, shape (n, 4): the sizes of the corrections
+    output (:attr:`.trust.Answers.more`) is ``bends``, shape (n, 4): the sizes of the corrections
     of force and work, and their standard deviations between the networks.
     """
 

@@ -16,11 +16,10 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .answers import Answers, Intervals
 from .contact import LEAST_WAY, Contact, between, mean_limit
 from .line import Curves
 from .network import Networks
-from .trust import Trust
+from .trust import Answers, Intervals, Trust
 
 if TYPE_CHECKING:
     from .moving import Move

@@ -37,9 +37,9 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.model.traction import LennardJones
 
-from .answers import Answers
 from .contact import Contact, between, scaled_logarithms
 from .line import Curves
+from .trust import Answers
 
 INPUTS = ("size", "thickness", "modulus_ratio", "preload", "rate")
 SIZE, THICKNESS, MODULUS_RATIO, PRELOAD, RATE = range(5)

@@ -29,8 +29,8 @@ from viscotack.arrays import Array
 from viscotack.theory import jkr, lennard_jones
 
 from . import physics
-from .answers import Answers
 from .contact import Contact, Further
+from .trust import Answers
 
 # Tabor number, modulus ratio and exponent; the start's depth over the Tabor number, in heights of a
 # contact beta^2/R; and the rate over it, in these heights per time of the material.
@@ -87,7 +87,7 @@ def crack_alone(groups: Array) -> Array:
 class ShortRangeContact(Contact):
     """A sphere of large Tabor number on a power law, by the theory of a crack at its edge.
 
-    Further outputs, in :attr:`.answers.Answers.more`, are ``amplification``, the energy of the
+    Further outputs, in :attr:`.trust.Answers.more`, are ``amplification``, the energy of the
     crack at pull-off over the work of adhesion; ``zones``, the travel of the edge to the pull-off
     in zones of the crack; and ``effective``, the effective Tabor number of the zone. The constant
     ``error`` is the difference between networks and theory, of each quantity in ``trust.OF``, in 9
