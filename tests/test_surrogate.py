@@ -7,15 +7,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from viscotack import solve
-from viscotack.model.problem.kinds import KINDS
 from viscotack.prediction.surrogate import physics, store
 from viscotack.prediction.surrogate.network import Networks
-from viscotack.prediction.surrogate.physics import INPUTS
 from viscotack.prediction.surrogate.store import shipped
 from viscotack.prediction.surrogate.trust import CONFIDENCES, OF, Trust
 from viscotack.prediction.surrogate.trust import INPUTS as TOLD
-from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.theory import lennard_jones
 
 LOW, HIGH = physics.LOW, physics.HIGH
@@ -159,28 +155,6 @@ def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
         assert held[designs[new] == box, 0].mean() > 0.8
     assert np.mean(apart.error[:, 0] ** 2) < 6e-7
     assert np.median(width[:, 0]) < 7e-4
-
-
-# peer: the simulation
-
-
-@pytest.mark.parametrize(
-    "groups",
-    [
-        (0.3, 0.1, 0.6, 5.0, 1e4),
-        (0.02, 0.01, 1.5, 50.0, 10.0),
-    ],
-)
-def test_the_shipped_surrogate_agrees_with_the_simulation(groups):
-    result = solve(
-        KINDS["sphere"].problem(dict(zip(INPUTS, groups, strict=True))),
-        accuracy=2e-3,
-        until="pull-off",
-        estimate_error=False,
-    )
-    said = shipped().evaluate([groups])
-    assert said.pull_off_force[0] == pytest.approx(pull_off_force(result), rel=6e-3)
-    assert said.work_to_pull_off[0] == pytest.approx(work_to_pull_off(result), rel=2.5e-2)
 
 
 def test_the_slowest_retraction_is_elastic():
