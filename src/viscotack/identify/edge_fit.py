@@ -90,7 +90,7 @@ def identify_edge(series: RateSeries) -> EdgeFit:
     )
     if series.stiffness is not None:
         values = search.best().values
-        stiff = series.stiffness / (1 + series.compliance_error)
+        stiff = series.stiffness / (1 + series.compliance_uncertainty)
         other = edge_forces(replace(series, stiffness=stiff), values, speed, series.load)
         softer = np.log(other / edge_forces(series, values, speed, series.load))
         search = replace(search, spread=search.spread + np.outer(softer, softer))

@@ -329,7 +329,7 @@ def conditioned(
     speed = np.concatenate([own.speed, *(x.speed for x in asked)])
     # the error by the compliance of the machine, extrapolated to the wanted speeds
     ratio, order = fit.search.ratio, np.argsort(own.speed)
-    softer = given.compliance_error * ratio.log_ratio
+    softer = given.compliance_uncertainty * ratio.log_ratio
     beyond = np.interp(np.log(speed[m:]), np.log(own.speed[order]), softer[order])
     trend = np.zeros((speed.size, speed.size))
     if fit.trend:

@@ -309,7 +309,8 @@ def _history_effect(fit: RateSeriesFit, trial: Trial, draws: Array) -> Array:
     middle, tests = np.log(fit.interface[:2]), _tests(fit, [trial])
 
     def ratio(at: Array) -> float:
-        found = tests.changed(Interface(*np.exp(at).tolist(), fit.interface.growth))
+        work, gap = np.exp(at).tolist()
+        found = tests.changed(Interface(work, gap, fit.interface.growth))
         if why := str(found.refused[0]):
             raise OutOfRange(f"{trial_words(trial)}: {why}")
         return float(np.log(found.ratio[0]))

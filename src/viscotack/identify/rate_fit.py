@@ -212,7 +212,7 @@ def _with_errors(search: Search, best: Best) -> tuple[Search, Changed, bool]:
     series, interface = search.series, search.interface(best)
     ratio, changed = yielding_near(series, search.forward, interface)
     own = search.tests
-    softer = series.compliance_error * ratio.log_ratio
+    softer = series.compliance_uncertainty * ratio.log_ratio
     noise = series.noise + shift_covariance(series, own, interface)
     spread = joint_covariance(series, [own], interface, search.model, softer, noise)
     return replace(search, spread=spread, ratio=ratio), changed, bool(ratio.slopes.any())

@@ -50,7 +50,7 @@ def shifted(tests: Sequence[PullOff], passport: Passport, growth: bool = False) 
     if len(known) < len(tests):
         raise InputError(
             f"the temperature of {len(tests) - len(known)} of {len(tests)} tests is unknown; "
-            "write it into the files or file names, or set --temperature for all"
+            "write it into the files or file names, or set `temperature` for all"
         )
     if why := unshiftable(passport, growth):
         low, high = min(known), max(known)
@@ -61,14 +61,14 @@ def shifted(tests: Sequence[PullOff], passport: Passport, growth: bool = False) 
         if growth and apart(tests, passport):
             raise InputError(
                 f"tests were made at {celsius(low, high)}, and the material is at "
-                f"{celsius(passport.temperature)}; set --temperature to move the material"
+                f"{celsius(passport.temperature)}; set `temperature` to move the material"
             )
         return list(tests)
     try:
         factors = [passport.shift_factor(temperature) for temperature in known]
     except InputError as error:
         raise InputError(
-            f"{error}; to take all tests at one temperature, set --temperature"
+            f"{error}; to take all tests at one temperature, set `temperature`"
         ) from None
     found = [_at(one, factor) for one, factor in zip(tests, factors, strict=True)]
     return sorted(found, key=lambda one: one.speed)
@@ -122,8 +122,7 @@ def celsius(low: float | None, high: float | None = None) -> str:
 # much thicker than the contact.
 _THEORY, _GROWING_THEORY, _LAYER_THEORY = 0.02, 0.03, 0.03
 _MOST = 40  # largest number of speeds
-# Standard uncertainties where none is stated: temperature of tests [K], relative compliance.
-_TEMPERATURE, _COMPLIANCE = 2.0, 0.1
+_TEMPERATURE = 2.0  # K: standard uncertainty of the temperature of tests where none is stated
 _WARMEST = 50.0  # K: largest uncertainty of a temperature; 2 degC would be read as 275 K
 
 
@@ -153,8 +152,8 @@ class RateSeries:
     stiffness : float, optional
         Stiffness of the machine between drive and sphere [N/m], the inverse of its compliance; None
         if rigid. While the tension grows, the sphere moves more slowly than the drive.
-    compliance_uncertainty : float, optional
-        Relative standard uncertainty of this compliance; by default 10 %.
+    compliance_uncertainty : float
+        Relative standard uncertainty of this compliance.
     temperature_uncertainty : float, optional
         Standard uncertainty of the temperature of the tests [K]; by default 2 K. It changes all
         times of the material by the shift law of the passport; without one it has no effect.
@@ -196,7 +195,7 @@ class RateSeries:
     gaps: tuple[float, float] = (0.3e-9, 3e-6)
     work_of_adhesion: tuple[float, float] | None = None
     stiffness: float | None = None
-    compliance_uncertainty: float | None = None
+    compliance_uncertainty: float = 0.1
     temperature_uncertainty: float | None = None
     curves: bool = False
     growth: bool = False
@@ -251,7 +250,7 @@ class RateSeries:
         rules = {
             "radius": 0 < self.radius < np.inf,
             "stiffness": self.stiffness is None or 0 < self.stiffness < np.inf,
-            "compliance_uncertainty": 0 <= self.compliance_error < 1,
+            "compliance_uncertainty": 0 <= self.compliance_uncertainty < 1,
             "scatter": 0 <= self.scatter < 1,
             "theory": 0 <= self.theory_error < 1,
             "level": 0 < self.level < 1,
@@ -314,12 +313,6 @@ class RateSeries:
         if self.growth:
             return _GROWING_THEORY
         return _LAYER_THEORY if isinstance(self.body, Layer) else _THEORY
-
-    @property
-    def compliance_error(self) -> float:
-        """Relative standard uncertainty of the compliance."""
-        known = self.compliance_uncertainty
-        return _COMPLIANCE if known is None else known
 
     @property
     def temperature_error(self) -> float:
@@ -391,11 +384,8 @@ def series_of(
     if temperature is not None:
         tests = [replace(one, temperature=temperature) for one in tests]
     soft = compliance or max(one.record.compliance for one in found.evaluations)
-    known_part = compliance_uncertainty > 0 and soft > 0
-    return RateSeries(
-        tests,
-        material=material,
-        stiffness=1 / soft if soft > 0 else None,
-        compliance_uncertainty=compliance_uncertainty / soft if known_part else None,
-        **known,
-    )
+    if soft > 0:
+        known["stiffness"] = 1 / soft
+        if compliance_uncertainty > 0:
+            known["compliance_uncertainty"] = compliance_uncertainty / soft
+    return RateSeries(tests, material=material, **known)

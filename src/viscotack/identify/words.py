@@ -49,7 +49,7 @@ def fit_words(fit: RateSeriesFit) -> list[str]:
             label += f" at an opening speed of {_speed(fit.growth.opening_speed)}"
         said += _of_one(label, unit, fit.best.values[name], ends, fit.level)
     if fit.growth is not None:
-        said += _of_growth(fit.growth)
+        said.append(_of_growth(fit.growth))
     if not allowed(fit.passport):
         said.append("the material is assumed exact, because its uncertainty is unknown")
     return [
@@ -191,24 +191,13 @@ def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -
     return said
 
 
-def _of_growth(found: FoundGrowth) -> list[str]:
+def _of_growth(found: FoundGrowth) -> str:
     sure = found.chance < _CHANCE
-    said = [
+    return (
         f"{'the interface grows with speed' if sure else 'growth is not needed'}: without it "
         f"the misfit is {found.better_by:.1f} larger, with a probability of {found.chance:.1%} "
         "by chance"
-    ]
-    if np.isfinite(found.reference_speed):
-        said.append(
-            f"Gent-Schultz: reference speed {_speed(found.reference_speed)} of the gap, exponent "
-            f"{found.exponent:.2f}"
-        )
-    for one in sorted({found.shares[0], found.shares[-1]}, key=lambda share: share.speed):
-        said.append(
-            f"at {_speed(one.speed)} the edge dissipates {one.energy:.3g} works of adhesion: "
-            f"a factor {one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
-        )
-    return said
+    )
 
 
 def _of_approach(fit: RateSeriesFit) -> list[str]:
@@ -254,20 +243,17 @@ def _of_solutions(fit: RateSeriesFit) -> list[str]:
 
 
 def _of_layer(fit: RateSeriesFit) -> list[str]:
-    """Return a sentence on the layer and the error of the theory on it."""
-    body, given, solid = fit.given.body, fit.given, fit.forward.material
-    if not isinstance(body, Layer):
+    """Return a sentence on the error of the theory on a layer."""
+    given, solid = fit.given, fit.forward.material
+    if not isinstance(given.body, Layer):
         return []
     pulled = fit.forward.pulled(*fit.interface[:2], given.speed, given.load)
-    radius, error = pulled.edge_radius, fit.given.theory_error + ERROR_BY_ZONE * pulled.through
-    nu = body.poisson_ratio
-    base = "sliding on its base" if nu is None else f"bonded, Poisson ratio {nu:.3g}"
+    radius, error = pulled.edge_radius, given.theory_error + ERROR_BY_ZONE * pulled.through
     return [
-        f"the sample is a layer of {readable(body.thickness, 'm', digits=3)}, {base}; "
-        f"contact radii at pull-off {readable(radius.min(), 'm', digits=2, to=radius.max())}, "
-        f"error of the theory {error.min():.1%} to {error.max():.1%}; contact modulus "
-        f"{readable(solid.contact_modulus, 'Pa', digits=3)} with the Poisson ratio "
-        f"{solid.poisson_ratio:.3g} of the material"
+        "on the layer contact radii at pull-off are "
+        f"{readable(radius.min(), 'm', digits=2, to=radius.max())}, and the error of the theory is "
+        f"{error.min():.1%} to {error.max():.1%}; the Poisson ratio of its material is "
+        f"{solid.poisson_ratio:.3g}"
     ]
 
 

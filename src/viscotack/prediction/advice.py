@@ -126,7 +126,7 @@ class Advice:
     contact: OtherContact | None = None
 
     @property
-    def _statements(self) -> tuple[str, ...]:
+    def statements(self) -> tuple[str, ...]:
         """The regime, the prediction and its limits in words, without the table of the tiers."""
         return tuple(_statements(self))
 
