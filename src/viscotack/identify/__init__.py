@@ -17,7 +17,7 @@ for the next time.
 
 from .approach import attraction, identify_approach
 from .contact_time import identify_dwell
-from .curves import CurveFit, CurveGroup, fit_curves, group_curves
+from .curves import CurveGroup, fit_curves, group_curves
 from .edge_fit import EdgeFit, identify_edge
 from .forecasting import RateForecast, forecast_edge, forecast_rates, interfaces
 from .likelihood import Objective, Parameter, Posterior, posterior
@@ -28,7 +28,6 @@ from .rate_series import RateSeries
 from .slow_tests import SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [
-    "CurveFit",
     "CurveGroup",
     "EdgeFit",
     "NextTests",
