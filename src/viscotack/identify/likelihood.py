@@ -289,8 +289,6 @@ class Posterior:
 
     def thinned(self, count: int) -> Array:
         """Select evenly a number of samples, shape (count, parameters)."""
-        if not 0 < count <= len(self.values):
-            raise InputError(f"count must be at most the {len(self.values)} samples, got {count}")
         return self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
 
 
