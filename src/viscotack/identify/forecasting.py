@@ -21,11 +21,10 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError, OutOfRange
+from viscotack.errors import InputError
 from viscotack.lab.tack.repeats import SAME
 from viscotack.model.geometry import Layer
 from viscotack.model.protocol import Move
-from viscotack.units import readable
 
 from .covariances import ModelError, SphereTests, joint_covariance, trend_covariance
 from .edge_fit import EdgeFit, edge_forces, refuse_far
@@ -33,7 +32,7 @@ from .forward import law_of
 from .likelihood import Posterior
 from .pull_off import History
 from .rate_fit import RateSeriesFit
-from .search import LEAST_TABOR, SeriesFit
+from .search import SeriesFit
 from .simulated_tests import by_theory, tested
 from .words import forecast_words, series_forecast_words, simulation_words
 
@@ -142,7 +141,6 @@ def forecast_rates(
     chain = fit.sampled()
     draws = chain.thinned(_DRAWS)
     if law is not None or isinstance(known.body, Layer):
-        _refuse_low_tabor(v, middle.effective_tabor)
         found = by_theory(changed, v, given.theory_error)
     else:
         likely = np.log(np.vstack([(work, gap), draws]))
@@ -386,15 +384,6 @@ def _slower(fit: SeriesFit, speed: Array, preload: float, comparable: bool) -> t
         parts = one.force.uncertainty / one.force.value, fit.given.scatter, fit.between_speeds
         slower[at], uncertain[at] = one.force.value, np.linalg.norm(parts)
     return slower, uncertain
-
-
-def _refuse_low_tabor(speed: Array, effective: Array) -> None:
-    bad = effective < LEAST_TABOR
-    if np.any(bad):
-        raise OutOfRange(
-            f"at {readable(speed[bad].min(), 'm/s', digits=3)} the cohesive zone is as "
-            "large as the contact, so the theory does not hold; choose slower speeds, or simulate"
-        )
 
 
 def _root(covariance: Array) -> Array:
