@@ -12,16 +12,13 @@ Costs: 54 networks, three minutes of processor time.
 
 from __future__ import annotations
 
-import warnings
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
 from ..learning.learners import network
-from ..learning.splits import random_split
 from ..learning.trajectories import learned_points
+from ..learning.validation import folds, random_split
 from .learned import SEED, rows
 from .style import COLOURS, panels
 
@@ -50,11 +47,8 @@ def error(cell: tuple[tuple[int, ...], str]) -> list[float]:
     X, Y = learned_points(some)
     Y = (Y - Y.mean(axis=0)) / Y.std(axis=0)
     found: list[float] = []
-    for train, held in random_split(len(X), SEED, _FOLDS).folds():
-        model: Any = network(*cell, SEED, rounds=100, patience=10)
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", message="Stochastic Optimizer: Maximum")
-            model.fit(X[train], Y[train])
+    for train, held in folds(random_split(len(X), SEED, _FOLDS)):
+        model = network(X[train], Y[train], *cell, SEED, rounds=100, patience=10)
         found.append(float(np.mean((model.predict(X[held]) - Y[held]) ** 2)))
     return found
 

@@ -18,17 +18,17 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..bench import Bench, Numbers
-from ..learning.features import Descriptor, Target
+from ..learning.features import Target
 from ..learning.learners import BOOSTING, LINEAR
 from .learned import FORCE_ML, FORCE_PAML, held_out
 from .style import COLOURS, panels
 
 SIZE = (8.0, 3.9)
 TRIALS = {
-    "A.4": {"Linear regression": (Target.FORCE, Descriptor.NONE, LINEAR), "XGBoost": FORCE_ML},
+    "A.4": {"Linear regression": (Target.FORCE, False, LINEAR), "XGBoost": FORCE_ML},
     "A.5": {
         "Forest": FORCE_PAML,
-        "XGBoost": (Target.FORCE, Descriptor.PUBLISHED, BOOSTING),
+        "XGBoost": (Target.FORCE, True, BOOSTING),
     },
 }
 _POINTS = 800

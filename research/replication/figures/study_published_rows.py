@@ -22,10 +22,10 @@ from viscotack import InputError
 
 from ..archive import Learned, learned
 from ..bench import Bench, Numbers
-from ..learning.features import Descriptor, Target
-from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, trained
-from ..learning.splits import Split, random_split, value_split
+from ..learning.features import Target
+from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner
 from ..learning.thesis import TABLES
+from ..learning.validation import Score, Split, random_split, score, value_split
 from .style import COLOURS, panels
 
 NEEDS_ARCHIVE = True
@@ -43,68 +43,55 @@ def numbers(bench: Bench) -> Numbers:
     if bench.archive is None:
         raise InputError("this needs the authors' archive: give its path by --archive")
     rows = learned(bench.archive)
-    by_name = {learner.name: learner for learner in LEARNERS}
     found: Numbers = {"rows": len(rows.force)}
-    for table in TABLES:
-        which, seed = (table.target, table.descriptor), SEEDS[table.number]
-        tried = [_folds(rows, *which, by_name[name], seed) for name in table.entries]
-        printed = table.entries.values()
+    for table in TABLES.values():
+        of, seed = (table.target, table.descriptor), SEEDS[table.number]
+        tried = [_scored(rows, *of, LEARNERS[name], seed) for name in table.entries]
+        mse = np.array([1e3 * one.mse.mean() for one in tried])
+        printed, spread = np.array([(e.mse, e.mse_spread) for e in table.entries.values()]).T
         found[table.number] = {
             "model": list(table.entries),
-            "mse": [1e3 * float(np.mean(mse)) for mse, _ in tried],
-            "spread": [1e3 * float(np.std(mse)) for mse, _ in tried],
-            "r2": [float(np.mean(r2)) for _, r2 in tried],
-            "within": [
-                abs(1e3 * float(np.mean(mse)) - e.mse) <= e.mse_spread
-                for (mse, _), e in zip(tried, printed, strict=True)
-            ],
-            "thesis_mse": [e.mse for e in printed],
-            "thesis_spread": [e.mse_spread for e in printed],
+            "mse": mse,
+            "spread": [1e3 * one.mse.std() for one in tried],
+            "r2": [one.r2.mean() for one in tried],
+            "within": (np.abs(mse - printed) <= spread).tolist(),
+            "thesis_mse": printed,
+            "thesis_spread": spread,
         }
     found["reduction"] = [_reduction(rows, *s) for s in ((42, 40), (42, 42), (40, 40))]
     for words, column in (("new_n", 4), ("new_k", 3)):
         values = rows.inputs[:, column] if column == 4 else 10 ** rows.inputs[:, column]
-        split = value_split(words[-1], values)
         found[words] = [
-            _pooled(rows, descriptor, learner, split)
-            for descriptor, learner in ((Descriptor.NONE, BOOSTING), (Descriptor.PUBLISHED, FOREST))
+            _scored(rows, Target.FORCE, *model, split=value_split(values)).pooled_r2
+            for model in ((False, BOOSTING), (True, FOREST))
         ]
     return found | {"grid": _grid(rows)}
 
 
-def _folds(
-    rows: Learned, which: Target, descriptor: Descriptor, learner: Learner, seed: int
-) -> tuple[list[float], list[float]]:
-    """Return mean square error and R2 of each of the authors' folds."""
+def _scored(
+    rows: Learned,
+    which: Target,
+    descriptor: bool,
+    learner: Learner,
+    seed: int = _SEED,
+    split: Split | None = None,
+) -> Score:
+    """Return the score of a model on the authors' folds, or on others."""
     y = rows.force if which is Target.FORCE else rows.work
-    X = rows.features(descriptor=descriptor is not Descriptor.NONE)
-    errors, shares = [], []
-    for known, held in random_split(len(y), seed).folds():
-        off = trained(learner, X[known], y[known], seed=seed).predict(X[held]) - y[held]
-        errors.append(float(np.mean(off**2)))
-        shares.append(1 - errors[-1] / float(np.var(y[held])))
-    return errors, shares
+    split = random_split(len(y), seed) if split is None else split
+    return score(rows.features(descriptor=descriptor), y, learner, split, seed=seed)
 
 
 def _reduction(rows: Learned, plain: int, augmented: int) -> float:
     """Return by how much the best model's error falls with the descriptor, by seeds of folds."""
     best = [
         min(
-            float(np.mean(_folds(rows, Target.FORCE, descriptor, learner, seed)[0]))
+            float(np.mean(_scored(rows, Target.FORCE, descriptor, learner, seed).mse))
             for learner in (BOOSTING, FOREST)
         )
-        for descriptor, seed in ((Descriptor.NONE, plain), (Descriptor.PUBLISHED, augmented))
+        for descriptor, seed in ((False, plain), (True, augmented))
     ]
     return 1 - best[1] / best[0]
-
-
-def _pooled(rows: Learned, descriptor: Descriptor, learner: Learner, split: Split) -> float:
-    """Return R2 of all held-out rows together, each fold being new to the model."""
-    X, y = rows.features(descriptor=descriptor is not Descriptor.NONE), rows.force
-    off = np.empty_like(y)
-    for known, held in split.folds():
-        off[held] = trained(learner, X[known], y[known], seed=_SEED).predict(X[held]) - y[held]
-    return 1 - float(np.mean(off**2)) / float(np.var(y))
 
 
 def _grid(rows: Learned) -> dict[str, Any]:
