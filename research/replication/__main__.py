@@ -9,7 +9,8 @@ from typer import Option
 
 from .archive import file_of
 from .bench import Hands, Numbers
-from .figures.catalogue import Figure, figures
+from .figures.catalogue import figures
+from .figures.catalogue import named as figure_named
 from .kept import difference, kept, path_of, without_errors
 from .ledger.claim import named
 from .ledger.page import PAGE, page
@@ -64,7 +65,7 @@ def contents(
     Example: python -m research.replication figure 4.6
     """
     if listed:
-        typer.echo("\n\n".join(each.words() for each in figures()))
+        typer.echo("\n\n".join(each.words() for each in figures().values()))
     if every:
         with wrong_input():
             _all(afresh, workers, out, archive)
@@ -87,7 +88,7 @@ def figure(
     Example: python -m research.replication figure 4.6 --afresh
     """
     with wrong_input(), Hands(workers) as hands:
-        drawn = Figure(name)
+        drawn = figure_named(name)
         before = kept(name) if path_of(name).exists() else None
         maker = Maker(hands, afresh=afresh, store=keep, archive=archive, say=_progress)
         path = picture(name, maker.of(name), out, ending="svg" if svg else "png")
@@ -154,9 +155,9 @@ def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:
     began = perf_counter()
     with Hands(workers) as hands:
         maker = Maker(hands, afresh=afresh, archive=archive, say=_progress)
-        for each in figures():
-            path = picture(each.name, maker.of(each.name), out)
-            beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
+        for name in figures():
+            path = picture(name, maker.of(name), out)
+            beside = f", {_beside(maker, name, kept(name))}" if afresh else ""
             typer.echo(f"{path}{beside}")
         if afresh and archive is not None:
             _published(archive, out, workers)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .bench import Bench, Hands, Numbers
-from .figures.catalogue import Figure
+from .figures.catalogue import named
 from .figures.style import saved
 from .kept import keep, kept, rounded
 
@@ -45,7 +45,7 @@ class Maker:
     def of(self, name: str) -> Numbers:
         """Return the numbers of a figure as they are kept, to so many digits."""
         if name not in self.made:
-            lacking = self.afresh and Figure(name).needs_archive and self.archive is None
+            lacking = self.afresh and named(name).archive and self.archive is None
             if lacking:
                 self.say(f"figure {name} needs the authors' archive (--archive): as it is kept")
             self.made[name] = self._made(name) if self.afresh and not lacking else kept(name)
@@ -54,7 +54,7 @@ class Maker:
     def _made(self, name: str) -> Numbers:
         self.say(f"figure {name} ...")
         of_others, began = sum(self.seconds.values()), self.hands.seconds
-        found = rounded(Figure(name).numbers(Bench(self.hands.each, self.of, self.archive)))
+        found = rounded(named(name).numbers(Bench(self.hands.each, self.of, self.archive)))
         # what it took from other figures is counted there
         of_others = sum(self.seconds.values()) - of_others
         self.seconds[name] = self.hands.seconds - began - of_others
@@ -67,6 +67,6 @@ def picture(
     name: str, numbers: Numbers, folder: Path, *, ending: str = "png", dpi: int = 150
 ) -> Path:
     """Draw a figure into a folder and return the file."""
-    figure = Figure(name)
+    figure = named(name)
     path = folder / f"{name.replace('.', '_')}.{ending}"
-    return saved(figure.module.draw, numbers, path, size=figure.size, note=figure.note, dpi=dpi)
+    return saved(figure.draw, numbers, path, size=figure.size, note=figure.note, dpi=dpi)

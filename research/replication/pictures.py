@@ -15,8 +15,8 @@ PICTURES = Path(__file__).with_name("gallery")
 
 def write() -> None:
     """Draw the pictures with the 256 colours that lines and words need."""
-    for each in figures():
-        path = picture(each.name, kept(each.name), PICTURES, dpi=64)
+    for name in figures():
+        path = picture(name, kept(name), PICTURES, dpi=64)
         with Image.open(path) as drawn:
             few = drawn.convert("RGB").quantize(
                 256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE

@@ -15,7 +15,7 @@ from typing import Any
 from viscotack import InputError
 
 from ..bench import Numbers
-from ..figures.catalogue import THEORY
+from ..figures.catalogue import figures
 
 # Difference that is said [%].
 _LEAST = 0.002
@@ -121,7 +121,7 @@ class Claim:
         if self.verdict in (Verdict.FAILS, Verdict.OPEN):
             refuted = self.verdict is Verdict.FAILS
             return found, Standing.REFUTED if refuted else Standing.CONJECTURE
-        alone = needed <= set(THEORY) and self.verdict is not Verdict.THEN
+        alone = all(figures()[name].theory for name in needed) and self.verdict is not Verdict.THEN
         return found, Standing.PROVEN if alone else Standing.CONSISTENT
 
     def row(self, found: Measured, standing: Standing) -> str:

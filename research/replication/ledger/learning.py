@@ -7,7 +7,7 @@ import numpy as np
 from viscotack import datasets
 
 from ..figures.cases import K
-from ..figures.figure_5_5 import distance
+from ..figures.forces import distance
 from ..learning.thesis import LOGGED_TIME
 from ..table import SAMPLE, read_detachments
 from .claim import Measured, Of
