@@ -51,15 +51,6 @@ class Judged:
     joint: float
 
 
-def answered(case: Case) -> bool:
-    """Whether the surrogates give a force of a case, so that its label is needed."""
-    try:
-        predict(case.problem, budget=AT_ONCE)
-    except OutOfRange:
-        return False
-    return True
-
-
 def judged(case: Case, label: dict[str, Any]) -> Judged:
     """Compare the prediction of a case with its label, which may be empty if there is none."""
     try:
