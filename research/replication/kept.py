@@ -4,8 +4,6 @@ Arrays become lists, and lists of numbers arrays again; nan is null. Nothing is 
 file is data whoever wrote it.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -14,8 +12,7 @@ import numpy as np
 
 from viscotack import InputError
 
-from .bench import Numbers
-
+Numbers = dict[str, Any]
 FOLDER = Path(__file__).resolve().parent / "kept"
 DIGITS = 5
 # Below this part of the largest number of an array a difference says nothing.

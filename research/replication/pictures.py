@@ -6,9 +6,9 @@ from pathlib import Path
 
 from PIL import Image
 
+from .bench import picture
 from .figures.catalogue import figures
 from .kept import kept
-from .making import picture
 
 PICTURES = Path(__file__).with_name("gallery")
 

@@ -9,14 +9,13 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from research.replication.__main__ import app
-from research.replication.bench import Hands
+from research.replication.bench import Bench
 from research.replication.figures import retractions, starts
 from research.replication.figures.cases import Work, detached, punch
 from research.replication.figures.catalogue import figures
 from research.replication.kept import difference, kept
 from research.replication.ledger.claim import Measured, named
 from research.replication.ledger.page import PAGE, page
-from research.replication.making import Maker
 from research.replication.published.compare import compare
 from research.replication.second_code import compare as second
 from research.replication.second_code import half_plane
@@ -66,8 +65,7 @@ def test_an_unknown_figure_or_claim_is_refused():
 @pytest.mark.parametrize("name", [each.name for each in figures().values() if each.theory])
 def test_theory_is_what_it_was(name):
     """Regression: the kept numbers have five digits."""
-    with Hands(1) as hands:
-        assert difference(kept(name), Maker(hands, afresh=True).of(name)) < 2e-4
+    assert difference(kept(name), Bench(afresh=True).of(name)) < 2e-4
 
 
 def test_simulations_are_what_they_were():

@@ -12,8 +12,7 @@ import matplotlib.figure
 
 from viscotack import InputError
 
-from ..bench import Bench, Numbers
-from ..kept import cost
+from ..kept import Numbers, cost
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class Figure:
         word = self.functions or self.name.replace(".", "_").replace("-", "_")
         return getattr(import_module(f".{self.module}", __package__), f"{kind}_{word}")
 
-    def numbers(self, bench: Bench) -> Numbers:
+    def numbers(self, bench: Any) -> Numbers:
         """Return its numbers, made from nothing; functions that are shared are told its name."""
         return self._function("numbers")(bench, *([self.name] if self.functions else []))
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from viscotack import InputError
 
-from ..bench import Numbers
 from ..figures.catalogue import figures
+from ..kept import Numbers
 
 # Difference that is said [%].
 _LEAST = 0.002

@@ -8,7 +8,7 @@ from textwrap import fill
 
 import numpy as np
 
-from ..bench import Numbers
+from ..kept import Numbers
 from .claim import Claim, Measured, Of, Standing, Verdict, chapters
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "replication.md"
