@@ -8,8 +8,6 @@ pull-off of random tests, spheres and punches of `drawn_tests.py`, beside runs t
 accurate. Ten minutes on two cores.
 """
 
-from __future__ import annotations
-
 import argparse
 from time import perf_counter
 from typing import Any

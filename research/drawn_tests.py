@@ -3,8 +3,6 @@
 Each is made of a seed and its number alone.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ of both is measured against a converged simulation. The simulation is asked for 
 it is just no worse than the twin. About four minutes.
 """
 
-from __future__ import annotations
-
 from time import perf_counter
 
 import numpy as np

@@ -5,8 +5,6 @@
 compared at every simulated step between zero force (or a start in tension) and the pull-off.
 """
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from typing import Any

@@ -6,8 +6,6 @@ was added, and 85 that it lacks, ``Data_Files/comb_1to9.csv``. Nothing of it is 
 sample (tests/data/README.md) and these checksums.
 """
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path

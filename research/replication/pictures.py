@@ -1,7 +1,5 @@
 """The pictures of gallery/README.md, small, from the kept numbers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from PIL import Image

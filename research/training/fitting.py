@@ -1,7 +1,5 @@
 """Networks fitted to rows: gradients by JAX, quasi-Newton steps by SciPy, the same on every run."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -10,8 +10,6 @@ light tension) and appended to a file of the folder; a run that was stopped cont
 of a second a case, more at large Tabor numbers.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -8,8 +8,6 @@ pull-off, and the exponent that the first search found. The nineteen numbers of 
 least squares of the forces of 974 rows of `solids`; 1,700 rows gave none better.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -14,8 +14,6 @@ With ``--intervals`` the second networks of the file are kept, and only its inte
 again.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

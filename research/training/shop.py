@@ -1,7 +1,5 @@
 """Where networks are fitted: processes, and a folder of those that are done."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import os
@@ -36,7 +34,7 @@ class Shop:
     folder: Path
     workers: int = 1
 
-    def __enter__(self) -> Shop:
+    def __enter__(self) -> "Shop":
         self.folder.mkdir(parents=True, exist_ok=True)
         # Buffers of megabytes are made anew in every step; kept by the process, instead of given
         # back to the system and fetched again, they cost a third less time.

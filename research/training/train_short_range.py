@@ -5,8 +5,6 @@ once, and some cases with other Tabor numbers, starts and rates are marched at o
 are kept in the folder of the shop, so that a run that was stopped goes on. About five minutes.
 """
 
-from __future__ import annotations
-
 import sys
 from dataclasses import replace
 from pathlib import Path

@@ -6,8 +6,6 @@ force and work. Solids that are kept apart are never learned from, and the famil
 exponentials neither.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -83,7 +81,7 @@ class Tests:
     def __len__(self) -> int:
         return len(self.tabor)
 
-    def chosen(self, which: Any) -> Tests:
+    def chosen(self, which: Any) -> "Tests":
         """Return the rows of a mask."""
         some = {f.name: getattr(self, f.name)[which] for f in fields(self) if f.name != "rows"}
         return Tests(rows=self.rows.chosen(which), **some)

@@ -5,8 +5,6 @@ this package: none is repeated, none has a placeholder for its work. What models
 authors' published rows is in the study `published-rows`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any

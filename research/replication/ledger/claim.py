@@ -1,7 +1,5 @@
 """The claims of the thesis, rows of claims.toml, and how they are judged."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Equations that are misprinted, and slips of the text: each measured by a number that must fit."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq

@@ -1,7 +1,5 @@
 """Claims of chapter 5 and appendices VI, VII and X: figures of simulation, and what was learned."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack import datasets

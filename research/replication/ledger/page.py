@@ -1,7 +1,5 @@
 """The ledger of claims, and its summary, docs/replication.md, from what is measured."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from textwrap import fill

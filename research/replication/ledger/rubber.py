@@ -1,7 +1,5 @@
 """Claims of sections 4.6 and 4.7: a glass lens on silicone rubber."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack.theory import persson_brener, rate

@@ -1,7 +1,5 @@
 """Claims of chapter 4 and of appendices IV, VIII and IX: a sphere on a half-space."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from viscotack.theory import persson_brener

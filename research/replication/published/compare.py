@@ -1,7 +1,5 @@
 """Rows of a table of detachments beside the simulation of the same cases."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Any
