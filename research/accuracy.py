@@ -16,7 +16,6 @@ import numpy as np
 
 from research.cases import spread, spread_out, words
 from research.drawn_tests import drawn
-from research.drawn_tests import words as test_words
 from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
 from viscotack.errors import InputError
 from viscotack.model.problem.accuracy import DEFAULT_ACCURACY
@@ -79,7 +78,7 @@ def stated_beside_true(asked: tuple[int, int, float, float]) -> dict[str, Any]:
     row: dict[str, Any] = {"number": number}
     try:
         groups = drawn(seed, number)
-        row["case"] = test_words(groups)
+        row["case"] = repr(groups)
         given: dict[str, Any] = {"until": "pull-off", "time_limit": limit}
         result = solve(groups, accuracy=accuracy, **given)
         best = solve(groups, accuracy=accuracy / FINER, estimate_error=False, **given)

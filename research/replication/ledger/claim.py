@@ -42,15 +42,7 @@ class Standing(StrEnum):
 
 @dataclass(frozen=True)
 class Measured:
-    """What was measured.
-
-    Attributes
-    ----------
-    value : float
-        The number on which the verdict rests.
-    words : str
-        What stands in the ledger, with its unit and error; the number alone where left out.
-    """
+    """The number on which a verdict rests, and what stands in the ledger, with unit and error."""
 
     value: float
     words: str = ""
@@ -62,27 +54,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim.
-
-    Attributes
-    ----------
-    name : str
-        By which it is measured again.
-    place : str
-        Where it stands in the thesis.
-    says : str
-        What is claimed.
-    thesis : float or str
-        Its number, or words where it has none.
-    measure : callable
-        Measures it, from theory or from numbers of figures.
-    stands : tuple of float
-        Between these the number measured must lie for the verdict to stand.
-    verdict : Verdict
-        What became of it.
-    evidence : str
-        Why.
-    """
+    """A claim: a row of claims.toml, which says what its fields are."""
 
     name: str
     place: str
