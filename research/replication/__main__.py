@@ -15,8 +15,6 @@ from .kept import Numbers, difference, kept, path_of, without_errors
 from .ledger.claim import named
 from .ledger.page import PAGE, page
 from .ledger.page import ledger as whole_ledger
-from .pictures import PICTURES
-from .pictures import write as write_gallery
 from .table import read_detachments
 from .words import application, wrong_input
 
@@ -143,9 +141,18 @@ def _write_ledger(text: str, out: Path) -> None:
 @app.command()
 def gallery() -> None:
     """Write the pictures of research/replication/gallery from the kept numbers."""
-    with wrong_input():
-        write_gallery()
-    typer.echo(f"wrote {PICTURES}")
+    from PIL import Image
+
+    folder = Path(__file__).with_name("gallery")
+    for name in figures():
+        path = picture(name, kept(name), folder, dpi=64)
+        with Image.open(path) as drawn:
+            # the 256 colours that lines and words need
+            few = drawn.convert("RGB").quantize(
+                256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE
+            )
+        few.save(path, optimize=True)
+    typer.echo(f"wrote {folder}")
 
 
 def _all(afresh: bool, workers: int, out: Path, archive: Path | None) -> None:

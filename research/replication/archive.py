@@ -48,13 +48,7 @@ class Learned:
 
 
 def file_of(archive: Path, name: str) -> Path:
-    """Return a file of the archive.
-
-    Raises
-    ------
-    ValueError
-        If there is no such file, or it is not the one that was measured here.
-    """
+    """Return a file of the archive; refused if it is not the one that was measured here."""
     path = archive / "Data_Files" / name
     if not path.is_file():
         raise InputError(f"{archive} has no Data_Files/{name}; give a checkout of the archive")

@@ -19,19 +19,9 @@ _FRESH = get_context("spawn")
 class Bench:
     """Makes each figure's numbers once, in some processes, or takes those that are kept.
 
-    Parameters
-    ----------
-    workers : int
-        Processes.
-    afresh : bool
-        Whether to make numbers that are kept already.
-    store : bool
-        Whether to keep what was made, in place of what was kept.
-    archive : path or None
-        A checkout of the authors' archive; what needs it is taken as it is kept where there is
-        none.
-    say : callable
-        Is told what is being made.
+    With `afresh` numbers are made that are kept already, and with `store` kept in their place.
+    What needs the authors' archive is taken as it is kept where there is no checkout of it. `say`
+    is told what is being made.
     """
 
     def __init__(

@@ -20,7 +20,7 @@ _SMALL = 1e-6
 
 
 def path_of(name: str) -> Path:
-    """Return the file of a figure's numbers, of those that are kept unless a folder is given."""
+    """Return the file of a figure's numbers."""
     return FOLDER / f"{name.replace('.', '_')}.json"
 
 
@@ -36,13 +36,7 @@ def keep(name: str, numbers: Numbers, *, seconds: float) -> Path:
 
 
 def kept(name: str) -> Numbers:
-    """Return the kept numbers of a figure, or those in a folder.
-
-    Raises
-    ------
-    ValueError
-        If there are none.
-    """
+    """Return the kept numbers of a figure."""
     return _arrays(_content(name)["numbers"])
 
 

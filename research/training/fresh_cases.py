@@ -1,7 +1,6 @@
 """Fresh cases of the surrogates with labels from simulation, drawn from a seed and kept on disk.
 
-`python -m research.training.fresh_cases --seed 41 --labels FOLDER [--counts punches=150]`:
-power laws, other solids and punches, even in the logarithms of their ranges, power laws on the
+Power laws, other solids and punches, even in the logarithms of their ranges, power laws on the
 faces of their range, the region in which a pull-off may have two maxima, power laws at light
 tension, where the sets that networks learned from are less accurate than their intervals are wide,
 three sorts of punches where an adversary found errors, power laws of large Tabor numbers, and
@@ -254,10 +253,8 @@ def labelled(
     cases: list[Case],
     folder: Path,
     accuracy: float = ACCURACY,
-    *,
-    missing: bool = True,
 ) -> Iterator[tuple[Case, dict[str, Any]]]:
-    """Iterate over cases with their labels; missing ones are simulated, or skipped.
+    """Iterate over cases with their labels; missing ones are simulated.
 
     Labels of `FINER` designs are at least as accurate as stated there. Each accuracy has a file.
     """
@@ -269,8 +266,6 @@ def labelled(
         if path not in known:
             known[path] = _stored(path)
         if case.key not in known[path]:
-            if not missing:
-                continue
             known[path][case.key] = found = label(case, wanted)
             with path.open("a", encoding="utf-8") as file:
                 file.write(json.dumps({"key": case.key, "label": found}) + "\n")
@@ -322,20 +317,3 @@ def counts_of(words: Sequence[str]) -> dict[str, int]:
     """Return the numbers of cases of each design from an option."""
     parts = (each.rpartition("=") for each in words)
     return {name: int(count) for name, _, count in parts}
-
-
-def main() -> None:
-    """Simulate what is missing."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    add_draw(parser)
-    given = parser.parse_args()
-    cases = drawn(given.seed, counts_of(given.counts))
-    failed = 0
-    for number, (_, found) in enumerate(labelled(cases, given.labels, given.accuracy), 1):
-        failed += "failed" in found
-        if number % 50 == 0:
-            print(f"{number} of {len(cases)}, {failed} without an answer", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -33,20 +33,9 @@ _THINNED = 4
 class Recipe:
     """How the networks of a surrogate are fitted.
 
-    Attributes
-    ----------
-    limits, line : Fit
-        Of relaxed start and fast limit at the first look, and of the shapes of curves.
-    start : Stage
-        The second look at the relaxed start.
-    fast : tuple of Stage
-        Further looks at the fast limit, one after the other.
-    force, work : Looks
-        Of the force; of the work and the travel to zero force.
-    thinned : int
-        Every so many rows tell the start at the second look.
-    members : int
-        Networks of each kind but the shapes.
+    `limits` at the first look at relaxed start and fast limit, `start` and `fast` at further ones,
+    `line` of the shapes of curves, `work` of the travel to zero force too. Every so many rows
+    (`thinned`) tell the start at the second look; `members` of each kind but the shapes.
     """
 
     limits: Fit = Fit((24, 24, 24), steps=5000)

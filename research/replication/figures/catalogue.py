@@ -59,13 +59,7 @@ def figures() -> dict[str, Figure]:
 
 
 def named(name: str) -> Figure:
-    """Return a figure by its number in the thesis (4.6, table-5.1), or its word.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
+    """Return a figure by its number in the thesis (4.6, table-5.1), or its word."""
     if name not in figures():
         raise InputError(f"there is no figure {name!r}; there are {', '.join(figures())}")
     return figures()[name]

@@ -14,7 +14,7 @@ import numpy as np
 from viscotack import datasets
 
 from ..learning.features import Target, crack_amplification, features, target
-from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, check_installed, trained
+from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, trained
 from ..learning.thesis import TABLES
 from ..learning.validation import Score, random_split, score
 from ..table import Detachments, read_detachments
@@ -33,7 +33,6 @@ WORK_PAML = (Target.WORK, True, FOREST)
 @lru_cache(1)
 def rows() -> Detachments:
     """Return the shipped set."""
-    check_installed()
     return read_detachments(datasets.path("thesis"))
 
 

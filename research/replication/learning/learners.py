@@ -13,33 +13,12 @@ from typing import Any
 from ..table import Array
 
 
-def check_installed() -> None:
-    """Raise ModuleNotFoundError, with what to do, unless the learning libraries are there."""
-    try:
-        import sklearn
-        import xgboost
-    except ImportError as error:
-        raise ModuleNotFoundError(
-            f"learning needs scikit-learn and xgboost, and {error.name} is missing; install them "
-            "with pip install --editable '.[research]'"
-        ) from None
-    assert sklearn and xgboost
-
-
 @dataclass(frozen=True)
 class Learner:
-    """A kind of model.
+    """A kind of model, as the tables call it, made from a seed.
 
-    Attributes
-    ----------
-    name : str
-        As the tables call it.
-    make : callable
-        Returns an estimator that has learned nothing yet, from a seed.
-    size : callable
-        Returns the number of trainable parameters of one that has learned, counted as in the
-        thesis: coefficients; leaves less one of a tree; of the first tree, times trees, for the
-        forest; leaves for boosting.
+    Its size is the number of trainable parameters, counted as in the thesis: coefficients; leaves
+    less one of a tree; of the first tree, times trees, for the forest; leaves for boosting.
     """
 
     name: str

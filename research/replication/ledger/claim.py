@@ -136,13 +136,7 @@ def chapters() -> dict[str, tuple[Claim, ...]]:
 
 
 def named(name: str) -> Claim:
-    """Return a claim by its name.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
+    """Return a claim by its name."""
     claims = {claim.name: claim for part in chapters().values() for claim in part}
     if name not in claims:
         raise InputError(f"there is no claim {name!r}; there are {', '.join(claims)}")
