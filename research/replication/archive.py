@@ -25,16 +25,10 @@ CHECKSUMS = {
 
 @dataclass(frozen=True, eq=False)
 class Learned:
-    """The rows that chapter 5 learned from.
+    """The rows that chapter 5 learned from, in the authors' order and units.
 
-    Attributes
-    ----------
-    inputs : ndarray, shape (n, 5)
-        log10 rate, log10 depth, Tabor number, log10 modulus ratio, exponent, in the authors' order.
-    descriptor : ndarray, shape (n,)
-        Crack of Persson and Brener at the speed of Eq. 4.24, not its logarithm.
-    force, work : ndarray, shape (n,)
-        log10 of the pull-off force [1.5 pi R dg0] and of the work [pi R dg0 h0].
+    Inputs are log10 rate, log10 depth, Tabor number, log10 modulus ratio, exponent; the descriptor
+    is not a logarithm; force [1.5 pi R dg0] and work [pi R dg0 h0] are log10.
     """
 
     inputs: Array
